@@ -1,2 +1,47 @@
-//! Core.
+//! Fractals for small displays, in fixed point.
+//!
+//! `attractor` is a `no_std` kernel without allocation, without `unsafe`, without a panicking path and without floating
+//! point: it gives the same bits on a Cortex-M4, a Cortex-M0, RISC-V and the desktop. Everything it computes is one of three kinds of
+//! [picture]: points, a path, or a field of values; [draw] puts any of them on any `embedded-graphics` display.
+//!
+//! | room | what it knows |
+//! | --- | --- |
+//! | [num] | formats, wide products, roots, trigonometry, vectors |
+//! | [picture] | the three kinds of picture, windows onto the plane |
+//! | [fif] | fractal interpolation functions: evaluation, calculus, bounds, tensor-product surfaces |
+//! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
+//! | [escape] | dwell of the Mandelbrot set and of filled Julia sets |
+//! | [trace] | a scanline ray caster for height fields |
+//! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
+//!
+//! Imports point downwards in this table's order: a kernel returns values and knows no colour.
+//!
+//! The types of the [`fixed`] crate are part of the public interface; it is re-exported. Version 1.29 is required: later ones conflict
+//! with `embedded-graphics` 0.8.2 over the crate `az`.
 #![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+#![cfg_attr(
+    not(test),
+    warn(
+        clippy::float_arithmetic,
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::unreachable
+    )
+)]
+
+pub mod draw;
+mod error;
+pub mod escape;
+pub mod fif;
+pub mod ifs;
+pub mod num;
+pub mod picture;
+pub mod trace;
+
+pub use error::Error;
+pub use fixed;
+pub use rand_core;
+pub use rand_xoshiro;

@@ -1,0 +1,42 @@
+//! Numbers: the formats of the project and the arithmetic that `fixed` does not have.
+//!
+//! | type | format | resolution | used for |
+//! | --- | --- | --- | --- |
+//! | [`Real`] | I8F24 | 6e-8 | coordinates, heights, distances |
+//! | [`Unit`] | I2F30 | 9e-10 | direction cosines, weights, matrix entries |
+//! | [`Scaling`] | I1F31 | 5e-10 | contraction factors, strictly inside (-1, 1) |
+//! | [`Wide`] | I16F48 | 4e-15 | abscissae and descriptions: what a scene says before it is compiled |
+//!
+//! Ranges are checked in constructors; after that no operation of a kernel can wrap visibly.
+
+mod random;
+mod root;
+mod trig;
+mod vector;
+mod wide;
+
+pub use random::Alias;
+pub use root::{reciprocal, reciprocal_sqrt, sqrt};
+pub use trig::{Angle, sin_cos};
+pub use vector::Vec3;
+pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};
+
+/// Coordinates, heights, distances: 24 fractional bits, `-128 .. 128`.
+pub type Real = fixed::types::I8F24;
+/// Direction cosines, weights, matrix entries: 30 fractional bits, `-2 .. 2`.
+pub type Unit = fixed::types::I2F30;
+/// Contraction factors: 31 fractional bits, `-1 .. 1`.
+pub type Scaling = fixed::types::I1F31;
+/// Abscissae and descriptions: 48 fractional bits, `-32768 .. 32768`.
+pub type Wide = fixed::types::I16F48;
+
+/// A 64-bit accumulator with `fraction` fractional bits as [`Real`], rounded to nearest, saturated.
+#[inline]
+pub(crate) fn real_from(accumulator: i64, fraction: u32) -> Real {
+    let bits = if fraction >= 24 {
+        round_shift(accumulator, fraction - 24)
+    } else {
+        accumulator.saturating_mul(1 << (24 - fraction))
+    };
+    Real::from_bits(bits.clamp(i32::MIN as i64, i32::MAX as i64) as i32)
+}

@@ -1,0 +1,127 @@
+//! Products of 64-bit fixed-point numbers, from the 32-bit products that the target has.
+//!
+//! `i128` multiplication is a library call on 32-bit machines; these are a handful of `SMULL`/`UMULL` each.
+
+/// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
+///
+/// Domain: all. Error: below 4 units of `value`, towards minus infinity. Cost: 2 multiplications.
+#[inline]
+pub fn scale31(value: i64, factor: i32) -> i64 {
+    let high = (value >> 32) as i32;
+    let low = ((value as u32) >> 1) as i32;
+    let low_product = ((i64::from(low) * i64::from(factor)) >> 32) as i32;
+    ((i64::from(high) * i64::from(factor)) << 1) + (i64::from(low_product) << 2)
+}
+
+/// The high 64 bits of the 128-bit product, towards minus infinity. Exact.
+#[inline]
+pub fn mul_high(a: i64, b: i64) -> i64 {
+    let unsigned = mul_high_u(a as u64, b as u64) as i64;
+    // two's complement: subtract the other operand once for each negative one
+    unsigned.wrapping_sub(if a < 0 { b } else { 0 }).wrapping_sub(if b < 0 { a } else { 0 })
+}
+
+/// The high 64 bits of the 128-bit product, rounded down. Exact.
+#[inline]
+pub fn mul_high_u(a: u64, b: u64) -> u64 {
+    let (ah, al) = (a >> 32, a & 0xffff_ffff);
+    let (bh, bl) = (b >> 32, b & 0xffff_ffff);
+    let low = (al * bl) >> 32;
+    let cross1 = ah * bl + low; // cannot overflow: (2^32-1)^2 + 2^32-1 < 2^64
+    let cross2 = al * bh + (cross1 & 0xffff_ffff);
+    ah * bh + (cross1 >> 32) + (cross2 >> 32)
+}
+
+/// `value / 2^shift`, rounded to nearest (halves up). Shifts of 63 and more give 0 or -1 rounded, that is 0.
+#[inline]
+pub const fn round_shift(value: i64, shift: u32) -> i64 {
+    if shift == 0 {
+        value
+    } else if shift > 62 {
+        0
+    } else {
+        // no overflow: shift first, then add the bit below
+        (value >> shift) + ((value >> (shift - 1)) & 1)
+    }
+}
+
+/// A reciprocal of an unsigned number with 63 fractional bits: `quotient(v)` is `v / d` for `v <= d`.
+///
+/// Exact when `d` is a power of two; else low by less than `2^-61`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reciprocal {
+    mantissa: u64,
+    shift: u32,
+}
+
+impl Reciprocal {
+    /// The reciprocal of `d`, which is taken as 1 when it is 0.
+    pub fn of(d: u64) -> Self {
+        let d = d.max(1);
+        let shift = d.leading_zeros();
+        let normal = u128::from(d << shift); // in [2^63, 2^64)
+        // 2^63 / (normal / 2^63), in (2^62, 2^63]
+        let mantissa = match (1_u128 << 126).checked_div(normal) {
+            Some(q) => q as u64,
+            None => 1 << 63,
+        };
+        Self { mantissa, shift }
+    }
+
+    /// `v / d` with 63 fractional bits, for `v <= d`.
+    #[inline]
+    pub fn quotient(self, v: u64) -> u64 {
+        // v << shift < 2^64; product of two numbers with 63 fractional bits has 126, its high half 62
+        mul_high_u(v << self.shift, self.mantissa) << 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_high_product_is_that_of_128_bits() {
+        let samples = [
+            0,
+            1,
+            -1,
+            i64::MAX,
+            i64::MIN,
+            0x1234_5678_9abc_def0,
+            -0x0fed_cba9_8765_4321,
+            1 << 32,
+            -(1 << 32),
+        ];
+        for a in samples {
+            for b in samples {
+                assert_eq!(mul_high(a, b), ((i128::from(a) * i128::from(b)) >> 64) as i64, "{a} {b}");
+                let exact = (i128::from(a >> 2) * i128::from(b as i32)) >> 31;
+                let error = exact - i128::from(scale31(a >> 2, b as i32));
+                assert!((0..4).contains(&error), "{a} {b}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_power_of_two_divides_exactly() {
+        for k in 1..63 {
+            let r = Reciprocal::of(1 << k);
+            for v in [0, 1, (1_u64 << k) - 1, 1 << k] {
+                assert_eq!(r.quotient(v), ((u128::from(v) << 63) >> k) as u64, "{v} / 2^{k}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_quotient_is_low_by_less_than_two_to_the_minus_61() {
+        for d in [3, 7, 309, 1 << 62, (1 << 63) - 1, 0x6789_abcd_ef01_2345] {
+            let r = Reciprocal::of(d);
+            for v in [0, 1, d / 3, d / 2, d - 1, d] {
+                let exact = (u128::from(v) << 63) / u128::from(d);
+                let got = u128::from(r.quotient(v));
+                assert!(got <= exact && exact - got < 5, "{v} / {d}: {got} against {exact}");
+            }
+        }
+    }
+}

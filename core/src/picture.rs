@@ -1,0 +1,195 @@
+//! The three kinds of picture, each lazy and without a buffer, and the windows through which a display looks at the plane.
+//!
+//! - *points*: an `Iterator<Item = Point2>` (chaos game, sampled attractors);
+//! - *path*: an `Iterator<Item = Step>` of move-to and line-to (graphs of functions, Koch curves);
+//! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster).
+
+use core::ops::Range;
+
+use embedded_graphics_core::geometry::{Point, Size};
+
+use crate::Error;
+use crate::num::{Real, Wide};
+
+/// A point of the plane; `y` points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Point2 {
+    /// To the right.
+    pub x: Real,
+    /// Upwards.
+    pub y: Real,
+}
+
+impl Point2 {
+    /// The point `(x, y)`.
+    pub const fn new(x: Real, y: Real) -> Self {
+        Self { x, y }
+    }
+}
+
+/// One step of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Step {
+    /// Lift the pen and start here.
+    MoveTo(Point2),
+    /// Draw a straight line to here.
+    LineTo(Point2),
+}
+
+/// An axis-parallel box in the plane, both corners included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Bounds2 {
+    /// Lower left corner.
+    pub min: Point2,
+    /// Upper right corner.
+    pub max: Point2,
+}
+
+/// A value for each pixel, row by row.
+pub trait Field {
+    /// What a pixel holds. A number, never a colour: colour enters in [`crate::draw`].
+    type Value: Copy;
+    /// The values of one row. `nth` must not evaluate what it skips: drivers skip what they clip.
+    type Row<'a>: Iterator<Item = Self::Value>
+    where
+        Self: 'a;
+
+    /// Width and height in pixels.
+    fn size(&self) -> Size;
+
+    /// The values at row `y` (0 at the top) of the columns `x`. Both must lie inside [`Field::size`]; the iterator yields exactly `x.len()` values.
+    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_>;
+}
+
+impl<F: Field> Field for &F {
+    type Value = F::Value;
+    type Row<'a>
+        = F::Row<'a>
+    where
+        Self: 'a;
+
+    fn size(&self) -> Size {
+        (**self).size()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
+        (**self).row(y, x)
+    }
+}
+
+/// The largest number of pixels a side: coordinates of pixels stay far inside 32 bits.
+pub const MAX_SIDE: u32 = 1 << 14;
+
+/// Checks a picture's size: each side from 1 to [`MAX_SIDE`].
+///
+/// # Errors
+/// [`Error::OutOfRange`] that names the side.
+pub fn checked_size(size: Size) -> Result<Size, Error> {
+    for (what, side) in [("width", size.width), ("height", size.height)] {
+        if side == 0 || side > MAX_SIDE {
+            return Err(Error::OutOfRange {
+                what,
+                index: 0,
+                value: Wide::saturating_from_num(side),
+                min: Wide::ONE,
+                max: Wide::from_num(MAX_SIDE as i16),
+            });
+        }
+    }
+    Ok(size)
+}
+
+/// A rectangle of the plane and the pixels that show it (seeds' world window and viewport).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    bounds: Bounds2,
+    size: Size,
+    /// Pixels a unit in each direction: 32-bit mantissa and right shift.
+    x: (u32, u32),
+    y: (u32, u32),
+}
+
+impl Window {
+    /// Shows `bounds` on all of `size`, stretched if the aspect ratios differ (graphs of functions).
+    ///
+    /// # Errors
+    /// [`Error::Degenerate`] for an empty box, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`].
+    pub fn stretch(bounds: Bounds2, size: Size) -> Result<Self, Error> {
+        let size = checked_size(size)?;
+        let extent = |min: Real, max: Real| i64::from(max.to_bits()) - i64::from(min.to_bits());
+        let width = extent(bounds.min.x, bounds.max.x);
+        let height = extent(bounds.min.y, bounds.max.y);
+        if width <= 0 || height <= 0 {
+            return Err(Error::Degenerate { what: "an extent of the window" });
+        }
+        Ok(Self { bounds, size, x: pixels_a_unit(size.width, width), y: pixels_a_unit(size.height, height) })
+    }
+
+    /// Shows all of `bounds`, centred, with square pixels: the shorter direction is widened.
+    ///
+    /// # Errors
+    /// As [`Window::stretch`].
+    pub fn fit(bounds: Bounds2, size: Size) -> Result<Self, Error> {
+        let size = checked_size(size)?;
+        let (w, h) = (i64::from(size.width), i64::from(size.height));
+        let (x0, x1) = (i64::from(bounds.min.x.to_bits()), i64::from(bounds.max.x.to_bits()));
+        let (y0, y1) = (i64::from(bounds.min.y.to_bits()), i64::from(bounds.max.y.to_bits()));
+        let (width, height) = (x1 - x0, y1 - y0);
+        // pitch = max(width / w, height / h), rounded up
+        let pitch = ((width + w - 1) / w).max((height + h - 1) / h).max(1);
+        let widen = |low: i64, high: i64, pixels: i64| {
+            let extra = pitch * pixels - (high - low);
+            let low = low - extra / 2;
+            (saturate(low), saturate(low + pitch * pixels))
+        };
+        let (left, right) = widen(x0, x1, w);
+        let (bottom, top) = widen(y0, y1, h);
+        Self::stretch(Bounds2 { min: Point2::new(left, bottom), max: Point2::new(right, top) }, size)
+    }
+
+    /// The rectangle of the plane that is shown.
+    pub const fn bounds(&self) -> Bounds2 {
+        self.bounds
+    }
+
+    /// The pixels that show it.
+    pub const fn size(&self) -> Size {
+        self.size
+    }
+
+    /// The pixel that shows `p`, none outside the window. Row 0 is at the top.
+    #[inline]
+    pub fn pixel(&self, p: Point2) -> Option<Point> {
+        if p.x < self.bounds.min.x
+            || p.x > self.bounds.max.x
+            || p.y < self.bounds.min.y
+            || p.y > self.bounds.max.y
+        {
+            return None;
+        }
+        let right = p.x.to_bits().wrapping_sub(self.bounds.min.x.to_bits()) as u32;
+        let down = self.bounds.max.y.to_bits().wrapping_sub(p.y.to_bits()) as u32;
+        let column = scaled(right, self.x).min(self.size.width - 1);
+        let row = scaled(down, self.y).min(self.size.height - 1);
+        Some(Point::new(column as i32, row as i32))
+    }
+}
+
+fn saturate(bits: i64) -> Real {
+    Real::from_bits(bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+}
+
+/// `pixels / extent` as mantissa and right shift, rounded down, with the mantissa in the upper half of 32 bits.
+fn pixels_a_unit(pixels: u32, extent: i64) -> (u32, u32) {
+    // extent < 2^32 and pixels <= 2^14: the quotient with 46 fractional bits has at most 61 bits.
+    let quotient = (u64::from(pixels) << 46) / (extent.max(1) as u64);
+    let excess = 32_u32.saturating_sub(quotient.leading_zeros());
+    ((quotient >> excess) as u32, 46 - excess)
+}
+
+#[inline]
+fn scaled(distance: u32, (mantissa, shift): (u32, u32)) -> u32 {
+    ((u64::from(distance) * u64::from(mantissa)) >> (shift & 63)) as u32
+}
