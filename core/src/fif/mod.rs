@@ -1,1 +1,26 @@
-//! Room.
+//! Fractal interpolation functions: graphs through given knots that are their own shrunken, sheared copies.
+//!
+//! `f(L_j(x)) = alpha_j f(x) + q_j(x)`, `L_j` the affine map of the whole domain onto the interval between knots `j - 1` and `j`.
+//!
+//! Source: W. O. Cochran, R. R. Lewis, J. C. Hart, "The Normal of a Fractal Surface", 2000, sections 2 and 3; M. F. Barnsley, "Fractal
+//! functions and interpolation", 1986.
+//!
+//! Inside, the abscissa `u = (x - x_0) / (x_N - x_0)` runs over `[0, 1]` with 63 fractional bits, values have 55.
+
+mod calculus;
+mod chaos;
+mod compose;
+mod dyadic;
+mod evaluate;
+mod function;
+mod graph;
+mod pyramid;
+mod surface;
+
+pub use chaos::ChaosGame;
+pub use compose::Composite;
+pub use dyadic::Dyadic;
+pub use function::{Fif, Knot};
+pub use graph::Graph;
+pub use pyramid::{Cell, Pyramid};
+pub use surface::{Factor, Surface};

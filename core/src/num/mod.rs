@@ -9,12 +9,14 @@
 //!
 //! Ranges are checked in constructors; after that no operation of a kernel can wrap visibly.
 
+mod polynomial;
 mod random;
 mod root;
 mod trig;
 mod vector;
 mod wide;
 
+pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
 pub use random::Alias;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
 pub use trig::{Angle, sin_cos};

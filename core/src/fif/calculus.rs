@@ -1,0 +1,105 @@
+//! Integral and derivative: both are fractal interpolation functions over the same knots.
+//!
+//! Integral (eq. 29-33, with the erratum that the inner integral of eq. 31 runs over the whole domain), in the unit abscissa and with
+//! `w = x_N - x_0`: `F(L_j u) = a_j alpha_j F(u) + Y_(j-1) - a_j alpha_j Y_0 + w a_j (integral of q_j from 0 to u)`.
+//! Derivative (eq. 34-36): scalings `alpha_j / a_j`, polynomials `q_j' / (w a_j)`.
+//!
+//! Source: Cochran, Lewis, Hart, section 3; M. F. Barnsley, A. N. Harrington, "The calculus of fractal interpolation functions", 1989.
+
+use heapless::Vec;
+
+use super::Fif;
+use super::function::{Map, in_range, saturate, twice_high, value};
+use crate::Error;
+use crate::num::{ONE, Polynomial, Wide, times};
+
+impl<const N: usize, const D: usize> Fif<N, D> {
+    /// The function `initial + integral of f from x_0 to x`, with room for polynomials of degree `E`.
+    ///
+    /// Error: below `2^-44 (x_N - x_0) / (1 - max|alpha|)` beyond the integral of the error of `f` itself. Repeatable.
+    ///
+    /// # Errors
+    /// [`Error::Capacity`] if `E` is not above the degree of `f`; [`Error::OutOfRange`] if the integral leaves the format.
+    pub fn integral<const E: usize>(&self, initial: Wide) -> Result<Fif<N, E>, Error> {
+        let degree = self.degree() + 1;
+        if degree > E {
+            return Err(Error::Capacity { what: "coefficients", needed: degree + 1, capacity: E + 1 });
+        }
+        in_range("initial value", 0, initial)?;
+        let start = value(initial);
+        // eq. 30: the whole integral is w (sum of a_n mean(q_n)) / (1 - sum of a_n alpha_n)
+        let total = self.times_width(self.mean())?;
+        let mut maps = Vec::new();
+        let mut knot = start; // Y_(j-1)
+        for map in &self.maps {
+            let scaling = times(map.scaling, map.width);
+            let mut q = Polynomial::<E>::ZERO;
+            q.constant = knot.wrapping_sub(twice_high(start, scaling));
+            let integrated = [map.q.constant].into_iter().chain(map.q.powers).zip(1_i64..);
+            for (to, (c, n)) in q.powers.iter_mut().zip(integrated) {
+                *to = self.times_width(times(c / n, map.width))?;
+            }
+            let step = q.powers.iter().fold(0_i64, |sum, c| sum.wrapping_add(*c));
+            knot = knot.saturating_add(step).saturating_add(twice_high(total, scaling));
+            let map = Map { scaling, q, start: map.start, width: map.width, per_width: map.per_width };
+            maps.push(map).map_err(|_| Error::Capacity { what: "maps", needed: N + 1, capacity: N })?;
+        }
+        Fif::from_maps(maps, self.x0, self.width)
+    }
+
+    /// The derivative, a function of its own kind where every map is less steep than narrow.
+    ///
+    /// # Errors
+    /// [`Error::NotDifferentiable`] if `|alpha_j| >= a_j`, [`Error::NotJoined`] if the maps of the derivative disagree at a knot by more than
+    /// `2^-22`, [`Error::OutOfRange`] if it leaves the format, [`Error::Capacity`] if its degree is above `E`.
+    pub fn derivative<const E: usize>(&self) -> Result<Fif<N, E>, Error> {
+        let degree = self.degree().saturating_sub(1);
+        if degree > E {
+            return Err(Error::Capacity { what: "coefficients", needed: degree + 1, capacity: E + 1 });
+        }
+        let mut maps = Vec::new();
+        for (index, map) in self.maps.iter().enumerate() {
+            if map.scaling.unsigned_abs() >= map.width {
+                return Err(Error::NotDifferentiable { map: index });
+            }
+            let scaling =
+                saturate((i128::from(map.scaling) << 63).checked_div(i128::from(map.width)).unwrap_or(0));
+            // 1 / (w a_j); w a_j with 48 fractional bits
+            let length = i128::from(crate::num::mul_high_u(self.width, map.width)) << 1;
+            let per_length =
+                |c: i64| saturate((i128::from(c) << 48).checked_div(length).unwrap_or(i128::from(i64::MAX)));
+            let slope = map.q.derivative();
+            let mut q = Polynomial::<E>::ZERO;
+            q.constant = per_length(slope.constant);
+            for (to, c) in q.powers.iter_mut().zip(slope.powers) {
+                *to = per_length(c);
+            }
+            let map = Map { scaling, q, start: map.start, width: map.width, per_width: map.per_width };
+            maps.push(map).map_err(|_| Error::Capacity { what: "maps", needed: N + 1, capacity: N })?;
+        }
+        Fif::from_maps(maps, self.x0, self.width)?.joined()
+    }
+
+    /// The mean value over the domain, `sum of a_n mean(q_n) / (1 - sum of a_n alpha_n)`, 55 fractional bits.
+    pub(crate) fn mean(&self) -> i64 {
+        let mut sum = 0_i64;
+        let mut rest = i128::from(ONE);
+        for map in &self.maps {
+            sum = sum.saturating_add(times(map.q.mean(), map.width));
+            rest -= i128::from(times(map.scaling, map.width));
+        }
+        saturate((i128::from(sum) << 63).checked_div(rest).unwrap_or(0))
+    }
+
+    /// `value * (x_N - x_0)`; an error where it leaves 64 bits.
+    fn times_width(&self, v: i64) -> Result<i64, Error> {
+        let product = (i128::from(v) * i128::from(self.width)) >> 48;
+        i64::try_from(product).map_err(|_| Error::OutOfRange {
+            what: "integral",
+            index: 0,
+            value: if v < 0 { Wide::MIN } else { Wide::MAX },
+            min: Wide::from_num(-128),
+            max: Wide::from_num(128),
+        })
+    }
+}

@@ -1,0 +1,84 @@
+//! Evaluation by composition of maps (Algorithm 2, eq. 24-28).
+//!
+//! The composite of an address `j1 j2 ... jk` sends the whole graph onto its part above one small interval. It evaluates a function as the paper
+//! does; the boxes of a ray caster are images under composites. For plain values the forward walk of [`Fif::at`] is faster.
+
+use super::Fif;
+use super::function::{Map, twice_high};
+use crate::num::{FRACTION, ONE, Polynomial, Real, Scaling, Wide, mul_high_u, real_from};
+
+/// A composition of maps: `(u, y) -> (start + width u, scaling y + q(u))` in the unit abscissa.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Composite<const D: usize> {
+    start: u64,
+    width: u64,
+    scaling: i64,
+    q: Polynomial<D>,
+}
+
+impl<const D: usize> Composite<D> {
+    /// The identity.
+    pub const IDENTITY: Self = Self { start: 0, width: ONE, scaling: i64::MAX, q: Polynomial::ZERO };
+
+    /// `self` after `map`: eq. 24-27.
+    fn then(&self, map: &Map<D>) -> Self {
+        let part = |p: &Polynomial<D>| p.part(map.start, map.width);
+        let mut q = part(&self.q);
+        let inner = map.q.powers.iter().chain([&map.q.constant]);
+        for (c, add) in q.powers.iter_mut().chain([&mut q.constant]).zip(inner) {
+            *c = c.saturating_add(twice_high(*add, self.scaling));
+        }
+        Self {
+            start: self.start.wrapping_add(mul_high_u(self.width, map.start << 1)),
+            width: if map.width == ONE { self.width } else { mul_high_u(self.width, map.width << 1) },
+            scaling: twice_high(self.scaling, map.scaling),
+            q,
+        }
+    }
+
+    /// The image's ordinate over the place `u` with the value `y`, both with the formats of the kernel.
+    fn value(&self, u: u64, y: i64) -> i64 {
+        twice_high(y, self.scaling).wrapping_add(self.q.at(u))
+    }
+
+    /// The vertical scaling of the composition, truncated.
+    pub fn vertical_scaling(&self) -> Scaling {
+        Scaling::from_bits((self.scaling >> 32) as i32)
+    }
+}
+
+impl<const N: usize, const D: usize> Fif<N, D> {
+    /// The composition of the maps of an address (0 for the first map), the first digit outermost. Digits beyond the last map count as it.
+    pub fn composite(&self, address: impl IntoIterator<Item = usize>) -> Composite<D> {
+        address.into_iter().fold(Composite::IDENTITY, |composite, digit| {
+            let digit = digit.min(self.maps.len().saturating_sub(1));
+            self.maps.get(digit).map_or(composite, |map| composite.then(map))
+        })
+    }
+
+    /// The value near `x` by composition (Algorithm 2): maps are composed until the horizontal factor is at most `epsilon`, then the median knot is sent
+    /// through the composite.
+    ///
+    /// Result: the value at some abscissa within `epsilon (x_N - x_0)` of `x` (at least `2^-40` of the domain). Error there: below [`Fif::error_bound`]
+    /// for degree 1. Cost: `D^2` products of 64 bits a level.
+    pub fn at_by_composition(&self, x: Wide, epsilon: Real) -> Real {
+        let epsilon = (epsilon.to_bits().max(0) as u64).saturating_mul(1 << 39).clamp(1 << 23, ONE);
+        let mut u = self.unit(x);
+        let mut composite = Composite::IDENTITY;
+        for _ in 0..self.levels {
+            let index = self.maps.partition_point(|m| m.start <= u).min(self.maps.len()).saturating_sub(1);
+            let Some(map) = self.maps.get(index) else { break };
+            u = map.per_width.quotient(u.saturating_sub(map.start)).min(ONE);
+            composite = composite.then(map);
+            if composite.width <= epsilon {
+                break;
+            }
+        }
+        let median = self.maps.get(self.maps.len() / 2).map_or(0, |m| m.start);
+        let y = self
+            .maps
+            .get(self.maps.len() / 2)
+            .map_or(0, |m| m.q.at(0).wrapping_add(twice_high(self.first, m.scaling)));
+        real_from(composite.value(median, y), FRACTION)
+    }
+}

@@ -1,0 +1,432 @@
+//! The function as its maps: knots, vertical scalings, polynomials; what a constructor checks.
+
+use heapless::Vec;
+
+use crate::Error;
+use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, mul_high};
+
+/// A point that the graph passes through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Knot {
+    /// Abscissa.
+    pub x: Wide,
+    /// Value.
+    pub y: Wide,
+}
+
+impl Knot {
+    /// The knot `(x, y)`.
+    pub const fn new(x: Wide, y: Wide) -> Self {
+        Self { x, y }
+    }
+}
+
+/// One map in the unit abscissa: `f(start + width u) = scaling f(u) + q(u)`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Map<const D: usize> {
+    /// 63 fractional bits.
+    pub(crate) scaling: i64,
+    pub(crate) q: Polynomial<D>,
+    /// 63 fractional bits.
+    pub(crate) start: u64,
+    /// 63 fractional bits.
+    pub(crate) width: u64,
+    pub(crate) per_width: Reciprocal,
+}
+
+/// A fractal interpolation function of at most `N` maps with polynomials of degree at most `D`.
+///
+/// Domain: `[x_0, x_N]`; abscissae outside count as the nearer end. Result: [`Real`].
+///
+/// ```
+/// use attractor::fif::{Fif, Knot};
+/// use attractor::num::{Real, Scaling, Wide};
+///
+/// let knot = |x, y| Knot::new(Wide::from_num(x), Wide::from_num(y));
+/// // the function f of figure 1
+/// let f = Fif::<2, 1>::interpolating(&[knot(0, 0), knot(1, 1), knot(2, 0)], &[Scaling::from_num(0.5); 2])?;
+/// assert_eq!(f.at(Wide::from_num(1.5)), Real::from_num(1));
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fif<const N: usize, const D: usize = 1> {
+    pub(crate) maps: Vec<Map<D>, N>,
+    /// Left ends of the maps' intervals, 31 fractional bits: what walkers need that know no degree.
+    pub(crate) starts: Vec<u32, N>,
+    /// `x_0` and `x_N - x_0`, 48 fractional bits.
+    pub(crate) x0: i64,
+    pub(crate) width: u64,
+    pub(crate) per_width: Reciprocal,
+    /// `y_0` and `y_N`, 55 fractional bits.
+    pub(crate) first: i64,
+    pub(crate) last: i64,
+    /// Rigorous bounds of the values, 55 fractional bits.
+    pub(crate) range: (i64, i64),
+    /// No address is longer.
+    pub(crate) levels: u32,
+}
+
+/// How far neighbouring maps may disagree at a knot: `2^-22`.
+const JOIN_TOLERANCE: i64 = 1 << (FRACTION - 22);
+
+/// `2^7` with 55 fractional bits: the values of a function stay below it.
+const LIMIT: i64 = 1 << (FRACTION + 7);
+
+/// The magnitudes of a map's coefficients add up to less than `2^8`.
+const COEFFICIENTS: i64 = i64::MAX;
+
+impl<const N: usize, const D: usize> Fif<N, D> {
+    /// The function through the knots with affine polynomials (eq. 10-11), the ordinary construction.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] knots (2 at least), [`Error::Capacity`] for more than `N + 1` knots or `D` = 0, [`Error::LengthMismatch`] of the scalings,
+    /// [`Error::KnotsNotIncreasing`], [`Error::OutOfRange`] for a scaling of -1, a value or a range of the function of 128 or more.
+    pub fn interpolating(knots: &[Knot], vertical_scaling: &[Scaling]) -> Result<Self, Error> {
+        if D == 0 {
+            return Err(Error::Capacity { what: "coefficients", needed: 2, capacity: 1 });
+        }
+        for (index, knot) in knots.iter().enumerate() {
+            in_range("y of knot", index, knot.y)?;
+        }
+        let (Some(first), Some(last)) = (knots.first(), knots.last()) else {
+            return Err(Error::TooFew { what: "knots", given: 0, at_least: 2 });
+        };
+        let (y0, yn) = (value(first.y), value(last.y));
+        let mut ys = knots.windows(2);
+        Self::build(knots.iter().map(|k| k.x), vertical_scaling, |scaling| {
+            // q(0) = y_(j-1) - alpha y_0, q(1) = y_j - alpha y_N
+            let (a, b) = match ys.next() {
+                Some([a, b]) => (value(a.y), value(b.y)),
+                _ => (0, 0),
+            };
+            let left = a - twice_high(y0, scaling);
+            let right = b - twice_high(yn, scaling);
+            let mut q = Polynomial::ZERO;
+            q.constant = left;
+            if let Some(c) = q.powers.first_mut() {
+                *c = right - left;
+            }
+            Ok(q)
+        })
+    }
+
+    /// The function with given polynomials `q_j(x)`, constant coefficient first (eq. 8-9); the knots' values follow from the maps.
+    ///
+    /// # Errors
+    /// As [`Fif::interpolating`]; [`Error::Capacity`] for a degree above `D`; [`Error::NotJoined`] if two maps disagree at their knot by more than
+    /// `2^-22`.
+    pub fn with_polynomials(
+        knots_x: &[Wide],
+        vertical_scaling: &[Scaling],
+        polynomials: &[&[Wide]],
+    ) -> Result<Self, Error> {
+        let maps = knots_x.len().saturating_sub(1);
+        if polynomials.len() != maps {
+            return Err(Error::LengthMismatch {
+                what: "polynomials",
+                given: polynomials.len(),
+                expected: maps,
+            });
+        }
+        let (Some(x0), Some(xn)) = (knots_x.first(), knots_x.last()) else {
+            return Err(Error::TooFew { what: "knots", given: 0, at_least: 2 });
+        };
+        let (x0, width) = (x0.to_bits(), i128::from(xn.to_bits()) - i128::from(x0.to_bits()));
+        let mut given = polynomials.iter().enumerate();
+        let fif = Self::build(knots_x.iter().copied(), vertical_scaling, |_| {
+            let Some((index, coefficients)) = given.next() else { return Ok(Polynomial::ZERO) };
+            on_unit_interval(index, coefficients, x0, width)
+        })?;
+        fif.joined()
+    }
+
+    /// From knots, scalings and a polynomial in the unit abscissa for each map.
+    fn build(
+        knots_x: impl ExactSizeIterator<Item = Wide> + Clone,
+        vertical_scaling: &[Scaling],
+        mut q_of: impl FnMut(i64) -> Result<Polynomial<D>, Error>,
+    ) -> Result<Self, Error> {
+        let count = knots_x.len();
+        if count < 2 {
+            return Err(Error::TooFew { what: "knots", given: count, at_least: 2 });
+        }
+        if count - 1 > N {
+            return Err(Error::Capacity { what: "maps", needed: count - 1, capacity: N });
+        }
+        if vertical_scaling.len() != count - 1 {
+            return Err(Error::LengthMismatch {
+                what: "vertical scalings",
+                given: vertical_scaling.len(),
+                expected: count - 1,
+            });
+        }
+        for (index, (a, b)) in knots_x.clone().zip(knots_x.clone().skip(1)).enumerate() {
+            if b <= a {
+                return Err(Error::KnotsNotIncreasing { index: index + 1 });
+            }
+        }
+        let bits = |x: Wide| x.to_bits();
+        let x0 = knots_x.clone().next().map_or(0, bits);
+        let xn = knots_x.clone().last().map_or(0, bits);
+        let width = xn.wrapping_sub(x0) as u64; // below 2^64: exact
+        let whole = Reciprocal::of(width);
+        let unit = |x: Wide| whole.quotient(x.to_bits().wrapping_sub(x0) as u64);
+        let mut maps = Vec::new();
+        let ends = knots_x.clone().zip(knots_x.skip(1)).zip(vertical_scaling).enumerate();
+        for (index, ((a, b), scaling)) in ends {
+            if *scaling == Scaling::MIN {
+                return Err(Error::OutOfRange {
+                    what: "vertical scaling",
+                    index,
+                    value: Wide::from_num(*scaling),
+                    min: Wide::from_num(Scaling::MIN + Scaling::DELTA),
+                    max: Wide::from_num(Scaling::MAX),
+                });
+            }
+            let start = unit(a);
+            let end = if index + 2 == count { ONE } else { unit(b) };
+            let scaling = i64::from(scaling.to_bits()) << 32;
+            let map = Map {
+                scaling,
+                q: q_of(scaling)?,
+                start,
+                width: end - start,
+                per_width: Reciprocal::of(end - start),
+            };
+            maps.push(map).map_err(|_| Error::Capacity { what: "maps", needed: count - 1, capacity: N })?;
+        }
+        Self::from_maps(maps, x0, width)
+    }
+
+    /// From maps in the unit abscissa: finds end values, range and levels.
+    pub(crate) fn from_maps(mut maps: Vec<Map<D>, N>, x0: i64, width: u64) -> Result<Self, Error> {
+        if let [only] = maps.as_mut_slice() {
+            // N = 1: f = alpha f + q at the same abscissa, so f = q / (1 - alpha)
+            let rest = i128::from(ONE) - i128::from(only.scaling);
+            for c in only.q.powers.iter_mut().chain([&mut only.q.constant]) {
+                *c = saturate((i128::from(*c) << 63).checked_div(rest).unwrap_or(0));
+            }
+            only.scaling = 0;
+        }
+        for (index, map) in maps.iter().enumerate() {
+            if map.q.norm() == COEFFICIENTS {
+                return Err(limit("coefficients of map", index, map.q.norm(), COEFFICIENTS));
+            }
+        }
+        let fixed_point = |map: Option<&Map<D>>, u: u64| match map {
+            Some(m) => {
+                let rest = i128::from(ONE) - i128::from(m.scaling);
+                saturate((i128::from(m.q.at(u)) << 63).checked_div(rest).unwrap_or(0))
+            }
+            None => 0,
+        };
+        let first = fixed_point(maps.first(), 0);
+        let last = fixed_point(maps.last(), ONE);
+        let range = range_of(&maps);
+        for extreme in [range.0, range.1] {
+            if extreme.saturating_abs() >= LIMIT {
+                return Err(limit("range of the function", 0, extreme, LIMIT));
+            }
+        }
+        let levels = levels_of(&maps);
+        let starts = maps.iter().map(|m| (m.start >> 32) as u32).collect();
+        Ok(Self { maps, starts, x0, width, per_width: Reciprocal::of(width), first, last, range, levels })
+    }
+
+    /// Checks that neighbouring maps agree at their knot.
+    pub(crate) fn joined(self) -> Result<Self, Error> {
+        for (index, pair) in self.maps.windows(2).enumerate() {
+            if let [a, b] = pair {
+                let from_left = a.q.at(ONE).saturating_add(twice_high(self.last, a.scaling));
+                let from_right = b.q.at(0).saturating_add(twice_high(self.first, b.scaling));
+                if from_left.saturating_sub(from_right).saturating_abs() > JOIN_TOLERANCE {
+                    return Err(Error::NotJoined { knot: index + 1 });
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// How many maps the function has.
+    pub fn maps(&self) -> usize {
+        self.maps.len()
+    }
+
+    /// The highest degree of its polynomials.
+    pub fn degree(&self) -> usize {
+        self.maps.iter().map(|m| m.q.degree()).max().unwrap_or(0)
+    }
+
+    /// The ends of the domain, `x_0` and `x_N`.
+    pub fn domain(&self) -> (Wide, Wide) {
+        (Wide::from_bits(self.x0), Wide::from_bits(self.x0.wrapping_add_unsigned(self.width)))
+    }
+
+    /// The points that the graph interpolates, from left to right.
+    pub fn knots(&self) -> impl Iterator<Item = Knot> + '_ {
+        let inner = self.maps.iter().map(|m| {
+            let y = m.q.at(0).wrapping_add(twice_high(self.first, m.scaling));
+            Knot { x: self.abscissa(m.start), y: wide(y) }
+        });
+        inner.chain([Knot { x: self.domain().1, y: wide(self.last) }])
+    }
+
+    /// Rigorous bounds of all values, rounded outward. A [`super::Pyramid`] has tighter ones.
+    pub fn range(&self) -> (Real, Real) {
+        (real_below(self.range.0), real_above(self.range.1))
+    }
+
+    /// The largest magnitude of the vertical scalings.
+    pub fn max_scaling(&self) -> Scaling {
+        let largest = self.maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
+        Scaling::from_bits((largest.div_ceil(1 << 32)).min(i32::MAX as u64) as i32)
+    }
+
+    /// The abscissa in `[0, 1]`, 63 fractional bits.
+    pub(crate) fn unit(&self, x: Wide) -> u64 {
+        let bits = x.to_bits();
+        if bits <= self.x0 {
+            0
+        } else {
+            let distance = bits.wrapping_sub(self.x0) as u64;
+            if distance >= self.width { ONE } else { self.per_width.quotient(distance) }
+        }
+    }
+
+    /// The abscissa of a place in the unit interval (63 fractional bits), rounded down to the format.
+    pub(crate) fn abscissa(&self, u: u64) -> Wide {
+        if u >= ONE {
+            return self.domain().1;
+        }
+        let offset = crate::num::mul_high_u(self.width, u << 1);
+        Wide::from_bits(self.x0.wrapping_add_unsigned(offset))
+    }
+}
+
+/// `2^-63 a b` for `b` with 63 fractional bits. Error: below 2 units.
+#[inline]
+pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
+    mul_high(a, b) << 1
+}
+
+/// A description's number with 55 fractional bits; the caller has checked its range.
+pub(crate) fn value(y: Wide) -> i64 {
+    y.to_bits().saturating_mul(1 << (FRACTION - 48))
+}
+
+pub(crate) fn wide(value: i64) -> Wide {
+    Wide::from_bits(crate::num::round_shift(value, FRACTION - 48))
+}
+
+pub(crate) fn real_below(value: i64) -> Real {
+    Real::from_bits((value >> (FRACTION - 24)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+}
+
+pub(crate) fn real_above(value: i64) -> Real {
+    let up = value.saturating_add((1 << (FRACTION - 24)) - 1);
+    real_below(up)
+}
+
+pub(crate) fn saturate(v: i128) -> i64 {
+    v.clamp(i128::from(i64::MIN), i128::from(i64::MAX)) as i64
+}
+
+pub(crate) fn in_range(what: &'static str, index: usize, y: Wide) -> Result<(), Error> {
+    let limit = Wide::from_num(128);
+    if y.abs() >= limit {
+        Err(Error::OutOfRange { what, index, value: y, min: -limit, max: limit })
+    } else {
+        Ok(())
+    }
+}
+
+fn limit(what: &'static str, index: usize, got: i64, allowed: i64) -> Error {
+    Error::OutOfRange { what, index, value: wide(got), min: wide(-allowed), max: wide(allowed) }
+}
+
+/// `q(x_0 + width u)` with 55 fractional bits, from coefficients in `x` with 48.
+fn on_unit_interval<const D: usize>(
+    index: usize,
+    q: &[Wide],
+    x0: i64,
+    width: i128,
+) -> Result<Polynomial<D>, Error> {
+    if q.len() > D + 1 {
+        return Err(Error::Capacity { what: "coefficients", needed: q.len(), capacity: D + 1 });
+    }
+    let too_large = || limit("coefficients of map", index, COEFFICIENTS, COEFFICIENTS);
+    // Horner with 55 fractional bits: p <- p (x_0 + width u) + c
+    let product = |p: i128, x: i128| p.checked_mul(x).map(|v| (v + (1 << 47)) >> 48);
+    let mut constant = 0_i128;
+    let mut powers = [0_i128; D];
+    for c in q.iter().rev() {
+        let mut below = constant;
+        let c = i128::from(c.to_bits()) << (FRACTION - 48);
+        constant = product(constant, i128::from(x0)).and_then(|v| v.checked_add(c)).ok_or_else(too_large)?;
+        for p in &mut powers {
+            let next =
+                product(*p, i128::from(x0)).zip(product(below, width)).and_then(|(a, b)| a.checked_add(b));
+            below = *p;
+            *p = next.ok_or_else(too_large)?;
+        }
+    }
+    let narrow = |v: i128| i64::try_from(v).map_err(|_| too_large());
+    let mut result = Polynomial::ZERO;
+    result.constant = narrow(constant)?;
+    for (r, p) in result.powers.iter_mut().zip(powers) {
+        *r = narrow(p)?;
+    }
+    Ok(result)
+}
+
+/// Bounds of the attractor in `y`: iterates the hull of the images, outward, from a root that contains it. With 16 fractional bits,
+/// because the first root may be large.
+fn range_of<const N: usize, const D: usize>(maps: &Vec<Map<D>, N>) -> (i64, i64) {
+    const COARSE: u32 = FRACTION - 16;
+    let images: Vec<_, N> = maps
+        .iter()
+        .map(|m| {
+            let (low, high) = m.q.range();
+            (m.scaling, low >> COARSE, (high >> COARSE) + 1)
+        })
+        .collect();
+    // |f| <= max |q| / (1 - max |alpha|)
+    let steepest = maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
+    let largest =
+        images.iter().map(|(_, low, high)| low.unsigned_abs().max(high.unsigned_abs())).max().unwrap_or(0);
+    let rest = (ONE - steepest) >> 32; // at least 1: scalings have 31 bits, or come from a contraction of such
+    let root = (u128::from(largest + 1) << 31)
+        .checked_div(u128::from(rest.max(1)))
+        .unwrap_or(u128::MAX)
+        .min(1 << 56) as i64;
+    let (mut min, mut max) = (-root, root);
+    for _ in 0..4096 {
+        let (mut low, mut high) = (i64::MAX, i64::MIN);
+        for &(scaling, q_low, q_high) in &images {
+            let (a, b) = (twice_high(min << 4, scaling), twice_high(max << 4, scaling));
+            low = low.min(((a.min(b) - 2) >> 4) + q_low);
+            high = high.max(((a.max(b) + 2 + 15) >> 4) + q_high);
+        }
+        let settled = low <= min && high >= max;
+        (min, max) = (min.max(low), max.min(high));
+        if settled {
+            break;
+        }
+    }
+    (min.saturating_mul(1 << COARSE), max.saturating_mul(1 << COARSE))
+}
+
+/// After how many maps an address has settled the value: the product of the horizontal factors is below `2^-62` or that of the scalings
+/// below `2^-40`. `r^k <= e^(-k (1 - r))`.
+fn levels_of<const D: usize>(maps: &[Map<D>]) -> u32 {
+    let widest = maps.iter().map(|m| m.width).max().unwrap_or(0);
+    let steepest = maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
+    let steps = |nepers: u128, r: u64| {
+        (nepers << 63)
+            .checked_div(u128::from(ONE.saturating_sub(r)))
+            .map_or(u32::MAX, |k| (k + 1).min(u128::from(u32::MAX)) as u32)
+    };
+    // 62 ln 2 = 42.98, 40 ln 2 = 27.73
+    steps(43, widest).min(steps(28, steepest))
+}

@@ -1,0 +1,347 @@
+//! What is known about a function above each of its cells: range, mean and mean slope, level by level.
+//!
+//! A cell of level `k` belongs to an address of `k` maps. With `I_w` the interval of the address `w`,
+//! - range: `B(j w) = alpha_j B(w) + range of q_j over I_w`, rigorous for any rigorous `B(w)`; then each parent becomes the hull of its
+//!   children and the finest level is computed again from its tightened parents, until nothing changes;
+//! - mean: `m(j w) = alpha_j m(w) + mean of q_j over I_w`;
+//! - slope: `s(j w) = (alpha_j s(w) + mean of q_j' over I_w / (x_N - x_0)) / a_j`.
+//!
+//! No polynomial is ever composed. Ranges are rounded outward. After Cochran, Lewis, Hart, eq. 47-48, which need composites and give
+//! boxes two to three times as many (DESIGN).
+
+use super::Fif;
+use super::function::{Map, real_above, real_below, twice_high};
+use crate::Error;
+use crate::num::{FRACTION, ONE, Polynomial, Real, mul_high_u, real_from};
+
+/// A function above one of its cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cell {
+    /// No value is below.
+    pub min: Real,
+    /// No value is above.
+    pub max: Real,
+    /// Mean value. Error: below `2^-23 / (1 - max|alpha|)`.
+    pub mean: Real,
+    /// Mean slope, `(f(x1) - f(x0)) / (x1 - x0)`, saturated. Error: `2^-23 / (1 - max|alpha_j / a_j|)` where that is positive.
+    pub slope: Real,
+}
+
+impl Cell {
+    /// All zero: for the memory that a pyramid is lent.
+    pub const ZERO: Self = Self { min: Real::ZERO, max: Real::ZERO, mean: Real::ZERO, slope: Real::ZERO };
+}
+
+/// The cells of a function from the whole domain (level 0) down to level `depth`, in memory lent by the caller.
+///
+/// ```
+/// use attractor::fif::{Cell, Fif, Knot, Pyramid};
+/// use attractor::num::{Real, Scaling, Wide};
+///
+/// let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+/// let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.5); 2])?;
+/// let mut memory = [Cell::ZERO; Pyramid::cells(2, 8)];
+/// let pyramid = Pyramid::new(&f, 8, &mut memory)?;
+/// // the function's maximum is 4/3
+/// let top = pyramid.root().max.to_num::<f64>();
+/// assert!(top >= 4.0 / 3.0 && top < 4.0 / 3.0 + 0.02);
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Pyramid<'a> {
+    cells: &'a [Cell],
+    /// Left ends of the maps' intervals, 31 fractional bits.
+    starts: &'a [u32],
+    depth: u32,
+    x0: i64,
+    width: u64,
+}
+
+impl Pyramid<'static> {
+    /// How many cells the levels 0 to `depth` of a function of `maps` maps have: the length of the memory to lend.
+    pub const fn cells(maps: usize, depth: u32) -> usize {
+        let mut sum = 1_usize;
+        let mut level = 0;
+        while level < depth {
+            sum = sum.saturating_mul(maps).saturating_add(1);
+            level += 1;
+        }
+        sum
+    }
+
+    /// Levels are never deeper: cell indices have 32 bits.
+    pub const MAX_DEPTH: u32 = 16;
+}
+
+impl<'a> Pyramid<'a> {
+    /// The pyramid of `fif` down to level `depth`.
+    ///
+    /// Cost: at most 128 passes over the finest level, one product of 64 bits for each coefficient, scaling and cell; the passes end when no bound moves
+    /// (about 20 for a function with scalings of 1/2).
+    ///
+    /// # Errors
+    /// [`Error::BufferLength`] if `memory` is shorter than [`Pyramid::cells`]; [`Error::Capacity`] for a depth above [`Pyramid::MAX_DEPTH`].
+    pub fn new<const N: usize, const D: usize>(
+        fif: &'a Fif<N, D>,
+        depth: u32,
+        memory: &'a mut [Cell],
+    ) -> Result<Self, Error> {
+        if depth > Pyramid::MAX_DEPTH {
+            let (needed, capacity) = (depth as usize, Pyramid::MAX_DEPTH as usize);
+            return Err(Error::Capacity { what: "levels", needed, capacity });
+        }
+        let given = memory.len();
+        let needed = Pyramid::cells(fif.maps.len(), depth);
+        let Some(cells) = memory.get_mut(..needed) else { return Err(Error::BufferLength { given, needed }) };
+        if let Some(root) = cells.first_mut() {
+            let rise = fif.last.saturating_sub(fif.first);
+            let slope =
+                (i128::from(rise) << (48 + 24 - FRACTION)).checked_div(i128::from(fif.width)).unwrap_or(0);
+            *root = Cell {
+                min: real_below(fif.range.0),
+                max: real_above(fif.range.1),
+                mean: real_from(fif.mean(), FRACTION),
+                slope: saturated(slope),
+            };
+        }
+        for level in 0..depth {
+            fill(fif, cells, level, Fresh::All);
+        }
+        for _ in 0..128 {
+            tighten(cells, fif.maps.len(), depth);
+            if depth == 0 || !fill(fif, cells, depth - 1, Fresh::Range) {
+                break;
+            }
+        }
+        tighten(cells, fif.maps.len(), depth);
+        Ok(Self { cells, starts: &fif.starts, depth, x0: fif.x0, width: fif.width })
+    }
+
+    /// The cell of the whole domain.
+    pub fn root(&self) -> Cell {
+        self.cells.first().copied().unwrap_or_default()
+    }
+
+    /// The finest level.
+    pub const fn depth(&self) -> u32 {
+        self.depth
+    }
+
+    /// How many parts a cell has at the next level.
+    pub const fn branching(&self) -> u32 {
+        self.starts.len() as u32
+    }
+
+    /// The cells of a level from left to right; empty below the finest.
+    pub fn level(&self, level: u32) -> &'a [Cell] {
+        let (start, count) = level_at(self.starts.len(), level.min(Pyramid::MAX_DEPTH));
+        if level > self.depth { &[] } else { self.cells.get(start..start + count).unwrap_or(&[]) }
+    }
+
+    /// All cells, level after level.
+    pub(crate) const fn all(&self) -> &'a [Cell] {
+        self.cells
+    }
+
+    /// Left ends of the parts of a cell, in the cell's unit abscissa with 31 fractional bits.
+    pub(crate) const fn starts(&self) -> &'a [u32] {
+        self.starts
+    }
+
+    /// `x_0` and `x_N - x_0`, 48 fractional bits.
+    pub(crate) const fn domain_bits(&self) -> (i64, u64) {
+        (self.x0, self.width)
+    }
+
+    /// Bounds of the function above `[from, to]`, outward to the cells of the finest level. Cost: `2 depth * maps` cells.
+    pub fn bounds(&self, from: crate::num::Wide, to: crate::num::Wide) -> (Real, Real) {
+        let whole = crate::num::Reciprocal::of(self.width);
+        let unit = |x: crate::num::Wide| {
+            let distance = i128::from(x.to_bits()) - i128::from(self.x0);
+            whole.quotient(distance.clamp(0, i128::from(self.width)) as u64) >> 32
+        };
+        let (from, to) = (unit(from.min(to)), unit(from.max(to)));
+        let mut hull = (Real::MAX, Real::MIN);
+        let mut add = |offset: usize, index: usize| {
+            if let Some(cell) = self.cells.get(offset + index) {
+                hull = (hull.0.min(cell.min), hull.1.max(cell.max));
+            }
+        };
+        let n = self.starts.len();
+        let mut offset = 0;
+        let (mut left, mut right) = (Span::WHOLE, Span::WHOLE);
+        for _ in 0..self.depth {
+            offset = offset * n + 1;
+            let (a, b) = (left.child(self.starts, from), right.child(self.starts, to));
+            // the parts between the two, of the same cell or of the two ends' cells
+            if left.index == right.index {
+                (a.index + 1..b.index).for_each(|i| add(offset, i));
+            } else {
+                (a.index + 1..(left.index + 1) * n).for_each(|i| add(offset, i));
+                (right.index * n..b.index).for_each(|i| add(offset, i));
+            }
+            (left, right) = (a, b);
+        }
+        add(offset, left.index);
+        add(offset, right.index);
+        hull
+    }
+}
+
+/// A cell's place: index in its level, left end and width with 31 fractional bits.
+#[derive(Clone, Copy)]
+struct Span {
+    index: usize,
+    start: u64,
+    width: u64,
+}
+
+impl Span {
+    const WHOLE: Self = Self { index: 0, start: 0, width: 1 << 31 };
+
+    /// The part that holds `u`; ends count to the part on their right.
+    fn child(self, starts: &[u32], u: u64) -> Self {
+        let place = |s: u32| self.start + ((u64::from(s) * self.width) >> 31);
+        // a part wider by two units than it is cannot lose a point to rounding; neighbours overlap by that
+        let j = starts.partition_point(|s| place(*s) <= u).saturating_sub(1);
+        let start = starts.get(j).map_or(self.start, |s| place(*s));
+        let end = starts.get(j + 1).map_or(self.start + self.width, |s| place(*s));
+        Self { index: self.index * starts.len() + j, start, width: end - start }
+    }
+}
+
+/// Offset and number of the cells of a level.
+const fn level_at(maps: usize, level: u32) -> (usize, usize) {
+    let (mut offset, mut count) = (0_usize, 1_usize);
+    let mut k = 0;
+    while k < level {
+        offset = offset.saturating_add(count);
+        count = count.saturating_mul(maps);
+        k += 1;
+    }
+    (offset, count)
+}
+
+/// Every cell above the finest level becomes the hull of its parts.
+fn tighten(cells: &mut [Cell], maps: usize, depth: u32) {
+    for level in (0..depth).rev() {
+        let (offset, count) = level_at(maps, level);
+        let Some((upper, lower)) = cells.split_at_mut_checked(offset + count) else { return };
+        let Some(parents) = upper.get_mut(offset..) else { return };
+        for (parent, parts) in parents.iter_mut().zip(lower.chunks_exact(maps.max(1))) {
+            let hull = parts.iter().fold((Real::MAX, Real::MIN), |h, c| (h.0.min(c.min), h.1.max(c.max)));
+            (parent.min, parent.max) = (parent.min.max(hull.0), parent.max.min(hull.1));
+        }
+    }
+}
+
+/// What [`fill`] writes: whole cells, or ranges into cells that hold rigorous ones.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Fresh {
+    All,
+    Range,
+}
+
+/// Computes level `level + 1` from level `level`; whether a range has changed.
+fn fill<const N: usize, const D: usize>(
+    fif: &Fif<N, D>,
+    cells: &mut [Cell],
+    level: u32,
+    fresh: Fresh,
+) -> bool {
+    let maps = fif.maps.len();
+    let (offset, count) = level_at(maps, level);
+    let Some((upper, lower)) = cells.split_at_mut_checked(offset + count) else { return false };
+    let Some(parents) = upper.get(offset..) else { return false };
+    let mut changed = false;
+    // position of j w: j count + position of w
+    for (map, part) in fif.maps.iter().zip(lower.chunks_exact_mut(count.max(1))) {
+        let slopes = Slopes::of(fif, map);
+        for (index, (cell, parent)) in part.iter_mut().zip(parents).enumerate() {
+            let (start, width) = interval(&fif.maps, index, level);
+            let q = map.q.part(start, width);
+            let (low, high) = range(map, &q, parent);
+            if fresh == Fresh::All {
+                let mean = twice_high(i64::from(parent.mean.to_bits()) << (FRACTION - 24), map.scaling)
+                    .wrapping_add(q.mean());
+                *cell = Cell {
+                    min: low,
+                    max: high,
+                    mean: real_from(mean, FRACTION),
+                    slope: slopes.at(parent.slope, start, width),
+                };
+                changed = true;
+            } else if low > cell.min || high < cell.max {
+                (cell.min, cell.max) = (cell.min.max(low), cell.max.min(high));
+                changed = true;
+            }
+        }
+    }
+    changed
+}
+
+/// `alpha B + range of q`, outward.
+fn range<const D: usize>(map: &Map<D>, q: &Polynomial<D>, parent: &Cell) -> (Real, Real) {
+    /// Errors of products and coefficients, far above and far below one unit of the result.
+    const PAD: i64 = 1 << 10;
+    let scaled = |y: Real| twice_high(i64::from(y.to_bits()) << (FRACTION - 24), map.scaling);
+    let (a, b) = (scaled(parent.min), scaled(parent.max));
+    let (low, high) = q.range();
+    let below = a.min(b).saturating_add(low).saturating_sub(PAD);
+    let above = a.max(b).saturating_add(high).saturating_add(PAD);
+    (real_below(below), real_above(above))
+}
+
+/// The interval of the cell at `index` of `level`, 63 fractional bits.
+fn interval<const D: usize>(maps: &[Map<D>], index: usize, level: u32) -> (u64, u64) {
+    let (mut start, mut width) = (0_u64, ONE);
+    let mut rest = index;
+    for _ in 0..level {
+        // innermost digit first
+        let (quotient, digit) =
+            (rest.checked_div(maps.len()).unwrap_or(0), rest.checked_rem(maps.len()).unwrap_or(0));
+        if let Some(map) = maps.get(digit) {
+            start = map.start + mul_high_u(start << 1, map.width);
+            width = if width == ONE { map.width } else { mul_high_u(width << 1, map.width) };
+        }
+        rest = quotient;
+    }
+    (start, width)
+}
+
+/// How a map changes mean slopes: `s -> ratio s + mean of steepness`, `ratio = alpha_j / a_j`, `steepness = q_j' / (a_j (x_N - x_0))`.
+struct Slopes<const D: usize> {
+    /// 40 fractional bits.
+    ratio: i64,
+    /// 39 fractional bits.
+    steepness: Polynomial<D>,
+}
+
+impl<const D: usize> Slopes<D> {
+    fn of<const N: usize>(fif: &Fif<N, D>, map: &Map<D>) -> Self {
+        let ratio = (i128::from(map.scaling) << 40).checked_div(i128::from(map.width)).unwrap_or(0);
+        let length = i128::from(mul_high_u(fif.width, map.width)) << 1; // 48 fractional bits
+        let per_length = |c: i64| {
+            // 55 + 48 - 48 = 55 bits; 32 are taken off, 4 of them before the product with a power
+            let quotient = (i128::from(c) << 32).checked_div(length).unwrap_or(0);
+            quotient.clamp(-(1 << 58), 1 << 58) as i64
+        };
+        let quartered = Polynomial { constant: 0, powers: map.q.powers.map(|c| c >> 4) }.derivative();
+        Self {
+            ratio: ratio.clamp(i128::from(i64::MIN), i128::from(i64::MAX)) as i64,
+            steepness: Polynomial {
+                constant: per_length(quartered.constant) << 4,
+                powers: quartered.powers.map(|c| per_length(c) << 4),
+            },
+        }
+    }
+
+    fn at(&self, slope: Real, start: u64, width: u64) -> Real {
+        let scaled = (i128::from(slope.to_bits()) * i128::from(self.ratio)) >> 40;
+        saturated(scaled + i128::from(self.steepness.part(start, width).mean() >> 15))
+    }
+}
+
+fn saturated(bits: i128) -> Real {
+    Real::from_bits(bits.clamp(i128::from(i32::MIN), i128::from(i32::MAX)) as i32)
+}

@@ -1,0 +1,155 @@
+//! Polynomials on the unit interval with 55 fractional bits, and what a fractal interpolation function asks of them.
+//!
+//! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
+//! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
+
+use super::mul_high;
+
+/// Fractional bits of values and coefficients.
+pub(crate) const FRACTION: u32 = 55;
+/// One, as an abscissa with 63 fractional bits.
+pub(crate) const ONE: u64 = 1 << 63;
+
+/// A polynomial of degree at most `D` on the unit interval, 55 fractional bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Polynomial<const D: usize> {
+    pub(crate) constant: i64,
+    /// Coefficients of `t`, `t^2`, ...
+    pub(crate) powers: [i64; D],
+}
+
+/// `value * t` for an abscissa with 63 fractional bits. Error: below 2 units, towards minus infinity; exact for `t` = 1.
+#[inline]
+pub(crate) fn times(value: i64, t: u64) -> i64 {
+    if t >= ONE { value } else { mul_high(value, t as i64) << 1 }
+}
+
+impl<const D: usize> Polynomial<D> {
+    pub(crate) const ZERO: Self = Self { constant: 0, powers: [0; D] };
+
+    /// The value at `t`. Error: below `2 D` units. Cost: `D` products of 64 bits.
+    #[inline]
+    pub(crate) fn at(&self, t: u64) -> i64 {
+        let mut sum = 0_i64;
+        for c in self.powers.iter().rev() {
+            sum = times(sum.wrapping_add(*c), t);
+        }
+        sum.wrapping_add(self.constant)
+    }
+
+    /// The sum of the magnitudes of the coefficients, saturated.
+    pub(crate) fn norm(&self) -> i64 {
+        self.powers
+            .iter()
+            .fold(self.constant.saturating_abs(), |sum, c| sum.saturating_add(c.saturating_abs()))
+    }
+
+    /// The degree, 0 for a constant.
+    pub(crate) fn degree(&self) -> usize {
+        self.powers.iter().rposition(|c| *c != 0).map_or(0, |i| i + 1)
+    }
+
+    /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D` units a coefficient.
+    pub(crate) fn part(&self, start: u64, width: u64) -> Self {
+        let mut part = Self::ZERO;
+        // Horner: part <- part * (start + width s) + c
+        for c in self.powers.iter().rev().chain([&self.constant]) {
+            let mut below = part.constant;
+            part.constant = times(part.constant, start).wrapping_add(*c);
+            for p in &mut part.powers {
+                let next = times(*p, start).wrapping_add(times(below, width));
+                below = *p;
+                *p = next;
+            }
+        }
+        part
+    }
+
+    /// The derivative `p'(t)`.
+    pub(crate) fn derivative(&self) -> Self {
+        let mut derivative = Self::ZERO;
+        for (k, c) in self.powers.iter().enumerate() {
+            let scaled = c.saturating_mul(k as i64 + 1);
+            match k.checked_sub(1) {
+                None => derivative.constant = scaled,
+                Some(below) => {
+                    if let Some(d) = derivative.powers.get_mut(below) {
+                        *d = scaled;
+                    }
+                }
+            }
+        }
+        derivative
+    }
+
+    /// The mean over the unit interval, `sum of c_k / (k + 1)`. Error: below `D` units.
+    pub(crate) fn mean(&self) -> i64 {
+        self.powers.iter().zip(2_i64..).fold(self.constant, |sum, (c, n)| sum.wrapping_add(c / n))
+    }
+
+    /// Least and greatest value on the unit interval, outward: the hull of the Bernstein coefficients. Exact for degree 1, else wide by
+    /// a part of the second differences, which shrink with the square of the interval.
+    pub(crate) fn range(&self) -> (i64, i64) {
+        const COARSE: u32 = 16; // 39 fractional bits leave room for binomials
+        const PAD: i64 = 1 << (COARSE + 4);
+        let (mut min, mut max) = (self.constant, self.constant);
+        for i in 1..=D as i64 {
+            // b_i = sum over k <= i of C(i, k) / C(D, k) c_k; the ratio is built up factor by factor
+            let mut b = self.constant >> COARSE;
+            let (mut over, mut under) = (1_i64, 1_i64);
+            for (c, k) in self.powers.iter().zip(0_i64..i) {
+                over *= i - k;
+                under *= D as i64 - k;
+                b += ((c >> COARSE) * over).checked_div(under).unwrap_or(0);
+            }
+            let exact_end = if D == 1 {
+                self.powers.iter().fold(self.constant, |s, c| s.wrapping_add(*c))
+            } else {
+                b << COARSE
+            };
+            let pad = if D == 1 { 0 } else { PAD };
+            min = min.min(exact_end.saturating_sub(pad));
+            max = max.max(exact_end.saturating_add(pad));
+        }
+        (min, max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn polynomial<const D: usize>(constant: f64, powers: [f64; D]) -> Polynomial<D> {
+        let fixed = |v: f64| (v * 2_f64.powi(55)) as i64;
+        Polynomial { constant: fixed(constant), powers: powers.map(fixed) }
+    }
+
+    fn float(v: i64) -> f64 {
+        v as f64 / 2_f64.powi(55)
+    }
+
+    #[test]
+    fn a_part_is_the_polynomial_on_its_interval_and_inside_its_range() {
+        let p = polynomial(1.5, [-7.25, 3.0, 11.0, -8.5]);
+        for (start, width) in [(0.0, 1.0), (0.25, 0.5), (0.9, 0.01), (0.5, 0.5)] {
+            let part = p.part((start * ONE as f64) as u64, (width * ONE as f64) as u64);
+            let (min, max) = part.range();
+            let mut sampled = (f64::MAX, f64::MIN);
+            for i in 0..=100 {
+                let s = f64::from(i) / 100.0;
+                let t: f64 = start + width * s;
+                let exact = 1.5 - 7.25 * t + 3.0 * t * t + 11.0 * t.powi(3) - 8.5 * t.powi(4);
+                assert!((float(part.at((s * ONE as f64) as u64)) - exact).abs() < 1e-13);
+                assert!(float(min) <= exact && exact <= float(max));
+                sampled = (sampled.0.min(exact), sampled.1.max(exact));
+            }
+            assert!(float(max) - float(min) < (sampled.1 - sampled.0) * 1.6, "the range is loose");
+        }
+    }
+
+    #[test]
+    fn the_mean_of_the_derivative_is_the_difference_of_the_ends() {
+        let p = polynomial(0.5, [1.0, -2.0, 4.0]);
+        assert!((p.derivative().mean() - (p.at(ONE) - p.at(0))).abs() < 8);
+    }
+}
