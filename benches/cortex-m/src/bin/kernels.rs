@@ -1,0 +1,79 @@
+//! Runs every kernel of the table and prints a line of JSON for each.
+//!
+//! Arguments: `NAME FORMAT TIMES` runs one loop (`fixed`, `f32` or `f64`) so many times and nothing else, for a histogram of its instructions.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use attractor_cortex_m::semihosting::{print, println, process};
+use attractor_cortex_m::workload::Machine;
+use attractor_cortex_m::workload::kernels::{self, Kernel, Loop, Tally};
+use attractor_cortex_m::{Board, arguments, entry};
+
+attractor_cortex_m::report_panics!();
+
+#[inline(never)]
+fn nothing() -> Tally {
+    Tally { checksum: 0, units: 0 }
+}
+
+/// Instructions of one run, the call and the reading of the counter included.
+#[inline(never)]
+fn count(board: &mut Board, work: Loop) -> (Tally, u32) {
+    let work = black_box(work);
+    let before = board.instructions();
+    let tally = work();
+    let after = board.instructions();
+    (black_box(tally), after.wrapping_sub(before))
+}
+
+#[entry]
+fn main() -> ! {
+    let mut board = Board::new();
+    let mut chosen: Option<&Kernel> = None;
+    let mut work: Option<Loop> = None;
+    let mut times = None;
+    arguments(|i, argument| match i {
+        0 => {}
+        1 => chosen = kernels::ALL.iter().find(|kernel| kernel.name == argument),
+        2 => {
+            work = chosen.and_then(|kernel| match argument {
+                "f32" => kernel.f32,
+                "f64" => kernel.f64,
+                _ => Some(kernel.fixed),
+            })
+        }
+        _ => times = argument.parse::<u32>().ok(),
+    });
+    if let (Some(work), Some(times)) = (work, times) {
+        for _ in 0..times {
+            black_box(black_box(work)());
+        }
+        process::exit(0);
+    }
+
+    let (_, floor) = count(&mut board, nothing);
+    for kernel in kernels::ALL {
+        print!(
+            "{{\"line\":\"kernel\",\"name\":\"{}\",\"unit\":\"{}\",\"counted\":{}",
+            kernel.name,
+            kernel.unit,
+            board.counts()
+        );
+        for (format, work) in [("fixed", Some(kernel.fixed)), ("f32", kernel.f32), ("f64", kernel.f64)] {
+            if let Some(work) = work {
+                let (tally, instructions) = count(&mut board, work);
+                print!(
+                    ",\"{format}\":{{\"checksum\":\"{:08x}\",\"units\":{},\"instructions\":{}}}",
+                    tally.checksum,
+                    tally.units,
+                    instructions.wrapping_sub(floor)
+                );
+            }
+        }
+        println!("}}");
+    }
+    println!("{{\"line\":\"end\"}}");
+    process::exit(0)
+}

@@ -1,0 +1,36 @@
+//! What the images share: the board they run on, and the lines they print.
+//!
+//! Everything that depends on the processor is in [`board`]; the workload itself is `attractor-workload`.
+#![no_std]
+
+mod board;
+
+pub use attractor_workload as workload;
+pub use board::Board;
+pub use semihosting;
+
+#[cfg(target_arch = "arm")]
+pub use cortex_m_rt::entry;
+#[cfg(target_arch = "riscv32")]
+pub use riscv_rt::entry;
+
+/// A panic handler that says where and stops the emulator with a failure. Images that must not panic use `panic_never` instead.
+#[macro_export]
+macro_rules! report_panics {
+    () => {
+        #[panic_handler]
+        fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
+            $crate::semihosting::eprintln!("{info}");
+            $crate::semihosting::process::exit(101)
+        }
+    };
+}
+
+/// The image's own name and its arguments (`-semihosting-config arg=...`): calls `f` with each argument.
+pub fn arguments(mut f: impl FnMut(usize, &str)) {
+    if let Ok(args) = semihosting::experimental::env::args::<256>() {
+        for (i, argument) in (&args).into_iter().enumerate() {
+            f(i, argument.unwrap_or("?"));
+        }
+    }
+}

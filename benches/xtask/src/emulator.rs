@@ -1,0 +1,104 @@
+//! Runs an image in QEMU, with a time limit.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+
+use crate::targets::{Machine, Target};
+
+/// Fails with the names of the packages when an emulator is missing, before anything is built.
+pub(crate) fn find_all(targets: &[&Target]) -> Result<()> {
+    let machines = targets.iter().flat_map(|target| [Some(target.machine), target.counting]).flatten();
+    let mut missing: Vec<_> =
+        machines.filter(|m| find(m.qemu).is_none()).map(|m| (m.qemu, m.package)).collect();
+    missing.sort_unstable();
+    missing.dedup();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let (programs, packages): (Vec<_>, Vec<_>) = missing.into_iter().unzip();
+    bail!(
+        "{} not found\n  help: apt-get install {} (or .ci/target-setup)",
+        programs.join(", "),
+        packages.join(" ")
+    )
+}
+
+fn find(program: &str) -> Option<PathBuf> {
+    std::env::split_paths(&std::env::var_os("PATH")?).map(|dir| dir.join(program)).find(|path| path.is_file())
+}
+
+/// Runs `image` on `machine` and returns what it printed. An image that fails or does not end in time is an error.
+pub(crate) fn run(
+    machine: &Machine,
+    image: &Path,
+    arguments: &[&str],
+    options: &[&str],
+    directory: &Path,
+    limit: Duration,
+) -> Result<String> {
+    let name = image.file_name().unwrap_or_default().display().to_string();
+    let mut semihosting = format!("enable=on,target=native,arg={name}");
+    for argument in arguments {
+        semihosting.push_str(",arg=");
+        semihosting.push_str(argument);
+    }
+    let mut child = Command::new(machine.qemu)
+        .args(machine.arguments)
+        .args(["-nographic", "-semihosting-config", &semihosting])
+        .args(options)
+        .arg("-kernel")
+        .arg(image)
+        .current_dir(directory)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .with_context(|| {
+            format!("{} cannot be started (apt-get install {})", machine.qemu, machine.package)
+        })?;
+    let drain = |pipe: Option<Box<dyn Read + Send>>| {
+        thread::spawn(move || {
+            let mut text = Vec::new();
+            if let Some(mut pipe) = pipe {
+                // a broken pipe ends the text, and the exit status says why
+                let _ = pipe.read_to_end(&mut text);
+            }
+            String::from_utf8_lossy(&text).into_owned()
+        })
+    };
+    let output = drain(child.stdout.take().map(|pipe| Box::new(pipe) as _));
+    let errors = drain(child.stderr.take().map(|pipe| Box::new(pipe) as _));
+    let end = Instant::now() + limit;
+    let status = loop {
+        if let Some(status) = child.try_wait()? {
+            break Some(status);
+        }
+        if Instant::now() >= end {
+            child.kill()?;
+            child.wait()?;
+            break None;
+        }
+        thread::sleep(Duration::from_millis(5));
+    };
+    let text = |reader: thread::JoinHandle<String>| reader.join().unwrap_or_default();
+    let (output, errors) = (text(output), text(errors));
+    let tail = || {
+        let lines: Vec<_> = output.lines().chain(errors.lines()).collect();
+        lines[lines.len().saturating_sub(5)..].join("\n    ")
+    };
+    match status {
+        Some(status) if status.success() => Ok(output),
+        Some(status) => bail!("{name} on {}: {status}\n    {}", machine.name, tail()),
+        None => bail!(
+            "{name} on {} did not end within {} s and was stopped\n    {}",
+            machine.name,
+            limit.as_secs(),
+            tail()
+        ),
+    }
+}
