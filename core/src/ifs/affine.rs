@@ -115,16 +115,22 @@ impl Affine {
 
     /// `a d - b c`: the factor of areas, negative when the map turns left into right. Error: below `2^-48`, downwards.
     pub fn determinant(&self) -> Wide {
-        Wide::from_bits((self.exact_determinant() >> 12) as i64)
+        let [a, b, c, d] = self.linear().map(i128::from);
+        Wide::from_bits(((a * d - b * c) >> 12) as i64)
     }
 
     /// Whether the map brings any two points closer together: its largest singular value is below 1. Exact.
     pub fn is_contraction(&self) -> bool {
-        let determinant = self.exact_determinant();
-        let squares: i128 = self.linear().iter().map(|l| i128::from(*l) * i128::from(*l)).sum();
-        let one = 1_i128 << 60;
-        // 120 fractional bits; |D| < 1 and T < 2 + 2^-59 where it matters, so that nothing overflows
-        determinant.abs() < one && squares < 2 * one && (one - squares) * one + determinant * determinant > 0
+        if !self.is_small() {
+            return false;
+        }
+        let determinant = self.area();
+        let squares: u64 = self.linear().iter().map(|l| l.unsigned_abs() * l.unsigned_abs()).sum();
+        let one = 1_u64 << 60;
+        // T < 1 + D^2 with 120 fractional bits; T <= 4
+        determinant < one
+            && u128::from(squares) << 60
+                < (u128::from(one) << 60) + u128::from(determinant) * u128::from(determinant)
     }
 
     /// An upper bound of the largest singular value: distances shrink at least by this factor.
@@ -132,10 +138,10 @@ impl Affine {
     /// Domain: all; saturates at the end of the format, 2. Error: above the exact value by less than `2^-28`, never below
     /// (`the_contraction_factor_bounds_the_largest_singular_value`). Cost: two square roots.
     pub fn contraction_factor(&self) -> Unit {
-        let [a, b, c, d] = self.linear();
-        if [a, b, c, d].iter().any(|l| l.abs() > ONE) {
+        if !self.is_small() {
             return Unit::MAX;
         }
+        let [a, b, c, d] = self.linear();
         // sums of two are at most 2^31, of two squares 2^63
         let conformal = hypotenuse(a + d, b - c);
         let anticonformal = hypotenuse(a - d, b + c);
@@ -143,35 +149,60 @@ impl Affine {
         Unit::from_bits(half.min(i32::MAX as u64) as i32)
     }
 
-    /// The point that the map leaves where it is, for a map that has exactly one, and that within the format.
+    /// The point that the map leaves where it is: every contraction has one.
     ///
-    /// Error: half a unit in the last place (`a_fixed_point_stays_where_it_is`). Cost: two 128-bit divisions.
+    /// Domain: coefficients `a b c d` of at most 1. None outside it, when there is no such point or more than one, and when it lies outside [`Real`].
+    /// Error: half a unit in the last place (`a_fixed_point_stays_where_it_is`). Cost: 6 multiplications and 62 steps of a division.
     pub fn fixed_point(&self) -> Option<Point2> {
-        // (1 - a) x - b y = e, -c x + (1 - d) y = f
+        if !self.is_small() {
+            return None;
+        }
+        // (1 - a) x - b y = e, -c x + (1 - d) y = f; 60 fractional bits below, 54 above the line, both less than 2^63
         let [a, b, c, d] = self.linear();
-        let (e, f) = (i128::from(self.e.to_bits()), i128::from(self.f.to_bits()));
-        let (p, q) = (i128::from(ONE - a), i128::from(ONE - d));
-        let (b, c) = (i128::from(b), i128::from(c));
+        let (e, f) = (i64::from(self.e.to_bits()), i64::from(self.f.to_bits()));
+        let (p, q) = (ONE - a, ONE - d);
         let determinant = p * q - b * c;
-        let quotient = |numerator: i128| {
-            // 54 fractional bits over 60, to 25, downwards
-            let dividend = (numerator << 31) * determinant.signum();
-            let twice = dividend.checked_div_euclid(determinant.abs())?;
-            let bits = i32::try_from((twice + 1) >> 1).ok()?;
-            Some(Real::from_bits(bits))
-        };
-        Some(Point2::new(quotient(q * e + b * f)?, quotient(c * e + p * f)?))
+        Some(Point2::new(quotient(q * e + b * f, determinant)?, quotient(c * e + p * f, determinant)?))
     }
 
     fn linear(&self) -> [i64; 4] {
         [self.a, self.b, self.c, self.d].map(|l| i64::from(l.to_bits()))
     }
 
-    /// With 60 fractional bits.
-    pub(super) fn exact_determinant(&self) -> i128 {
-        let [a, b, c, d] = self.linear().map(i128::from);
-        a * d - b * c
+    /// Whether no coefficient of the linear part exceeds 1, as in every contraction.
+    fn is_small(&self) -> bool {
+        self.linear().iter().all(|l| l.abs() <= ONE)
     }
+
+    /// `|D|` with 60 fractional bits, for coefficients of at most 1.
+    pub(super) fn area(&self) -> u64 {
+        let [a, b, c, d] = self.linear();
+        a.wrapping_mul(d).wrapping_sub(b.wrapping_mul(c)).unsigned_abs()
+    }
+}
+
+/// `numerator / denominator` for 54 fractional bits over 60, rounded to nearest; none outside the format.
+fn quotient(numerator: i64, denominator: i64) -> Option<Real> {
+    let (mut rest, divisor) = (numerator.unsigned_abs(), denominator.unsigned_abs());
+    // the quotient has 25 fractional bits after 31 doublings, and must stay below 2^32
+    if rest >= divisor.saturating_mul(2) {
+        return None;
+    }
+    let mut twice = 0_u64;
+    for step in 0..32 {
+        if step > 0 {
+            // rest < divisor <= 2^63
+            rest <<= 1;
+            twice <<= 1;
+        }
+        if rest >= divisor {
+            rest -= divisor;
+            twice |= 1;
+        }
+    }
+    let magnitude = ((twice + 1) >> 1) as i64;
+    let bits = if (numerator < 0) == (denominator < 0) { magnitude } else { -magnitude };
+    Some(Real::from_bits(i32::try_from(bits).ok()?))
 }
 
 #[inline(always)]

@@ -20,7 +20,7 @@ pub const MAX_MAPS: usize = 256;
 /// How far the sum of the probabilities may be from 1, for each of them: `10^-6`.
 const TOLERANCE: i64 = 1074;
 
-/// An iterated function system of at most `N <= 256` maps. Size: 33 bytes a map, and 40.
+/// An iterated function system of at most `N <= 256` maps. Size on a 32-bit machine: 33 bytes a map, and 36.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ifs<const N: usize> {
     maps: [Affine; N],
@@ -36,7 +36,7 @@ pub struct Ifs<const N: usize> {
 impl<const N: usize> Ifs<N> {
     /// The system of these maps, each chosen with its probability.
     ///
-    /// Cost: 33 square roots and 64-bit divisions for each map, and one 128-bit division for each step of the search for the disc.
+    /// Cost: 66 square roots and 33 divisions for each map, and a few thousand instructions more: 118 thousand Cortex-M4 instructions for the fern.
     ///
     /// # Errors
     /// [`Error::TooFew`] without maps, [`Error::Capacity`] for more than `N` or 256, [`Error::LengthMismatch`] unless there is one probability for each map,
@@ -80,7 +80,7 @@ impl<const N: usize> Ifs<N> {
             return Err(Error::NotContractive { map });
         }
         // 32 fractional bits, below 1; the sum below 2^40
-        let area = |map: &Affine| (map.exact_determinant().unsigned_abs() >> 28) as u64;
+        let area = |map: &Affine| map.area() >> 28;
         let total: u64 = maps.iter().map(area).sum();
         let floor = total.checked_div(32 * maps.len() as u64).unwrap_or(0).max(1);
         let total: u64 = maps.iter().map(|m| area(m).max(floor)).sum();
