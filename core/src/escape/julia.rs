@@ -1,0 +1,133 @@
+//! Filled-in Julia sets: for each `s` of a view, the dwell of the orbit `s, s^2 + c, (s^2 + c)^2 + c, ...` with one `c` for all.
+//!
+//! Source: course unit V, "Julia sets", sections 5.5.1 and 5.5.2. With `d_0 = s` the dwell is `min(iterations until |d_k| > 2, Num)`.
+
+use core::iter::FusedIterator;
+use core::ops::Range;
+
+use embedded_graphics_core::geometry::Size;
+
+use super::dwell::Word;
+use super::precision::Precision;
+use super::view::{Line, View, narrow};
+use super::{Complex, Dwell, checked_max};
+use crate::Error;
+use crate::num::Wide;
+use crate::picture::Field;
+
+/// The dwell at every pixel of a view.
+///
+/// ```
+/// use attractor::escape::{Complex, Julia, View};
+/// use attractor::num::Wide;
+/// use embedded_graphics_core::geometry::Size;
+/// let view = View::new(Complex::default(), Wide::from_num(4), Size::new(64, 64))?;
+/// let basilica = Julia::new(view, Complex::new(Wide::from_num(-1), Wide::ZERO), 100)?;
+/// assert!(basilica.dwell_at(Complex::default()).is_inside());
+/// assert_eq!(basilica.dwell_at(Complex::new(Wide::from_num(2), Wide::ZERO)).count, 1);
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Julia {
+    view: View,
+    c: Complex<Wide>,
+    constant: Word,
+    max: u32,
+    precision: Precision,
+}
+
+impl Julia {
+    /// The filled-in Julia set of `c` as `view` shows it, with at most `max_dwell` iterations a pixel. The constant is rounded to 29 fractional bits.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits; the larger part of `c` is reported),
+    /// [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above [`MAX_DWELL`](super::MAX_DWELL).
+    pub fn new(view: View, c: Complex<Wide>, max_dwell: u32) -> Result<Self, Error> {
+        const TWO: Wide = Wide::lit("2");
+        let max = checked_max(max_dwell)?;
+        let Some(constant) = narrow(c) else {
+            let value = if c.re.unsigned_abs() > c.im.unsigned_abs() { c.re } else { c.im };
+            let what = "part of the constant c, |c| <= 2";
+            return Err(Error::OutOfRange { what, index: 0, value, min: -TWO, max: TWO });
+        };
+        Ok(Self { view, c, constant, max, precision: Precision::of(view.pitch(), max) })
+    }
+
+    /// The same with another precision than the one that suits the view.
+    #[must_use]
+    pub const fn with_precision(self, precision: Precision) -> Self {
+        Self { precision, ..self }
+    }
+
+    /// The view.
+    pub const fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// The constant, as it was given.
+    pub const fn constant(&self) -> Complex<Wide> {
+        self.c
+    }
+
+    /// `Num`, the dwell of a point that does not escape.
+    pub const fn max_dwell(&self) -> u32 {
+        self.max
+    }
+
+    /// How products are rounded.
+    pub const fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    /// The dwell of the orbit that starts at any point of the plane.
+    ///
+    /// Domain: all. Result: iterations. Error: none for the nearest start with 29 fractional bits as long as the orbit's rounding does not
+    /// matter; how often it does: `julia_sets_agree_with_float`.
+    #[inline]
+    pub fn dwell_at(&self, s: Complex<Wide>) -> Dwell {
+        let count = narrow(s).map_or(0, |s| self.precision.dwell(s, self.constant, self.max));
+        Dwell { count, max: self.max }
+    }
+}
+
+impl Field for Julia {
+    type Value = Dwell;
+    type Row<'a> = JuliaRow<'a>;
+
+    fn size(&self) -> Size {
+        self.view.size()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> JuliaRow<'_> {
+        JuliaRow { picture: self, line: self.view.line(y, x) }
+    }
+}
+
+/// The dwells of a row, from left to right.
+#[derive(Debug, Clone)]
+pub struct JuliaRow<'a> {
+    picture: &'a Julia,
+    line: Line,
+}
+
+impl Iterator for JuliaRow<'_> {
+    type Item = Dwell;
+
+    #[inline]
+    fn next(&mut self) -> Option<Dwell> {
+        self.line.next().map(|s| self.picture.dwell_at(s))
+    }
+
+    #[inline]
+    fn nth(&mut self, n: usize) -> Option<Dwell> {
+        self.line.nth(n).map(|s| self.picture.dwell_at(s))
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.line.size_hint()
+    }
+}
+
+impl ExactSizeIterator for JuliaRow<'_> {}
+impl FusedIterator for JuliaRow<'_> {}
