@@ -56,7 +56,8 @@ impl Step for Fine {
 impl Step for Coarse {
     #[inline(always)]
     fn step((x, y): Word, (cx, cy): Word) -> Word {
-        let real = high(x, x).wrapping_sub(high(y, y));
+        // x^2 - y^2 from the sum that the test has just made: one instruction
+        let real = norm((x, y)).wrapping_sub(high(y, y).wrapping_mul(2));
         let cross = high(x.wrapping_add(x), y);
         (cx.wrapping_add(real << 3), cy.wrapping_add(cross << 3))
     }
@@ -127,9 +128,14 @@ fn block<S: Step>(z: &mut Word, c: Word) -> u32 {
 }
 
 #[inline(always)]
-fn is_near((x, y): Word) -> bool {
-    // at most 2^30 + 2^30
-    (high(x, x) as u32).wrapping_add(high(y, y) as u32) >= NEAR
+fn is_near(z: Word) -> bool {
+    norm(z) as u32 >= NEAR
+}
+
+/// `|z|^2` with 26 fractional bits, at most `2^30 + 2^30` if read as unsigned; low by less than 2 units.
+#[inline(always)]
+fn norm((x, y): Word) -> i32 {
+    high(x, x).wrapping_add(high(y, y))
 }
 
 /// What becomes of a point near the edge of the disc.
@@ -172,4 +178,122 @@ pub(super) fn high(a: i32, b: i32) -> i32 {
 #[inline(always)]
 fn high_word(product: i64) -> i32 {
     (product >> 32) as i32
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::vec::Vec;
+
+    /// The same rounding in integers that hold every intermediate value, one test a step, no shortcut.
+    fn model(z: Word, c: Word, max: u32, coarse: bool) -> u32 {
+        let (mut x, mut y) = (i128::from(z.0), i128::from(z.1));
+        for n in 0..max {
+            if x * x + y * y > 1 << 60 {
+                return n;
+            }
+            let sum = ((x * x) >> 32) + ((y * y) >> 32);
+            let (re, im) = if coarse && sum < i128::from(NEAR) {
+                ((((x * x) >> 32) - ((y * y) >> 32)) << 3, ((2 * x * y) >> 32) << 3)
+            } else {
+                (((x - y) * (x + y)) >> 29, (x * y) >> 28)
+            };
+            (x, y) = (re + i128::from(c.0), im + i128::from(c.1));
+        }
+        max
+    }
+
+    fn agrees(z: Word, c: Word, max: u32) -> u32 {
+        let fine = dwell::<Fine>(z, c, max);
+        assert_eq!(fine, model(z, c, max, false), "fine, {z:?} {c:?} {max}");
+        assert_eq!(dwell::<Coarse>(z, c, max), model(z, c, max, true), "coarse, {z:?} {c:?} {max}");
+        fine
+    }
+
+    /// Points within a few units of `|z| = 2`, all around.
+    fn edge(angles: u32, reach: i32) -> Vec<Word> {
+        let mut points = Vec::new();
+        for k in 0..angles {
+            let (sin, cos) = (f64::from(k) / f64::from(angles) * core::f64::consts::TAU).sin_cos();
+            let (x, y) = ((cos * 2_f64.powi(30)).round() as i32, (sin * 2_f64.powi(30)).round() as i32);
+            for dx in -reach..=reach {
+                points.extend((-reach..=reach).map(|dy| (x + dx, y + dy)));
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn nothing_that_wraps_is_taken_for_a_point_of_the_disc() {
+        let constants: Vec<Word> = edge(40, 1).into_iter().filter(|c| !is_beyond(*c)).collect();
+        let mut dwells = [0_u32; 6];
+        for z in edge(400, 3) {
+            for c in &constants {
+                for max in [1, 5] {
+                    let d = agrees(z, *c, max);
+                    dwells[d as usize] += 1;
+                }
+            }
+        }
+        assert!([0, 1, 2, 5].iter().all(|d| dwells[*d] > 100), "too few of a kind: {dwells:?}");
+    }
+
+    #[test]
+    fn the_edge_is_exact_where_a_circle_meets_an_axis() {
+        const TWO: i32 = 1 << 30;
+        // (2 - k)^2 + y^2 = 4 at y = sqrt(4 k): a window around it
+        for k in 0..200 {
+            let y0 = (f64::from(k) * 2_f64.powi(31)).sqrt() as i32;
+            for y in (y0 - 60).max(0)..y0 + 60 {
+                for z in [(TWO - k, y), (k - TWO, -y), (y, TWO - k), (-y, k - TWO)] {
+                    agrees(z, z, 1);
+                    if !is_beyond(z) {
+                        agrees(z, z, 40);
+                    }
+                    agrees(z, (TWO, 0), 3);
+                    agrees(z, (-TWO, 0), 40);
+                    agrees(z, (0, TWO), 3);
+                }
+            }
+        }
+        // exactly 6 = 2 wrapped
+        for z in [(0, TWO), (0, -TWO)] {
+            assert_eq!(agrees(z, (-TWO, 0), 9), 1);
+            assert_eq!(agrees(z, (TWO, 0), 9), 2);
+        }
+        assert_eq!(agrees((TWO, 0), (TWO, 0), 9), 1);
+        assert_eq!(agrees((-TWO, 0), (TWO, 0), 9), 1);
+        assert_eq!(agrees((-TWO, 0), (-TWO, 0), 1000), 1000);
+    }
+
+    #[test]
+    fn every_limit_gives_the_smaller_of_dwell_and_limit() {
+        for i in -20..=20 {
+            let c = (i << 25, (i * 37 % 40) << 25);
+            if is_beyond(c) {
+                continue;
+            }
+            let whole = model(c, c, 100, false);
+            for max in 1..100 {
+                assert_eq!(agrees(c, c, max), whole.min(max));
+            }
+        }
+    }
+
+    #[test]
+    fn a_cycle_ends_the_loop_with_the_result_of_the_whole_loop() {
+        // a grid over the whole disc, with points of periods 1 to about 30 and with slow ones
+        for i in -128..=128 {
+            for j in 0..=128 {
+                let c = (i << 23, j << 23);
+                if !is_beyond(c) {
+                    agrees(c, c, 700);
+                }
+            }
+        }
+        // parabolic: 1/4 needs 23000 iterations to come to rest
+        let quarter = (1 << 27, 0);
+        assert_eq!(agrees(quarter, quarter, 1 << 16), 1 << 16);
+    }
 }

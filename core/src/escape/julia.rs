@@ -131,3 +131,85 @@ impl Iterator for JuliaRow<'_> {
 
 impl ExactSizeIterator for JuliaRow<'_> {}
 impl FusedIterator for JuliaRow<'_> {}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::exact::{Difference, dwell_float};
+    use super::*;
+
+    fn point(re: f64, im: f64) -> Complex<Wide> {
+        Complex::new(Wide::from_num(re), Wide::from_num(im))
+    }
+
+    fn julia(c: (f64, f64), max: u32) -> [Julia; 2] {
+        let view = View::new(Complex::default(), Wide::from_num(4), Size::new(200, 200)).unwrap();
+        let picture = Julia::new(view, point(c.0, c.1), max).unwrap();
+        [Precision::Fine29, Precision::Coarse26].map(|p| picture.with_precision(p))
+    }
+
+    #[test]
+    fn for_c_0_the_set_is_the_unit_disc() {
+        for picture in julia((0.0, 0.0), 64) {
+            assert_eq!(picture.dwell_at(point(2.0, 0.0)).count, 1);
+            assert_eq!(picture.dwell_at(point(2.1, 0.0)).count, 0);
+            assert_eq!(picture.dwell_at(point(1.5, 0.0)).count, 1); // 1.5, 2.25
+            assert_eq!(picture.dwell_at(point(0.0, 1.25)).count, 2); // 1.25i, -1.56, 2.44
+            for (x, y) in (0..200).flat_map(|y| (0..200).map(move |x| (x, y))) {
+                let s = picture.view().point(x, y);
+                let square = s.re.to_num::<f64>().powi(2) + s.im.to_num::<f64>().powi(2);
+                assert_eq!(picture.dwell_at(s).is_inside(), square < 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn for_c_minus_2_the_set_is_a_segment() {
+        for picture in julia((-2.0, 0.0), 200) {
+            for re in [-2.0, -1.999, -1.0, 0.0, 0.3, 1.0, 2.0] {
+                assert!(picture.dwell_at(point(re, 0.0)).is_inside(), "{re}");
+            }
+            // 6 and -6 are 2 when they wrap
+            assert_eq!(picture.dwell_at(point(0.0, 2.0)).count, 1);
+            assert_eq!(picture.dwell_at(point(0.0, -2.0)).count, 1);
+            assert!(!picture.dwell_at(point(0.5, 0.01)).is_inside());
+        }
+    }
+
+    #[test]
+    fn julia_sets_agree_with_float() {
+        for c in [(-1.0, 0.0), (-0.123, 0.745), (-0.8, 0.156), (0.285, 0.01), (0.0, 1.0), (0.4, 0.4)] {
+            for picture in julia(c, 200) {
+                let rounded = picture.constant();
+                let c = (rounded.re.to_num(), rounded.im.to_num());
+                let difference = Difference::of(200, 200, 200, |x, y| {
+                    let s = picture.view().point(x, y);
+                    let float = dwell_float((s.re.to_num(), s.im.to_num()), c, 200);
+                    (picture.dwell_at(s).count, float)
+                });
+                std::println!("julia {c:?} {:?}: {difference:?}", picture.precision());
+                assert!(difference.pixels <= 20 && difference.sides <= 4, "{c:?}: {difference:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_set_is_symmetric_about_0() {
+        for picture in julia((-0.8, 0.156), 300) {
+            for y in 0..100 {
+                let back = picture.row(199 - y, 0..200).collect::<std::vec::Vec<_>>();
+                assert!(picture.row(y, 0..200).eq(back.into_iter().rev()), "row {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_constant_beyond_2_is_refused() {
+        let view = View::home(Size::new(8, 8)).unwrap();
+        assert!(Julia::new(view, point(0.0, -2.0), 9).is_ok());
+        let error = Julia::new(view, point(1.5, -2.25), 9);
+        assert!(matches!(error, Err(Error::OutOfRange { value, .. }) if value == Wide::from_num(-2.25)));
+        assert!(Julia::new(view, Complex::new(Wide::from_num(2) + Wide::DELTA, Wide::ZERO), 9).is_err());
+        assert!(Julia::new(view, point(0.0, 0.0), 0).is_err());
+    }
+}

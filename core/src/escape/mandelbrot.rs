@@ -122,3 +122,170 @@ impl Iterator for MandelbrotRow<'_> {
 
 impl ExactSizeIterator for MandelbrotRow<'_> {}
 impl FusedIterator for MandelbrotRow<'_> {}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::exact::{Difference, dwell_248, dwell_float};
+    use super::*;
+    use std::vec::Vec;
+
+    fn point(re: f64, im: f64) -> Complex<Wide> {
+        Complex::new(Wide::from_num(re), Wide::from_num(im))
+    }
+
+    fn dwells(picture: &Mandelbrot) -> Vec<Dwell> {
+        let size = picture.size();
+        (0..size.height).flat_map(|y| picture.row(y, 0..size.width)).collect()
+    }
+
+    /// A grid over the whole set whose points are multiples of `2^-7`.
+    fn dyadic() -> View {
+        View::new(point(-0.5, 0.0), Wide::from_num(4), Size::new(256, 256)).unwrap()
+    }
+
+    fn both(view: View, max: u32) -> [Mandelbrot; 2] {
+        let picture = Mandelbrot::new(view, max).unwrap();
+        [Precision::Fine29, Precision::Coarse26].map(|p| picture.with_precision(p))
+    }
+
+    #[test]
+    fn points_with_a_known_orbit_have_its_dwell() {
+        for picture in both(View::home(Size::new(64, 64)).unwrap(), 1000) {
+            for (re, im, dwell) in [
+                (2.0, 0.0, 1),
+                (-2.0, 0.0, 1000),
+                (0.0, 0.0, 1000),
+                (0.0, 1.0, 1000),
+                (0.0, -1.0, 1000),
+                (-1.0, 0.0, 1000),
+                (0.25, 0.0, 1000),
+                (1.0, 0.0, 2), // 1, 2, 5
+                (0.5, 0.0, 4), // 0.5, 0.75, 1.06, 1.63, 3.15
+                (0.0, 2.0, 1), // 2i, -4 + 2i
+                (2.1, 0.0, 0),
+                (-2.000_000_000_1, 0.0, 0),
+                (1.5, 1.5, 0),
+                (6.0, 0.0, 0),
+                (-2.0, 8.0, 0),
+                (30000.0, -30000.0, 0),
+            ] {
+                let d = picture.dwell_at(point(re, im));
+                assert_eq!((d.count, d.is_inside()), (dwell, dwell == 1000), "{re} {im} {picture:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn interior_and_cycles_change_no_pixel() {
+        let views = [
+            View::home(Size::new(240, 240)).unwrap(),
+            dyadic(),
+            // on the rim of the cardioid and of the disc, where a pixel is two units wide
+            View::new(point(-0.75, 0.0), Wide::from_bits(60 << 20), Size::new(60, 60)).unwrap(),
+            View::new(point(-1.25, 0.0), Wide::from_bits(60 << 20), Size::new(60, 60)).unwrap(),
+            View::new(point(0.0, 0.6495190528), Wide::from_bits(60 << 22), Size::new(60, 60)).unwrap(),
+            View::new(point(0.25, 0.0), Wide::from_bits(60 << 24), Size::new(60, 60)).unwrap(),
+        ];
+        for view in views {
+            for with in both(view, 1000) {
+                let without = Mandelbrot { interior: false, ..with };
+                assert!(dwells(&with) == dwells(&without), "{with:?}");
+                let recognised = dwells(&with).iter().filter(|d| d.is_inside()).count();
+                assert!(recognised > 100, "{with:?}: {recognised}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_outside_is_called_inside() {
+        // the rims in exact integers: a point in [cx, cx + ulp) x ... cannot be told apart, so take the point itself
+        let mut found = 0;
+        for k in 0..20_000 {
+            let t = f64::from(k) / 20_000.0 * core::f64::consts::TAU;
+            let unit = |v: f64| (v * 2_f64.powi(29)) as i32;
+            let cardioid = (t.cos() / 2.0 - (2.0 * t).cos() / 4.0, t.sin() / 2.0 - (2.0 * t).sin() / 4.0);
+            let disc = (-1.0 + t.cos() / 4.0, t.sin() / 4.0);
+            for (x, y) in [cardioid, disc] {
+                for d in [-300, -100, -30, -3, -1, 0, 1, 3, 30, 100, 300] {
+                    let (x, y) = (unit(x) + d, unit(y) + d / 2);
+                    if interior::contains((x, y)) {
+                        found += 1;
+                        // 29 fractional bits: exact in 128
+                        let (x, y) = (i128::from(x), i128::from(y));
+                        let p = x - (1 << 27);
+                        let q = p * p + y * y;
+                        let in_cardioid = 4 * q * (q + (p << 29)) <= (y * y) << 58;
+                        let r = x + (1 << 29);
+                        let in_disc = 16 * (r * r + y * y) <= 1 << 58;
+                        assert!(in_cardioid || in_disc, "{x} {y}");
+                    }
+                }
+            }
+        }
+        assert!(found > 10_000, "{found}");
+    }
+
+    #[test]
+    fn dwell_agrees_with_float_on_the_home_view() {
+        let view = View::home(Size::new(240, 240)).unwrap();
+        for max in [100, 1000] {
+            for picture in both(view, max) {
+                let difference = Difference::of(240, 240, max, |x, y| {
+                    let c = view.point(x, y);
+                    let c = (c.re.to_num(), c.im.to_num());
+                    (picture.dwell_at(view.point(x, y)).count, dwell_float(c, c, max))
+                });
+                std::println!("home, max {max}, {:?}: {difference:?}", picture.precision());
+                assert!(difference.pixels <= 30 && difference.sides <= 8, "{difference:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_dyadic_grid_agrees_with_248_bits() {
+        let view = dyadic();
+        for max in [256, 1024] {
+            let exact: Vec<u32> =
+                (0..256 * 256).map(|k| dwell_248(view.point(k % 256, k / 256), max)).collect();
+            for picture in both(view, max) {
+                let difference = Difference::of(256, 256, max, |x, y| {
+                    (picture.dwell_at(view.point(x, y)).count, exact[(256 * y + x) as usize])
+                });
+                std::println!("dyadic, max {max}, {:?}: {difference:?}", picture.precision());
+                let (pixels, sides) = (3 * 65_536 / 1000, 65_536 / 1000);
+                assert!(difference.pixels <= pixels / 8 && difference.sides <= sides / 8, "{difference:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_is_the_row_of_points_and_skips_without_iterating() {
+        let picture = Mandelbrot::new(View::home(Size::new(97, 53)).unwrap(), MAX).unwrap();
+        const MAX: u32 = 1 << 20;
+        for y in [0, 26, 52] {
+            let row: Vec<_> = picture.row(y, 3..90).collect();
+            assert_eq!(row.len(), 87);
+            for (x, d) in (3..).zip(&row) {
+                assert_eq!(*d, picture.dwell_at(picture.view().point(x, y)));
+            }
+            let mut skipping = picture.row(y, 3..90);
+            assert_eq!(skipping.len(), 87);
+            assert_eq!(skipping.nth(40), Some(row[40]));
+            assert_eq!(skipping.len(), 46);
+            assert_eq!(skipping.nth(45), Some(row[86]));
+            assert_eq!((skipping.next(), skipping.nth(3), skipping.next()), (None, None, None));
+        }
+    }
+
+    #[test]
+    fn a_limit_out_of_range_is_refused() {
+        let view = View::home(Size::new(8, 8)).unwrap();
+        assert!(matches!(Mandelbrot::new(view, 0), Err(Error::TooFew { given: 0, at_least: 1, .. })));
+        assert!(matches!(
+            Mandelbrot::new(view, (1 << 20) + 1),
+            Err(Error::Capacity { needed: 1_048_577, capacity: 1_048_576, .. })
+        ));
+        assert!(Mandelbrot::new(view, 1).is_ok() && Mandelbrot::new(view, 1 << 20).is_ok());
+    }
+}

@@ -6,6 +6,8 @@
 mod complex;
 mod count;
 mod dwell;
+#[cfg(test)]
+mod exact;
 mod interior;
 mod julia;
 mod mandelbrot;

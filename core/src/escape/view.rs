@@ -108,9 +108,13 @@ impl View {
 
     /// The distance of two neighbouring pixels, rounded down.
     pub const fn pitch(&self) -> Wide {
-        // the remainder of W / (2 cols) is worth another unit of W / cols when it is at least half
-        let carry = self.rest as i64 >= self.size.width as i64;
-        Wide::from_bits((self.half_pitch << 1) + carry as i64)
+        Wide::from_bits(self.whole_pitch().0)
+    }
+
+    /// `W / cols` as quotient and remainder over `2 cols`.
+    const fn whole_pitch(&self) -> (i64, i32) {
+        let (pitch, rest) = (self.half_pitch << 1, self.rest << 1);
+        if rest >= self.divisor() { (pitch + 1, rest - self.divisor()) } else { (pitch, rest) }
     }
 
     /// The middle of pixel `(column, row)`, `(0, 0)` at the upper left.
@@ -150,6 +154,7 @@ impl View {
 
     /// The points of a row from left to right.
     pub(super) fn line(&self, row: u32, columns: Range<u32>) -> Line {
+        let (pitch, pitch_rest) = self.whole_pitch();
         let mut line = Line {
             view: *self,
             im: self.ordinate(row),
@@ -157,6 +162,9 @@ impl View {
             end: columns.end.min(self.size.width),
             re: 0,
             rest: 0,
+            pitch,
+            pitch_rest,
+            divisor: self.divisor(),
         };
         line.seek();
         line
@@ -179,6 +187,10 @@ pub(super) struct Line {
     /// The abscissa of `next`: quotient and remainder.
     re: i64,
     rest: i32,
+    /// What a pixel adds, and when the remainder carries.
+    pitch: i64,
+    pitch_rest: i32,
+    divisor: i32,
 }
 
 impl Line {
@@ -197,14 +209,11 @@ impl Iterator for Line {
         }
         let point = Complex::new(sticky(self.re, self.rest), self.im);
         self.next += 1;
-        self.re = self.re.wrapping_add(self.view.half_pitch << 1);
-        // 2 rest < 2 divisor: the sum needs at most two carries
-        self.rest += 2 * self.view.rest;
-        for _ in 0..2 {
-            if self.rest >= self.view.divisor() {
-                self.rest -= self.view.divisor();
-                self.re = self.re.wrapping_add(1);
-            }
+        self.re = self.re.wrapping_add(self.pitch);
+        self.rest += self.pitch_rest;
+        if self.rest >= self.divisor {
+            self.rest -= self.divisor;
+            self.re = self.re.wrapping_add(1);
         }
         Some(point)
     }
@@ -275,4 +284,145 @@ fn narrow_at_the_circle(x: i64, y: i64, word: Word) -> Option<Word> {
         if v < 0 { -magnitude } else { magnitude }
     };
     if is_beyond(word) { Some((towards_zero(x), towards_zero(y))) } else { Some(word) }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::vec::Vec;
+
+    fn bits(c: Complex<Wide>) -> (i128, i128) {
+        (i128::from(c.re.to_bits()), i128::from(c.im.to_bits()))
+    }
+
+    #[test]
+    fn the_grid_is_exact_where_it_can_be_and_rounded_once_elsewhere() {
+        let centre = Complex::new(Wide::from_num(-0.75), Wide::from_bits(12_345_678_901));
+        let mut inexact = 0;
+        for (width, cols, rows) in [
+            (3_i64 << 48, 240_u32, 240_u32),
+            (4 << 48, 256, 100),
+            (1 << 48, 1000, 1),
+            (7 << 48, 16384, 3),
+            (12_345_678_901_234, 333, 777),
+            (500 << 48, 3, 77),
+        ] {
+            let view = View::new(centre, Wide::from_bits(width), Size::new(cols, rows)).unwrap();
+            let divisor = i128::from(2 * cols);
+            let (mx, my) = bits(centre);
+            for row in [0, rows / 2, rows - 1] {
+                let line: Vec<_> = view.line(row, 0..cols).collect();
+                assert_eq!(line.len(), cols as usize);
+                for (column, point) in line.into_iter().enumerate() {
+                    assert_eq!(point, view.point(column as u32, row), "stepping and direct access");
+                    let exact = [
+                        mx * divisor + i128::from(width) * (2 * column as i128 + 1 - i128::from(cols)),
+                        my * divisor + i128::from(width) * i128::from(rows as i64 - 1 - 2 * row as i64),
+                    ];
+                    for (exact, got) in exact.into_iter().zip([bits(point).0, bits(point).1]) {
+                        let error = (exact - got * divisor).abs();
+                        assert!(error < divisor);
+                        assert!(error == 0 || (exact % divisor != 0 && got & 1 == 1));
+                        inexact += u32::from(error > 0);
+                    }
+                }
+            }
+        }
+        assert!(inexact > 1000);
+    }
+
+    #[test]
+    fn skipping_arrives_at_the_same_points() {
+        let view = View::home(Size::new(241, 3)).unwrap();
+        let all: Vec<_> = view.line(1, 0..241).collect();
+        for n in [0, 1, 2, 100, 239, 240, 241, 500, usize::MAX] {
+            let mut line = view.line(1, 0..241);
+            assert_eq!(line.nth(n), all.get(n).copied());
+            assert_eq!(line.next(), n.checked_add(1).and_then(|n| all.get(n).copied()));
+            let mut line = view.line(1, 7..200);
+            assert_eq!(line.len(), 193);
+            assert_eq!(line.nth(n), all[7..200].get(n).copied());
+        }
+        assert_eq!(view.line(1, 300..400).count() + view.line(1, 9..9).count(), 0);
+    }
+
+    #[test]
+    fn a_view_that_a_format_cannot_hold_is_refused() {
+        let size = Size::new(200, 100);
+        let least = Wide::from_bits(200 << 19);
+        assert!(View::new(Complex::default(), least, size).is_ok());
+        for width in [least - Wide::DELTA, Wide::ZERO, Wide::MIN] {
+            assert!(matches!(
+                View::new(Complex::default(), width, size),
+                Err(Error::OutOfRange { what: "width of the view", value, min, .. }) if value == width && min == least
+            ));
+        }
+        let corner = Complex::new(Wide::MAX, Wide::ZERO);
+        assert!(View::new(corner, Wide::ONE, size).is_err());
+        assert!(View::new(Complex::new(Wide::ZERO, Wide::MIN), Wide::ONE, size).is_err());
+        assert!(View::new(Complex::default(), Wide::MAX, Size::new(1, 16384)).is_err());
+        assert!(View::new(Complex::default(), Wide::from_num(32000), size).is_ok());
+        assert!(View::new(Complex::default(), Wide::ONE, Size::new(0, 1)).is_err());
+    }
+
+    #[test]
+    fn home_shows_the_whole_set_on_any_display() {
+        for (w, h) in [(128, 64), (240, 240), (320, 240), (64, 128), (1, 16384), (1000, 3)] {
+            let view = View::home(Size::new(w, h)).unwrap();
+            let width: f64 = view.width().to_num();
+            let height = width * f64::from(h) / f64::from(w);
+            assert!(width >= 3.0 && height >= 2.499, "{width} {height}");
+            assert!(width < 3.0001 || height < 2.5001, "{width} {height}");
+        }
+    }
+
+    #[test]
+    fn narrowing_decides_the_circle_on_all_bits_and_rounds_to_nearest() {
+        let four = 4_i128 << 96;
+        let (mut inside, mut outside) = (0, 0);
+        let mut check = |x: i64, y: i64| {
+            let c = Complex::new(Wide::from_bits(x), Wide::from_bits(y));
+            let square = i128::from(x) * i128::from(x) + i128::from(y) * i128::from(y);
+            match narrow(c) {
+                None => {
+                    outside += 1;
+                    assert!(square > four, "{c:?}");
+                }
+                Some(word) => {
+                    inside += 1;
+                    assert!(square <= four && !is_beyond(word), "{c:?}");
+                    let limit = if square > four - (1 << 74) { 1 << 19 } else { 1 << 18 };
+                    for (v, w) in [(x, word.0), (y, word.1)] {
+                        assert!((v - (i64::from(w) << 19)).abs() <= limit, "{c:?} {word:?}");
+                    }
+                    let mirrored = Complex::new(-c.re, -c.im);
+                    assert_eq!(narrow(mirrored), Some((-word.0, -word.1)));
+                }
+            }
+        };
+        const TWO: i64 = 2 << 48;
+        for k in 0..2000 {
+            let (sin, cos) = (f64::from(k) / 2000.0 * core::f64::consts::TAU).sin_cos();
+            let (x, y) = ((cos * TWO as f64) as i64, (sin * TWO as f64) as i64);
+            for d in
+                [0, 1, 1 << 10, 1 << 17, 1 << 18, (1 << 18) + 1, 1 << 20, 1 << 22, 1 << 24, 1 << 33, 1 << 45]
+            {
+                for (a, b) in [(d, 0), (-d, 0), (0, d), (0, -d), (d, d), (-d, -d), (-d, d)] {
+                    check(x + a, y + b);
+                }
+            }
+        }
+        for v in [0, 1, -1, 1 << 18, -(1 << 18), (1 << 18) - 1, TWO / 3] {
+            check(v, v);
+        }
+        for v in [TWO, TWO + 1, -TWO, -TWO - 1, i64::MAX, i64::MIN + 1, 1 << 62] {
+            if v.abs() < 1 << 60 {
+                check(v, 0);
+            } else {
+                assert_eq!(narrow(Complex::new(Wide::ZERO, Wide::from_bits(v))), None);
+            }
+        }
+        assert!(inside > 1000 && outside > 1000);
+    }
 }
