@@ -81,8 +81,9 @@ impl Julia {
 
     /// The dwell of the orbit that starts at any point of the plane.
     ///
-    /// Domain: all. Result: iterations. Error: none for the nearest start with 29 fractional bits as long as the orbit's rounding does not
-    /// matter; how often it does: `julia_sets_agree_with_float`.
+    /// Domain: all. Result: iterations. Error: the start is the nearest point with 29 fractional bits and every step is rounded, which shows where
+    /// the orbit is chaotic: of six sets at 200 iterations four agree with `f64` at all of 40000 pixels, two differ at 1 in 1000
+    /// (`julia_sets_agree_with_float`). Cost: see [`Precision`].
     #[inline]
     pub fn dwell_at(&self, s: Complex<Wide>) -> Dwell {
         let count = narrow(s).map_or(0, |s| self.precision.dwell(s, self.constant, self.max));

