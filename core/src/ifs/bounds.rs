@@ -136,7 +136,8 @@ impl<'a> Search<'a> {
         let mut bounds = self.hull;
         let widened = |side: Real, by: i64, low: Real, high: Real| {
             let bits = i64::from(side.to_bits()) + by;
-            Real::from_bits(bits.clamp(i64::from(low.to_bits()), i64::from(high.to_bits())) as i32)
+            // not `clamp`, which would have to prove that low <= high
+            Real::from_bits(bits.max(i64::from(low.to_bits())).min(i64::from(high.to_bits())) as i32)
         };
         let disc = disc_box(self.disc);
         bounds.min.x = widened(bounds.min.x, -self.deviation, disc.min.x, disc.max.x);
@@ -247,6 +248,8 @@ mod tests {
             (&catalogue::KOCH_CURVE, [0.0, 1.0, 0.0, root3 / 6.0]),
             (&catalogue::HEIGHWAY_DRAGON, [-1.0 / 3.0, 7.0 / 6.0, -1.0 / 3.0, 2.0 / 3.0]),
             (&catalogue::LEVY_C_CURVE, [-0.5, 1.5, -0.25, 1.0]),
+            // as published, to four decimals
+            (&catalogue::BARNSLEY_FERN, [-2.1820, 2.6558, 0.0, 9.9983]),
             // the powers of i - 1 turn full circle in 8 steps, by a factor of 16: sums of geometric series
             (&catalogue::TWINDRAGON, [-13.0 / 15.0, 7.0 / 15.0, -14.0 / 15.0, 11.0 / 15.0]),
         ] {
