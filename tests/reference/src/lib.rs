@@ -1,1 +1,10 @@
-//! Reference.
+//! The fractals of attractor in `f64`, written for clarity from the source texts and independent of the fixed-point kernel:
+//! the yardstick that says how wrong every fixed-point result is.
+//!
+//! Every transcendental comes from `libm`, so the bits are the same on every platform. Functions assert on bad input.
+
+mod double_double;
+mod fif;
+mod polynomial;
+
+pub use fif::{Fif, Map};
