@@ -3,8 +3,11 @@
 //!
 //! Every transcendental comes from `libm`, so the bits are the same on every platform. Functions assert on bad input.
 
+mod calculus;
+mod compose;
 mod double_double;
 mod fif;
 mod polynomial;
 
+pub use compose::Composite;
 pub use fif::{Fif, Map};
