@@ -57,10 +57,10 @@ impl Fif {
         }
         let knots = self.knots();
         let size = knots.iter().fold(1.0, |size: f64, knot| size.max(knot.1.abs()));
-        for j in 1..n {
+        for (j, &(x, left)) in knots.iter().enumerate().take(n).skip(1) {
             let right =
                 self.unit_q()[j].at(DoubleDouble::ZERO) + self.scaling(j) * DoubleDouble::from(self.first);
-            let (left, right) = (knots[j].1, right.value());
+            let right = right.value();
             if (left - right).abs() > JOIN * size {
                 return Err(format!(
                     "maps {} and {j} do not join: {left} and {right} at {}",
