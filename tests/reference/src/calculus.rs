@@ -62,11 +62,7 @@ impl Fif {
                 self.unit_q()[j].at(DoubleDouble::ZERO) + self.scaling(j) * DoubleDouble::from(self.first);
             let right = right.value();
             if (left - right).abs() > JOIN * size {
-                return Err(format!(
-                    "maps {} and {j} do not join: {left} and {right} at {}",
-                    j - 1,
-                    knots[j].0
-                ));
+                return Err(format!("maps {} and {j} do not join: {left} and {right} at {x}", j - 1));
             }
         }
         let q = (0..n).map(|j| self.unit_q()[j].derivative(self.width(j))).collect();

@@ -5,11 +5,17 @@
 
 mod bounds;
 mod calculus;
+mod camera;
 mod compose;
 mod double_double;
 mod fif;
+mod height_field;
 mod polynomial;
+mod vector;
 
 pub use bounds::{Bounds, Cell};
+pub use camera::{Camera, Ray};
 pub use compose::Composite;
 pub use fif::{Fif, Map};
+pub use height_field::{Hit, Trace, leaf_normal, trace};
+pub use vector::Vector;
