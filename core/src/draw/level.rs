@@ -2,7 +2,9 @@
 //!
 //! Format: 16 bits, `0..=65535` for `0..=1`.
 
+use crate::escape::Dwell;
 use crate::num::Real;
+use crate::trace::Tone;
 
 /// A fraction from 0 to 1 in steps of 1/65535.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -101,6 +103,31 @@ impl Leveled for u8 {
     #[inline]
     fn count(&self) -> u32 {
         u32::from(*self)
+    }
+}
+
+impl Leveled for Tone {
+    #[inline]
+    fn level(&self) -> Level {
+        Level(self.0)
+    }
+}
+
+/// The level is the share of the limit; a point that never escaped is inside.
+impl Leveled for Dwell {
+    #[inline]
+    fn level(&self) -> Level {
+        Level::ratio(self.count, self.max)
+    }
+
+    #[inline]
+    fn count(&self) -> u32 {
+        self.count
+    }
+
+    #[inline]
+    fn is_inside(&self) -> bool {
+        Dwell::is_inside(*self)
     }
 }
 
