@@ -1,1 +1,3 @@
-//! What the tests share.
+//! What the tests and the command share: the table of promises about accuracy.
+
+pub mod accuracy;

@@ -32,6 +32,9 @@
     )
 )]
 
+#[cfg(test)]
+extern crate std;
+
 pub mod draw;
 mod error;
 pub mod escape;

@@ -175,6 +175,33 @@ impl Window {
         let row = scaled(down, self.y).min(self.size.height - 1);
         Some(Point::new(column as i32, row as i32))
     }
+
+    /// Column and row of `p` in the raster continued over the whole plane: inside the window as [`Window::pixel`], below 2^47 everywhere.
+    pub fn raster(&self, p: Point2) -> (i64, i64) {
+        let bits = |r: Real| i64::from(r.to_bits());
+        let (min, max) = (self.bounds.min, self.bounds.max);
+        let width = bits(max.x) - bits(min.x);
+        let height = bits(max.y) - bits(min.y);
+        (
+            continued(bits(p.x) - bits(min.x), width, self.x, self.size.width),
+            continued(bits(max.y) - bits(p.y), height, self.y, self.size.height),
+        )
+    }
+}
+
+/// The pixel at a signed distance from the first pixel's edge; the far edge itself belongs to the last pixel.
+fn continued(distance: i64, extent: i64, (mantissa, shift): (u32, u32), pixels: u32) -> i64 {
+    // |distance| < 2^32
+    let product = distance.unsigned_abs().wrapping_mul(u64::from(mantissa));
+    let shift = shift & 63;
+    if distance < 0 {
+        // floor of a negative quotient
+        -(((product.wrapping_sub(1) >> shift) as i64).wrapping_add(1))
+    } else if distance <= extent {
+        ((product >> shift) as i64).min(i64::from(pixels) - 1)
+    } else {
+        ((product >> shift) as i64).max(i64::from(pixels))
+    }
 }
 
 fn saturate(bits: i64) -> Real {

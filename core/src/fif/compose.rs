@@ -41,6 +41,12 @@ impl<const D: usize> Composite<D> {
         twice_high(y, self.scaling).wrapping_add(self.q.at(u))
     }
 
+    /// The interval that the whole domain is sent to, in the unit abscissa, truncated to the format (figure 2).
+    pub fn interval(&self) -> (Real, Real) {
+        let end = self.start.wrapping_add(self.width);
+        (Real::from_bits((self.start >> 39) as i32), Real::from_bits((end >> 39) as i32))
+    }
+
     /// The vertical scaling of the composition, truncated.
     pub fn vertical_scaling(&self) -> Scaling {
         Scaling::from_bits((self.scaling >> 32) as i32)

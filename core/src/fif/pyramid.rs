@@ -158,7 +158,7 @@ impl<'a> Pyramid<'a> {
         let whole = crate::num::Reciprocal::of(self.width);
         let unit = |x: crate::num::Wide| {
             let distance = i128::from(x.to_bits()) - i128::from(self.x0);
-            whole.quotient(distance.clamp(0, i128::from(self.width)) as u64) >> 32
+            whole.quotient(distance.max(0).min(i128::from(self.width)) as u64) >> 32
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let mut hull = (Real::MAX, Real::MIN);

@@ -57,7 +57,7 @@ impl<const N: usize, const D: usize> Factor<N, D> {
     fn means(&self, a: Wide, b: Wide) -> (i64, i64) {
         let (a, b) = (a.min(b), a.max(b));
         let (low, high) = self.value.domain();
-        let (a, b) = (a.clamp(low, high), b.clamp(low, high));
+        let (a, b) = (a.max(low).min(high), b.max(low).min(high));
         let (u, v) = (self.value.unit(a), self.value.unit(b));
         let length = i128::from(b.to_bits()) - i128::from(a.to_bits());
         if length == 0 {

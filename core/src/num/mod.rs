@@ -9,6 +9,7 @@
 //!
 //! Ranges are checked in constructors; after that no operation of a kernel can wrap visibly.
 
+mod exponential;
 mod polynomial;
 mod random;
 mod root;
@@ -16,6 +17,7 @@ mod trig;
 mod vector;
 mod wide;
 
+pub use exponential::exp_minus;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
 pub use random::Alias;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};

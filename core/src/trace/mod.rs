@@ -1,1 +1,21 @@
-//! Room.
+//! A scanline ray caster for height fields: one row of a picture at a time, front to back through two pyramids of cells.
+//!
+//! What a pixel shows is defined in CONTRIBUTING.md ("The picture of a height field, defined"); the f64 reference implements the same page.
+//!
+//! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", 2000, section 4.
+
+mod camera;
+mod environment;
+mod height_field;
+mod material;
+mod ray;
+mod ray_caster;
+mod sampling;
+
+pub use camera::Camera;
+pub use environment::Environment;
+pub use height_field::{HeightField, Hit, Statistics};
+pub use material::{Light, Material};
+pub use ray::Ray;
+pub use ray_caster::{RayCaster, Row, Tone};
+pub use sampling::{Filter, Sampling};

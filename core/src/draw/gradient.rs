@@ -1,0 +1,157 @@
+//! A gradient: piecewise linear through colours at given levels.
+//!
+//! Between neighbouring stops `(p, c)` and `(q, d)` each channel is `c + (d - c) (x - p) / (q - p)`, rounded. The quotient is a product with a
+//! reciprocal prepared in the constructor, 24 bits wide. Interpolation is in the encoded (sRGB) channels: put enough stops where that matters.
+
+use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
+
+use crate::Error;
+use crate::draw::{Level, Leveled, Palette};
+
+/// A palette that runs through `N` colours.
+///
+/// Result: exact at the stops, constant outside the first and the last; error below one step of a channel between them
+/// (`a_gradient_stays_within_a_step_of_the_exact_line`). Values inside the set are black.
+/// Cost: a walk along the stops up to the level, and 4 multiplications.
+///
+/// ```
+/// use attractor::draw::{Gradient, Level, Palette, hex};
+///
+/// const SUNSET: Gradient<3> = Gradient::evenly([hex(0x2d1e4f), hex(0xd1495b), hex(0xfff3b0)]);
+/// assert_eq!(SUNSET.rgb(Level::ZERO), hex(0x2d1e4f));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Gradient<const N: usize> {
+    stops: [Stop; N],
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stop {
+    at: u16,
+    rgb: Rgb888,
+    /// `2^24 / distance` to the next stop, rounded down.
+    slope: u32,
+}
+
+impl<const N: usize> Gradient<N> {
+    /// Through colours at strictly increasing levels.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] without a stop, [`Error::KnotsNotIncreasing`] where a level is not above the one before it.
+    pub const fn new(colors: [(Level, Rgb888); N]) -> Result<Self, Error> {
+        if N == 0 {
+            return Err(Error::TooFew { what: "stops of a gradient", given: 0, at_least: 1 });
+        }
+        let mut stops = [Stop { at: 0, rgb: Rgb888::new(0, 0, 0), slope: 0 }; N];
+        let mut i = 0;
+        while i < N {
+            let (Level(at), rgb) = colors[i];
+            let mut slope = 0;
+            if i + 1 < N {
+                let next = colors[i + 1].0.0;
+                if next <= at {
+                    return Err(Error::KnotsNotIncreasing { index: i + 1 });
+                }
+                slope = match (1_u32 << 24).checked_div((next - at) as u32) {
+                    Some(slope) => slope,
+                    None => 0,
+                };
+            }
+            stops[i] = Stop { at, rgb, slope };
+            i += 1;
+        }
+        Ok(Self { stops })
+    }
+
+    /// Through colours at equal distances, the first at 0 and the last at 1. `N` from 1 to 256 is checked at compile time.
+    pub const fn evenly(colors: [Rgb888; N]) -> Self {
+        const { assert!(N >= 1 && N <= 256, "a gradient has 1 to 256 colours") };
+        let mut stops = [Stop { at: 0, rgb: Rgb888::new(0, 0, 0), slope: 0 }; N];
+        let mut i = 0;
+        while i < N {
+            let Level(at) = Level::ratio(i as u32, (N - 1) as u32);
+            let distance = Level::ratio(i as u32 + 1, (N - 1) as u32).0 as u32 - at as u32;
+            let slope = match (1_u32 << 24).checked_div(distance) {
+                Some(slope) => slope,
+                None => 0,
+            };
+            stops[i] = Stop { at, rgb: colors[i], slope };
+            i += 1;
+        }
+        Self { stops }
+    }
+
+    /// The colour at `level`.
+    pub fn at(&self, level: Level) -> Rgb888 {
+        let mut below: Option<&Stop> = None;
+        for stop in &self.stops {
+            if level.0 < stop.at {
+                return below.map_or(stop.rgb, |below| below.towards(stop.rgb, level.0));
+            }
+            below = Some(stop);
+        }
+        below.map_or(Rgb888::BLACK, |last| last.rgb)
+    }
+}
+
+impl Stop {
+    fn towards(&self, next: Rgb888, level: u16) -> Rgb888 {
+        // below 2^24, since level - at < distance; then 16 fractional bits
+        let fraction = (u32::from(level.wrapping_sub(self.at)).wrapping_mul(self.slope) >> 8) as i32;
+        let mix = |a: u8, b: u8| {
+            let (a, b) = (i32::from(a), i32::from(b));
+            (a + (((b - a) * fraction + (1 << 15)) >> 16)) as u8
+        };
+        let rgb = self.rgb;
+        Rgb888::new(mix(rgb.r(), next.r()), mix(rgb.g(), next.g()), mix(rgb.b(), next.b()))
+    }
+}
+
+impl<V: Leveled, const N: usize> Palette<V> for Gradient<N> {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        if value.is_inside() { Rgb888::BLACK } else { self.at(value.level()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::hex;
+
+    #[test]
+    fn a_gradient_stays_within_a_step_of_the_exact_line() {
+        let stops = [(100_u16, 0x10_u8), (101, 0xff), (700, 0x03), (40_000, 0xf0), (65_000, 0)];
+        let gradient =
+            Gradient::new(stops.map(|(at, grey)| (Level(at), Rgb888::new(grey, 0, 255 - grey)))).unwrap();
+        for pair in stops.windows(2) {
+            let [(p, c), (q, d)] = pair else { continue };
+            assert_eq!(gradient.at(Level(*p)).r(), *c);
+            for level in *p..*q {
+                let (p, q, c, d) = (i64::from(*p), i64::from(*q), i64::from(*c), i64::from(*d));
+                let exact = c * (q - p) + (d - c) * (i64::from(level) - p);
+                let rgb = gradient.at(Level(level));
+                assert!((i64::from(rgb.r()) * (q - p) - exact).abs() < q - p, "{level}");
+                assert!((i64::from(rgb.r()) + i64::from(rgb.b()) - 255).abs() <= 1);
+            }
+        }
+        assert_eq!(gradient.at(Level::ZERO).r(), 0x10);
+        assert_eq!(gradient.at(Level::FULL).r(), 0);
+    }
+
+    #[test]
+    fn stops_must_increase() {
+        let stop = |at| (Level(at), Rgb888::BLACK);
+        assert_eq!(Gradient::new([stop(1), stop(5), stop(5)]), Err(Error::KnotsNotIncreasing { index: 2 }));
+        assert!(matches!(Gradient::<0>::new([]), Err(Error::TooFew { .. })));
+    }
+
+    #[test]
+    fn even_stops_reach_from_0_to_1() {
+        let gradient = Gradient::evenly([hex(0), hex(0x0000ff), hex(0xff0000)]);
+        assert_eq!(gradient.at(Level::ZERO), hex(0));
+        assert_eq!(gradient.at(Level(32768)), hex(0x0000ff));
+        assert_eq!(gradient.at(Level::FULL), hex(0xff0000));
+        assert_eq!(Gradient::evenly([hex(0x123456)]).at(Level(9)), hex(0x123456));
+    }
+}

@@ -1,0 +1,220 @@
+//! Ink: from a display-independent colour to what a display can show.
+//!
+//! Displays with 5 bits a channel or more get the nearest colour. Black-and-white and 4 or 16 greys get ordered dithering (B. E. Bayer, "An
+//! optimum method for two-level rendition of continuous-tone pictures", ICC 1973) with the 8 x 8 matrix. The decision depends on the
+//! colour and on the pixel's position in its picture alone, so that parts drawn at different times fit together.
+//!
+//! Grey is the luma of ITU-R BT.601, as in embedded-graphics.
+
+use embedded_graphics_core::geometry::Point;
+use embedded_graphics_core::pixelcolor::{
+    Bgr555, Bgr565, Bgr666, Bgr888, BinaryColor, Gray2, Gray4, Gray8, PixelColor, Rgb555, Rgb565, Rgb666,
+    Rgb888, RgbColor,
+};
+
+/// A colour that a display can show.
+///
+/// A three-colour e-paper, outside this crate:
+///
+/// ```
+/// use attractor::draw::{Ink, dithered, luma};
+/// use embedded_graphics::{geometry::Point, pixelcolor::{PixelColor, Rgb888, RgbColor, raw::RawU2}};
+///
+/// #[derive(Clone, Copy, PartialEq, Debug)]
+/// enum TriColor { White, Black, Red }
+///
+/// impl PixelColor for TriColor {
+///     type Raw = RawU2;
+/// }
+///
+/// impl Ink for TriColor {
+///     fn ink(rgb: Rgb888, at: Point) -> Self {
+///         if rgb.r() > 128 && rgb.g() < 64 {
+///             Self::Red
+///         } else if dithered(luma(rgb), 1, at) == 0 {
+///             Self::Black
+///         } else {
+///             Self::White
+///         }
+///     }
+/// }
+///
+/// assert_eq!(TriColor::ink(Rgb888::RED, Point::zero()), TriColor::Red);
+/// assert_eq!(TriColor::ink(Rgb888::WHITE, Point::zero()), TriColor::White);
+/// ```
+pub trait Ink: PixelColor {
+    /// The closest this colour comes to `rgb` at the position `at`, counted from the top left of the picture.
+    fn ink(rgb: Rgb888, at: Point) -> Self;
+}
+
+/// The luma of ITU-R BT.601, `0.299 R + 0.587 G + 0.114 B`, in 8 bits.
+#[inline]
+pub fn luma(rgb: Rgb888) -> u8 {
+    let sum = u32::from(rgb.r()) * 77 + u32::from(rgb.g()) * 150 + u32::from(rgb.b()) * 29;
+    ((sum + 128) >> 8) as u8
+}
+
+/// The 8 x 8 matrix, row by row: the bits of `x ^ y` and `y`, interleaved from the lowest down.
+const BAYER: [u8; 64] = {
+    let mut matrix = [0; 64];
+    let mut i = 0_usize;
+    while i < 64 {
+        let (x, y) = (i as u8 & 7, i as u8 >> 3);
+        let mut value = 0;
+        let mut bit = 0;
+        while bit < 3 {
+            value = value << 2 | (((x ^ y) >> bit) & 1) << 1 | ((y >> bit) & 1);
+            bit += 1;
+        }
+        matrix[i] = value;
+        i += 1;
+    }
+    matrix
+};
+
+/// The threshold of Bayer's matrix at a position: each of `0..=63` once in every square of 8 x 8 pixels.
+#[inline]
+pub const fn bayer(at: Point) -> u8 {
+    // & 7 is the remainder for negative coordinates too; the index is at most 63
+    BAYER[(((at.y & 7) << 3) | (at.x & 7)) as usize & 63]
+}
+
+/// `value` (`0..=255`) as one of the levels `0..=max`, by ordered dithering.
+///
+/// Over every square of 8 x 8 pixels the mean of the levels is `max * value / 255` within 1/128 of a level
+/// (`the_density_of_the_dots_is_the_grey`); 0 and 255 are pure.
+#[inline]
+pub const fn dithered(value: u8, max: u8, at: Point) -> u8 {
+    let scaled = value as u32 * max as u32;
+    let (level, rest) = (scaled / 255, scaled % 255);
+    // of 64 positions, round(64 rest / 255) show the level above
+    let dots = (rest * 64 + 127) / 255;
+    level as u8 + ((bayer(at) as u32) < dots) as u8
+}
+
+impl Ink for BinaryColor {
+    #[inline]
+    fn ink(rgb: Rgb888, at: Point) -> Self {
+        if dithered(luma(rgb), 1, at) == 0 { Self::Off } else { Self::On }
+    }
+}
+
+impl Ink for Gray2 {
+    #[inline]
+    fn ink(rgb: Rgb888, at: Point) -> Self {
+        Self::new(dithered(luma(rgb), 3, at))
+    }
+}
+
+impl Ink for Gray4 {
+    #[inline]
+    fn ink(rgb: Rgb888, at: Point) -> Self {
+        Self::new(dithered(luma(rgb), 15, at))
+    }
+}
+
+impl Ink for Gray8 {
+    #[inline]
+    fn ink(rgb: Rgb888, _at: Point) -> Self {
+        Self::new(luma(rgb))
+    }
+}
+
+macro_rules! nearest {
+    ($($color:ty),*) => {$(
+        impl Ink for $color {
+            #[inline]
+            fn ink(rgb: Rgb888, _at: Point) -> Self {
+                rgb.into()
+            }
+        }
+    )*};
+}
+
+nearest!(Rgb555, Bgr555, Rgb565, Bgr565, Rgb666, Bgr666, Rgb888, Bgr888);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use embedded_graphics_core::pixelcolor::GrayColor;
+
+    fn grey(value: u8) -> Rgb888 {
+        Rgb888::new(value, value, value)
+    }
+
+    fn square() -> impl Iterator<Item = Point> {
+        (0..64).map(|i| Point::new(i & 7, i >> 3) + Point::new(-13, 5))
+    }
+
+    #[test]
+    fn the_matrix_is_bayers() {
+        let row = |y| core::array::from_fn::<u8, 8, _>(|x| bayer(Point::new(x as i32, y)));
+        assert_eq!(row(0), [0, 32, 8, 40, 2, 34, 10, 42]);
+        assert_eq!(row(1), [48, 16, 56, 24, 50, 18, 58, 26]);
+        assert_eq!(row(-1), [63, 31, 55, 23, 61, 29, 53, 21]);
+        assert_eq!(square().fold(0_u64, |seen, at| seen | 1 << bayer(at)), u64::MAX);
+    }
+
+    #[test]
+    fn the_density_of_the_dots_is_the_grey() {
+        for value in 0..=u8::MAX {
+            let mean =
+                |level: fn(Rgb888, Point) -> u32| square().map(|at| level(grey(value), at)).sum::<u32>();
+            let binary = mean(|rgb, at| u32::from(BinaryColor::ink(rgb, at).is_on()));
+            let gray2 = mean(|rgb, at| u32::from(Gray2::ink(rgb, at).luma()));
+            let gray4 = mean(|rgb, at| u32::from(Gray4::ink(rgb, at).luma()));
+            for (sum, max) in [(binary, 1), (gray2, 3), (gray4, 15)] {
+                // |sum / 64 - max value / 255| <= 1 / 128
+                let difference = (sum * 255).abs_diff(64 * max * u32::from(value));
+                assert!(2 * difference <= 255, "{value}: {sum} of {max}");
+            }
+        }
+        assert!(
+            square().all(|at| BinaryColor::ink(grey(255), at).is_on() && Gray4::ink(grey(0), at).luma() == 0)
+        );
+    }
+
+    #[test]
+    fn every_channel_is_rounded_to_the_nearest() {
+        for value in 0..=u8::MAX {
+            let nearest = |max: u32| ((u32::from(value) * max * 2 + 255) / 510) as u8;
+            let (five, six) = (nearest(31), nearest(63));
+            let at = Point::zero();
+            assert_eq!(Rgb565::ink(grey(value), at), Rgb565::new(five, six, five), "{value}");
+            assert_eq!(Bgr565::ink(grey(value), at), Bgr565::new(five, six, five));
+            assert_eq!(Rgb555::ink(grey(value), at), Rgb555::new(five, five, five));
+            assert_eq!(Bgr555::ink(grey(value), at), Bgr555::new(five, five, five));
+            assert_eq!(Rgb666::ink(grey(value), at), Rgb666::new(six, six, six));
+            assert_eq!(Bgr666::ink(grey(value), at), Bgr666::new(six, six, six));
+            assert_eq!(Gray8::ink(grey(value), at), Gray8::new(value));
+        }
+        let rgb = Rgb888::new(1, 2, 3);
+        assert_eq!(Rgb888::ink(rgb, Point::zero()), rgb);
+        assert_eq!(Bgr888::ink(rgb, Point::zero()), Bgr888::new(1, 2, 3));
+    }
+
+    #[test]
+    fn an_outsider_adds_a_colour_with_two_inks() {
+        #[derive(Clone, Copy, PartialEq, Debug)]
+        enum Paper {
+            White,
+            Black,
+            Red,
+        }
+        impl PixelColor for Paper {
+            type Raw = ();
+        }
+        impl Ink for Paper {
+            fn ink(rgb: Rgb888, at: Point) -> Self {
+                match (rgb.r().saturating_sub(rgb.g()) > 99, dithered(luma(rgb), 1, at)) {
+                    (true, _) => Self::Red,
+                    (false, 0) => Self::Black,
+                    (false, _) => Self::White,
+                }
+            }
+        }
+        assert_eq!(square().filter(|&at| Paper::ink(grey(64), at) == Paper::White).count(), 16);
+        assert_eq!(square().filter(|&at| Paper::ink(grey(64), at) == Paper::Black).count(), 48);
+        assert_eq!(Paper::ink(Rgb888::RED, Point::zero()), Paper::Red);
+    }
+}

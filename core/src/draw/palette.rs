@@ -1,0 +1,217 @@
+//! Palettes: from a value to a colour that knows no display.
+//!
+//! [`CourseUnit`] is the colouring of the course text (CS2401 Computer Graphics, unit V, 5.4.4, "Assigning colors according to the orbit's dwell"):
+//! red = green = `v^2`, blue = `v + 0.2` for `v = dwell / Num`, clamped to 1; points of the set are black.
+
+use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
+
+use crate::draw::{Cycled, Gradient, Level, Leveled, Ramp};
+
+/// Turns a value into a display-independent colour.
+///
+/// Every `Fn(V) -> Rgb888` is a palette, and a type of your own becomes one:
+///
+/// ```
+/// use attractor::draw::{Palette, Picture, hex};
+/// use embedded_graphics::pixelcolor::Rgb888;
+///
+/// /// Land above a water line.
+/// struct Atlas {
+///     water: i16,
+/// }
+///
+/// impl Palette<i16> for Atlas {
+///     fn rgb(&self, height: i16) -> Rgb888 {
+///         if height < self.water { hex(0x2a6f97) } else { hex(0x90a955) }
+///     }
+/// }
+///
+/// assert_eq!(Atlas { water: 3 }.rgb(2), hex(0x2a6f97));
+/// let stripes = |height: i16| if height & 1 == 0 { Rgb888::new(0, 0, 0) } else { Rgb888::new(255, 255, 255) };
+/// assert_eq!(stripes.rgb(2), hex(0x000000));
+/// ```
+///
+/// The palettes of this crate accept every [`Leveled`] value, paint values inside the set black, and are `Copy`. They also work by reference,
+/// and `&dyn Palette<V>` is a palette, for a choice at run time.
+pub trait Palette<V> {
+    /// The colour of `value`.
+    fn rgb(&self, value: V) -> Rgb888;
+}
+
+impl<V, F: Fn(V) -> Rgb888> Palette<V> for F {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        self(value)
+    }
+}
+
+impl<V> Palette<V> for &dyn Palette<V> {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        (**self).rgb(value)
+    }
+}
+
+/// A reference to a palette is a palette. (Not a blanket `impl for &P`: it would overlap with the one for closures.)
+macro_rules! by_reference {
+    ($([$($generics:tt)*] $name:ty, $value:ty;)*) => {$(
+        impl<$($generics)*> Palette<$value> for &$name
+        where
+            $name: Palette<$value>,
+        {
+            #[inline]
+            fn rgb(&self, value: $value) -> Rgb888 {
+                (**self).rgb(value)
+            }
+        }
+    )*};
+}
+
+by_reference! {
+    [V] CourseUnit, V;
+    [V] Grey, V;
+    [V, P] Inside<P>, V;
+    [V, P] Lifted<P>, V;
+    [V, P] Cycled<P>, V;
+    [V, const N: usize] Gradient<N>, V;
+    [V, const N: usize] Ramp<N>, V;
+}
+
+/// The colour `0xRRGGBB`.
+pub const fn hex(rgb: u32) -> Rgb888 {
+    Rgb888::new((rgb >> 16) as u8, (rgb >> 8) as u8, rgb as u8)
+}
+
+/// The course text's palette: dim blue near 0, through lilac to white; black inside the set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CourseUnit;
+
+impl<V: Leveled> Palette<V> for CourseUnit {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        if value.is_inside() {
+            return Rgb888::BLACK;
+        }
+        let v = u32::from(value.level().0);
+        // v^2 with 32 fractional bits; the largest is (1 - 2^-16)^2, rounded to 255 all the same
+        let square = ((v * v) >> 16) * 255;
+        let red = ((square + (1 << 15)) >> 16) as u8;
+        let blue = ((v * 255 + (1 << 15)) >> 16) as u8;
+        Rgb888::new(red, red, blue.saturating_add(51))
+    }
+}
+
+/// Black to white; black inside the set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Grey;
+
+impl<V: Leveled> Palette<V> for Grey {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        if value.is_inside() {
+            return Rgb888::BLACK;
+        }
+        // nearest of 256 levels: 255 / 65535 = 1 / 257
+        let grey = ((u32::from(value.level().0) + 128) / 257) as u8;
+        Rgb888::new(grey, grey, grey)
+    }
+}
+
+/// Another palette, with a colour of one's own for the inside of the set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Inside<P> {
+    palette: P,
+    color: Rgb888,
+}
+
+impl<P> Inside<P> {
+    /// Paints values inside the set in `color` and all others as `palette` does.
+    pub const fn new(palette: P, color: Rgb888) -> Self {
+        Self { palette, color }
+    }
+}
+
+impl<V: Leveled, P: Palette<V>> Palette<V> for Inside<P> {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        if value.is_inside() { self.color } else { self.palette.rgb(value) }
+    }
+}
+
+/// Another palette at the square root of the level: spreads the low levels, where most of a dwell picture lies.
+///
+/// Error: below one step of the level. Values inside the set stay black.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Lifted<P>(pub P);
+
+impl<V: Leveled, P: Palette<Level>> Palette<V> for Lifted<P> {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        if value.is_inside() {
+            return Rgb888::BLACK;
+        }
+        let root = (u32::from(value.level().0) * u32::from(u16::MAX)).isqrt();
+        self.0.rgb(Level(root as u16))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::gradients;
+
+    #[test]
+    fn the_course_text_palette_is_v_squared_v_squared_v_plus_a_fifth() {
+        for level in 0..=u16::MAX {
+            let exact = u64::from(level);
+            let square = (exact * exact * 255 * 2 + 65535 * 65535) / (2 * 65535 * 65535);
+            let blue = ((exact * 255 * 2 + 65535) / (2 * 65535) + 51).min(255);
+            let rgb = CourseUnit.rgb(Level(level));
+            assert!(
+                u64::from(rgb.r()).abs_diff(square) <= 1 && u64::from(rgb.b()).abs_diff(blue) <= 1,
+                "{level}"
+            );
+            assert_eq!(rgb.r(), rgb.g());
+        }
+        assert_eq!(CourseUnit.rgb(Level::ZERO), hex(0x000033));
+        assert_eq!(CourseUnit.rgb(Level::FULL), hex(0xffffff));
+        assert_eq!(CourseUnit.rgb(Option::<Level>::None), Rgb888::BLACK);
+    }
+
+    #[test]
+    fn grey_inverts_the_scale_of_8_bits() {
+        for value in 0..=u8::MAX {
+            assert_eq!(Grey.rgb(value), Rgb888::new(value, value, value));
+        }
+    }
+
+    #[test]
+    fn the_inside_has_a_colour_of_its_own() {
+        let palette = Inside::new(Grey, Rgb888::RED);
+        assert_eq!(palette.rgb(None::<u8>), Rgb888::RED);
+        assert_eq!(palette.rgb(Some(7_u8)), Grey.rgb(7_u8));
+    }
+
+    #[test]
+    fn lifting_keeps_the_ends_and_halves_a_quarter() {
+        let lifted = Lifted(|level: Level| hex(u32::from(level.0)));
+        assert_eq!(lifted.rgb(Level::ZERO), hex(0));
+        assert_eq!(lifted.rgb(Level::FULL), hex(65535));
+        assert_eq!(lifted.rgb(Level(1 << 14)), hex((1 << 15) - 1));
+        assert_eq!(lifted.rgb(None::<Level>), Rgb888::BLACK);
+    }
+
+    #[test]
+    fn closures_references_and_trait_objects_are_palettes() {
+        fn first<V: Default, P: Palette<V>>(palette: P) -> Rgb888 {
+            palette.rgb(V::default())
+        }
+        let closure = |value: u8| hex(u32::from(value));
+        assert_eq!(first::<u8, _>(closure), Rgb888::BLACK);
+        assert_eq!(first::<u8, _>(&closure), Rgb888::BLACK);
+        assert_eq!(first::<u8, _>(&CourseUnit), hex(0x33));
+        assert_eq!(first::<u8, _>(&gradients::FIRE), first::<u8, _>(gradients::FIRE));
+        let choice: [&dyn Palette<u8>; 2] = [&Grey, &closure];
+        assert_eq!(choice.map(|palette| palette.rgb(255)), [Rgb888::WHITE, Rgb888::BLUE]);
+    }
+}

@@ -1,0 +1,167 @@
+//! The invariant disc: a disc that every map of a system sends into itself, so that the attractor and each orbit lie in it.
+//!
+//! With `s_i` a bound of the contraction of `w_i`, `|w_i(p) - z| <= s_i |p - z| + |w_i(z) - z|`; so the disc about `z` with
+//! `r = max_i |w_i(z) - z| / (1 - s_i)` is invariant. `r` is a convex function of `z`, and going towards the fixed point of the map that decides
+//! lowers that map's share in proportion: steps of `1/2, 1/3, 1/4 ..` settle near the least radius, as in M. Badoiu and K. L. Clarkson,
+//! "Smaller core-sets for balls", 2003.
+//! Rounding: maps round each coordinate by half a unit, which moves a point by less than one unit; one unit is added to `|w_i(z) - z|`.
+
+use super::affine::{Affine, hypotenuse};
+use crate::Error;
+use crate::num::{Real, Unit, Wide};
+use crate::picture::Point2;
+
+/// How far from the axes an invariant disc may reach: half the range of [`Real`].
+pub(super) const REACH: i64 = 64 << 24;
+
+/// How often the centre is moved.
+const STEPS: u8 = 32;
+
+/// A disc of the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Disc {
+    /// Its centre.
+    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
+    pub centre: Point2,
+    /// Its radius.
+    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
+    pub radius: Real,
+}
+
+impl Disc {
+    /// An invariant disc of contractions, whose contraction factors are given, that reaches no farther than 64 from the axes.
+    ///
+    /// Cost: 33 square roots and divisions for each map.
+    pub(super) fn invariant(maps: &[Affine], factors: &[Unit]) -> Result<Self, Error> {
+        let mut sum = [0_i64; 2];
+        for (index, map) in maps.iter().enumerate() {
+            let p = fixed_point(map, index)?;
+            sum = [sum[0] + i64::from(p.x.to_bits()), sum[1] + i64::from(p.y.to_bits())];
+        }
+        let count = i64::try_from(maps.len()).unwrap_or(i64::MAX);
+        let mut centre = sum.map(|s| s.checked_div(count).unwrap_or(0));
+        let (mut best, mut worst) = radius_about(centre, maps, factors);
+        let mut best_centre = centre;
+        let mut best_worst = worst;
+        for step in 0..STEPS {
+            let Some(map) = maps.get(worst) else { break };
+            let p = fixed_point(map, worst)?;
+            let target = [i64::from(p.x.to_bits()), i64::from(p.y.to_bits())];
+            for (z, t) in centre.iter_mut().zip(target) {
+                *z += (t - *z) / (i64::from(step) + 2);
+            }
+            let radius;
+            (radius, worst) = radius_about(centre, maps, factors);
+            if radius < best {
+                (best, best_centre, best_worst) = (radius, centre, worst);
+            }
+        }
+        let reach = best_centre.iter().map(|z| z.abs()).max().unwrap_or(0).saturating_add(best);
+        if reach > REACH {
+            return Err(out_of_range("reach of the invariant disc", best_worst, reach));
+        }
+        // reach <= 2^30: both fit
+        let [x, y] = best_centre.map(|z| Real::from_bits(z as i32));
+        Ok(Self { centre: Point2::new(x, y), radius: Real::from_bits(best as i32) })
+    }
+
+    /// How far the disc reaches from the axes, in each direction, with 24 fractional bits.
+    pub(super) fn reach(&self) -> [i64; 2] {
+        [self.centre.x, self.centre.y]
+            .map(|z| i64::from(z.to_bits()).abs() + i64::from(self.radius.to_bits()))
+    }
+}
+
+/// The radius of the least invariant disc about `z` that the estimate gives, rounded up, and the map that decides it.
+fn radius_about([x, y]: [i64; 2], maps: &[Affine], factors: &[Unit]) -> (i64, usize) {
+    let mut worst = (0, 0);
+    for (index, (map, factor)) in maps.iter().zip(factors).enumerate() {
+        // coefficients are below 1 and |z| <= 64, |t| <= 128: below 2^62
+        let moved = |l: Unit, m: Unit, t: Real, z: i64| {
+            let exact = i64::from(l.to_bits()) * x
+                + i64::from(m.to_bits()) * y
+                + ((i64::from(t.to_bits()) - z) << 30);
+            // away from zero to 24 bits; beyond 2^31 the radius is too large anyhow
+            (exact.abs() >> 30).saturating_add(1).min(1 << 31)
+        };
+        let distance = hypotenuse(moved(map.a, map.b, map.e, x), moved(map.c, map.d, map.f, y)) + 1;
+        let gap = (1_i64 << 30).saturating_sub(i64::from(factor.to_bits())).max(0) as u64;
+        // distance < 2^33
+        let radius =
+            (distance << 30).checked_div(gap).map_or(i64::MAX, |r| i64::try_from(r + 1).unwrap_or(i64::MAX));
+        if radius > worst.0 {
+            worst = (radius, index);
+        }
+    }
+    worst
+}
+
+fn fixed_point(map: &Affine, index: usize) -> Result<Point2, Error> {
+    let far = |p: Point2| {
+        let [x, y] = [p.x, p.y].map(|z| i64::from(z.to_bits()).abs());
+        x.max(y)
+    };
+    match map.fixed_point() {
+        Some(p) if far(p) <= REACH => Ok(p),
+        other => Err(out_of_range("fixed point of the map", index, other.map_or(i64::MAX, far))),
+    }
+}
+
+fn out_of_range(what: &'static str, index: usize, bits: i64) -> Error {
+    let value = Wide::from_bits(bits.saturating_mul(1 << 24));
+    let max = Wide::from_bits(REACH << 24);
+    Error::OutOfRange { what, index, value, min: -max, max }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ifs::catalogue;
+
+    #[test]
+    fn an_invariant_disc_is_sent_into_itself() {
+        for attractor in catalogue::ALL {
+            let factors: heapless::Vec<_, 8> =
+                attractor.maps.iter().map(Affine::contraction_factor).collect();
+            let disc = Disc::invariant(attractor.maps, &factors).unwrap();
+            let r = disc.radius.to_num::<f64>();
+            let z = [disc.centre.x.to_num::<f64>(), disc.centre.y.to_num::<f64>()];
+            for map in attractor.maps {
+                for k in 0..360 {
+                    let angle = f64::from(k).to_radians();
+                    let on_the_rim = Point2::new(
+                        Real::from_num(z[0] + r * angle.cos()),
+                        Real::from_num(z[1] + r * angle.sin()),
+                    );
+                    let q = map.apply(on_the_rim);
+                    let far = (q.x.to_num::<f64>() - z[0]).hypot(q.y.to_num::<f64>() - z[1]);
+                    assert!(far <= r, "{}: {far} > {r}", attractor.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_square_lies_in_its_circumscribed_disc() {
+        let square =
+            [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[e, f]| Affine::from_ratios([1, 0, 0, 1, e, f], 2));
+        let disc = Disc::invariant(&square, &[Unit::from_num(0.5); 4]).unwrap();
+        let radius = disc.radius.to_num::<f64>();
+        assert!(radius >= 0.5_f64.sqrt() && radius < 0.72, "{radius}");
+    }
+
+    #[test]
+    fn a_disc_that_leaves_the_range_is_refused() {
+        let far = Affine::from_thousandths([500, 0, 0, 500, 40_000, 0]);
+        let near = Affine::from_thousandths([500, 0, 0, 500, 0, 0]);
+        let error = Disc::invariant(&[near, far], &[Unit::from_num(0.5); 2]).unwrap_err();
+        assert!(matches!(error, Error::OutOfRange { index: 1, .. }), "{error}");
+        let slow = Affine::from_thousandths([999, 0, 0, 999, 0, 10]);
+        let slow_too = Affine::from_thousandths([999, 0, 0, 999, 0, -100]);
+        let factor = slow.contraction_factor();
+        let error = Disc::invariant(&[slow, slow_too], &[factor; 2]).unwrap_err();
+        assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+    }
+}

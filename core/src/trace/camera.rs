@@ -1,0 +1,86 @@
+//! A pinhole camera: where the eye is, where it looks, how wide.
+
+use crate::Error;
+use crate::num::{Angle, Real, Unit, Vec3, Wide, sin_cos};
+
+/// A pinhole camera.
+///
+/// The view's frame is `w = norm(look_at - eye)`, `r = norm(w x up)`, `u = r x w`; a ray through the picture at `(a, b)` half heights to the right of and
+/// above its centre has the direction `w + k (a r + b u)`, `k` the tangent of half the field of view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Camera {
+    pub(crate) eye: Vec3,
+    pub(crate) forward: Vec3<Unit>,
+    pub(crate) right: Vec3<Unit>,
+    pub(crate) up: Vec3<Unit>,
+    /// `k`, 28 fractional bits.
+    pub(crate) tangent: i32,
+}
+
+impl Camera {
+    /// A camera at `eye` that looks at `look_at`, with the vertical `field_of_view` in degrees.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an eye 64 or more from the origin along an axis or a field of view outside 1 to 120 degrees;
+    /// [`Error::Degenerate`] if the eye is where it looks, or looks along `up`.
+    pub fn new(eye: Vec3, look_at: Vec3, up: Vec3, field_of_view: Real) -> Result<Self, Error> {
+        for (index, c) in [eye.x, eye.y, eye.z].into_iter().enumerate() {
+            if c <= -64 || c >= 64 {
+                let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
+                return Err(Error::OutOfRange { what: "eye", index, value: c.into(), min, max });
+            }
+        }
+        if !(1..=120).contains(&field_of_view) {
+            let (min, max) = (Wide::from_num(1), Wide::from_num(120));
+            return Err(Error::OutOfRange {
+                what: "field of view",
+                index: 0,
+                value: field_of_view.into(),
+                min,
+                max,
+            });
+        }
+        let forward = look_at.minus(eye).normalised().ok_or(Error::Degenerate { what: "eye to look_at" })?;
+        let up = up.normalised().ok_or(Error::Degenerate { what: "up" })?;
+        let side = forward.cross(up);
+        // an `up` within 2^-10 of the view's direction leaves the frame undecided
+        if side.dot(side) < Unit::DELTA * 1024 {
+            return Err(Error::Degenerate { what: "angle between view and up" });
+        }
+        let right = side.normalised().ok_or(Error::Degenerate { what: "angle between view and up" })?;
+        // half the angle in turns: degrees / 720, with 32 fractional bits
+        let half = (i64::from(field_of_view.to_bits()) << 8) / 720;
+        let (sin, cos) = sin_cos(Angle::from_bits(half as u32));
+        let tangent = (i64::from(sin.to_bits()) << 28).checked_div(i64::from(cos.to_bits())).unwrap_or(0);
+        Ok(Self { eye, forward, right, up: right.cross(forward), tangent: tangent as i32 })
+    }
+
+    /// The same from f32 numbers, for firmware that moves a camera about: an eye at `distance` from `look_at`, `turn` radians about the vertical, `lift` radians above
+    /// the horizon. Sines and cosines are micromath's, good to `2e-3`.
+    ///
+    /// # Errors
+    /// As [`Camera::new`].
+    #[cfg(feature = "micromath")]
+    #[allow(
+        clippy::float_arithmetic,
+        reason = "set-up from user input, not a kernel; IEEE single precision gives the same bits everywhere"
+    )]
+    pub fn orbit(
+        look_at: [f32; 3],
+        distance: f32,
+        turn: f32,
+        lift: f32,
+        field_of_view: f32,
+    ) -> Result<Self, Error> {
+        use micromath::F32Ext as _;
+        let [x, y, z] = look_at;
+        let (level, height) = (distance * lift.cos(), distance * lift.sin());
+        let real = |v: f32| {
+            Real::checked_from_num(v)
+                .ok_or(Error::Degenerate { what: "a number of the orbit that is too large or not one" })
+        };
+        let eye = Vec3::new(real(x + level * turn.cos())?, real(y + level * turn.sin())?, real(z + height)?);
+        let up = Vec3::new(Real::ZERO, Real::ZERO, Real::ONE);
+        Self::new(eye, Vec3::new(real(x)?, real(y)?, real(z)?), up, real(field_of_view)?)
+    }
+}

@@ -1,0 +1,120 @@
+//! What surrounds a scene, infinitely far away: a tone for every direction.
+
+use crate::Error;
+use crate::num::{Real, Unit, Vec3, Wide, reciprocal};
+
+/// A tone for every direction: seen by rays that miss, and in a mirror.
+///
+/// Tones are in `[0, 1]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Environment {
+    /// One tone everywhere.
+    Plain(Unit),
+    /// From `horizon` to `zenith` with the sine of the elevation, to `nadir` downwards.
+    Gradient {
+        /// Straight up.
+        zenith: Unit,
+        /// At the horizon.
+        horizon: Unit,
+        /// Straight down.
+        nadir: Unit,
+    },
+    /// A ceiling and a floor at unit height with squares of side `1 / scale`, faded to `horizon` where the sine of the elevation falls below `fade`.
+    Checkerboard {
+        /// Tone of the even squares.
+        bright: Unit,
+        /// Tone of the odd squares.
+        dark: Unit,
+        /// Tone of the horizon.
+        horizon: Unit,
+        /// Squares a unit, `1/64` to 64.
+        scale: Real,
+        /// Where the fading starts, `1/64` to 1.
+        fade: Unit,
+    },
+}
+
+impl Environment {
+    /// A sky that brightens towards the zenith above a dark ground.
+    pub const SKY: Self = Self::Gradient {
+        zenith: Unit::from_bits(1 << 30),
+        horizon: Unit::from_bits(1 << 29),
+        nadir: Unit::from_bits(1 << 27),
+    };
+
+    /// Light and dark squares overhead and underfoot, as in figure 6.
+    pub const CHECKERBOARD: Self = Self::Checkerboard {
+        bright: Unit::from_bits(15 << 26),
+        dark: Unit::from_bits(3 << 26),
+        horizon: Unit::from_bits(1 << 29),
+        scale: Real::from_bits(1 << 24),
+        fade: Unit::from_bits(1 << 27),
+    };
+
+    /// Checks tones, scale and fade.
+    pub(crate) fn checked(self) -> Result<Self, Error> {
+        let tones = match self {
+            Self::Plain(tone) => [tone; 3],
+            Self::Gradient { zenith, horizon, nadir } => [zenith, horizon, nadir],
+            Self::Checkerboard { bright, dark, horizon, scale, fade } => {
+                between("scale of the checkerboard", 0, scale.into(), Wide::ONE >> 6, Wide::from_num(64))?;
+                between("fade of the checkerboard", 0, fade.into(), Wide::ONE >> 6, Wide::ONE)?;
+                [bright, dark, horizon]
+            }
+        };
+        for (index, tone) in tones.into_iter().enumerate() {
+            between("tone of the environment", index, tone.into(), Wide::ZERO, Wide::ONE)?;
+        }
+        Ok(self)
+    }
+
+    /// The tone in direction `e`, a unit vector. Result: in `[0, 1]`. Error: below `2^-26`, and a square's edge is off by less than `2^-15` of a square.
+    #[inline]
+    pub fn tone(&self, e: Vec3<Unit>) -> Unit {
+        match *self {
+            Self::Plain(tone) => tone,
+            Self::Gradient { zenith, horizon, nadir } => {
+                let (pole, part) = if e.z < 0 { (nadir, -e.z) } else { (zenith, e.z) };
+                mix(horizon, pole, part)
+            }
+            Self::Checkerboard { bright, dark, horizon, scale, fade } => {
+                let elevation = e.z.to_bits().unsigned_abs();
+                if elevation < 1 << 12 {
+                    // so near the horizon that less than 2^-12 of a square's tone is left
+                    return horizon;
+                }
+                let (mantissa, shift) = reciprocal(elevation);
+                let squares = |c: Unit| {
+                    // c / |e_z| with 16 fractional bits is below 2^34, times the scale with 16 bits below 2^57
+                    let ratio = (i64::from(c.to_bits()) * i64::from(mantissa)) >> (shift - 16);
+                    (ratio * i64::from(scale.to_bits() >> 8)) >> 32
+                };
+                let tone = if (squares(e.x) + squares(e.y)) & 1 == 0 { bright } else { dark };
+                if elevation >= fade.to_bits().unsigned_abs() {
+                    return tone;
+                }
+                let (mantissa, shift) = reciprocal(fade.to_bits().unsigned_abs());
+                let part = (i64::from(elevation) * i64::from(mantissa)) >> (shift - 30);
+                mix(horizon, tone, Unit::from_bits(part.min(1 << 30) as i32))
+            }
+        }
+    }
+}
+
+/// `from + (to - from) part`.
+#[inline]
+fn mix(from: Unit, to: Unit, part: Unit) -> Unit {
+    let difference = i64::from(to.to_bits()) - i64::from(from.to_bits());
+    from + Unit::from_bits(((difference * i64::from(part.to_bits())) >> 30) as i32)
+}
+
+pub(crate) fn between(
+    what: &'static str,
+    index: usize,
+    value: Wide,
+    min: Wide,
+    max: Wide,
+) -> Result<(), Error> {
+    if value < min || value > max { Err(Error::OutOfRange { what, index, value, min, max }) } else { Ok(()) }
+}

@@ -1,0 +1,120 @@
+//! How a surface answers light: diffuse, Phong, mirror.
+
+use super::environment::{Environment, between};
+use crate::Error;
+use crate::num::{Unit, Vec3, Wide};
+
+/// A light infinitely far away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Light {
+    towards: Vec3<Unit>,
+}
+
+impl Light {
+    /// A light in the direction `towards` (any length).
+    ///
+    /// # Errors
+    /// [`Error::Degenerate`] for the zero vector.
+    pub fn new(towards: Vec3) -> Result<Self, Error> {
+        let towards = towards.normalised().ok_or(Error::Degenerate { what: "direction of the light" })?;
+        Ok(Self { towards })
+    }
+}
+
+/// How a surface answers light. All parts are in `[0, 1]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Material {
+    /// `ambient + (1 - ambient) max(0, n . l)`.
+    Diffuse {
+        /// The part that is seen in the shade.
+        ambient: Unit,
+    },
+    /// `ambient + diffuse max(0, n . l) + specular max(0, m . l)^shininess`, `m` the mirrored ray.
+    Phong {
+        /// The part that is seen in the shade.
+        ambient: Unit,
+        /// The matt part.
+        diffuse: Unit,
+        /// The highlight.
+        specular: Unit,
+        /// Its exponent.
+        shininess: u16,
+    },
+    /// The environment in the direction of the mirrored ray.
+    Mirror,
+}
+
+impl Material {
+    /// Matt, an eighth of it ambient.
+    pub const DIFFUSE: Self = Self::Diffuse { ambient: Unit::from_bits(1 << 27) };
+    /// Half matt with a small bright highlight.
+    pub const PHONG: Self = Self::Phong {
+        ambient: Unit::from_bits(1 << 27),
+        diffuse: Unit::from_bits(1 << 29),
+        specular: Unit::from_bits(3 << 27),
+        shininess: 32,
+    };
+
+    pub(crate) fn checked(self) -> Result<Self, Error> {
+        let parts = match self {
+            Self::Diffuse { ambient } => [ambient, Unit::ZERO, Unit::ZERO],
+            Self::Phong { ambient, diffuse, specular, .. } => [ambient, diffuse, specular],
+            Self::Mirror => [Unit::ZERO; 3],
+        };
+        for (index, part) in parts.into_iter().enumerate() {
+            between("part of the material", index, part.into(), Wide::ZERO, Wide::ONE)?;
+        }
+        Ok(self)
+    }
+
+    /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points away is turned round.
+    ///
+    /// Result: in `[0, 1]`. Error: below `2^-24` for diffuse and Phong light with an exponent up to 64.
+    #[inline]
+    pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
+        let along = n.dot(d);
+        let (n, along) = if along > 0 { (Vec3::new(-n.x, -n.y, -n.z), -along) } else { (n, along) };
+        let lit = n.dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
+        let tone = match *self {
+            Self::Diffuse { ambient } => ambient + times(Unit::ONE - ambient, lit),
+            Self::Phong { ambient, diffuse, specular, shininess } => {
+                let highlight = mirrored(n, d, along).dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
+                // three parts of at most 1 each would leave the format
+                let matt = (ambient + times(diffuse, lit)).min(Unit::ONE);
+                matt.saturating_add(times(specular, power(highlight, shininess)))
+            }
+            Self::Mirror => environment.tone(mirrored(n, d, along)),
+        };
+        tone.clamp(Unit::ZERO, Unit::ONE)
+    }
+}
+
+/// `d - 2 (d . n) n`, each component inside ±1.
+#[inline]
+fn mirrored(n: Vec3<Unit>, d: Vec3<Unit>, along: Unit) -> Vec3<Unit> {
+    let component = |d: Unit, n: Unit| {
+        let twice = (i64::from(along.to_bits()) * i64::from(n.to_bits())) >> 29;
+        Unit::from_bits((i64::from(d.to_bits()) - twice).clamp(-(1 << 30), 1 << 30) as i32)
+    };
+    Vec3::new(component(d.x, n.x), component(d.y, n.y), component(d.z, n.z))
+}
+
+/// `base^exponent` by squaring, for a base in `[0, 1]`.
+#[inline]
+fn power(base: Unit, exponent: u16) -> Unit {
+    let (mut result, mut square, mut rest) = (Unit::ONE, base, exponent);
+    while rest > 0 {
+        if rest & 1 == 1 {
+            result = times(result, square);
+        }
+        square = times(square, square);
+        rest >>= 1;
+    }
+    result
+}
+
+#[inline]
+fn times(a: Unit, b: Unit) -> Unit {
+    Unit::from_bits(((i64::from(a.to_bits()) * i64::from(b.to_bits()) + (1 << 29)) >> 30) as i32)
+}

@@ -1,0 +1,293 @@
+//! The picture of a height field as a field of tones, row by row.
+//!
+//! The direction of a row's rays is carried along the row by addition, with 16 bits more than a ray uses.
+
+use core::iter::FusedIterator;
+use core::ops::Range;
+
+use embedded_graphics_core::geometry::Size;
+
+use super::Camera;
+use super::environment::Environment;
+use super::height_field::{HeightField, Statistics};
+use super::material::{Light, Material};
+use super::ray::Ray;
+use super::sampling::{Filter, Pattern, Sampling};
+use crate::Error;
+use crate::num::{Unit, Vec3, Wide, reciprocal_sqrt};
+use crate::picture::{Field, checked_size};
+
+/// Brightness of a pixel: 0 is black, 65535 white.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Tone(pub u16);
+
+/// A height field seen by a camera: a [`Field`] of [`Tone`]s.
+///
+/// ```
+/// use attractor::fif::{Cell, Fif, Knot, Pyramid};
+/// use attractor::num::{Real, Scaling, Vec3, Wide};
+/// use attractor::picture::Field;
+/// use attractor::trace::{Camera, HeightField, Material, RayCaster};
+/// use embedded_graphics_core::geometry::Size;
+///
+/// let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+/// let slope = Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.5); 2])?;
+/// let f = slope.integral::<2>(Wide::ZERO)?;
+/// let mut memory = [Cell::ZERO; Pyramid::cells(2, 6)];
+/// let pyramid = Pyramid::new(&f, 6, &mut memory)?;
+/// let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid)?;
+/// let at = |x: f32, y: f32, z: f32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+/// let camera = Camera::new(at(-3.0, -2.0, 5.0), at(1.0, 1.0, 1.0), at(0.0, 0.0, 1.0), Real::from_num(40))?;
+/// let picture = RayCaster::new(surface, camera, Size::new(64, 64))?.with_material(Material::Mirror)?;
+/// assert_eq!(picture.row(32, 0..64).count(), 64);
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct RayCaster<'a, const STACK: usize = 16> {
+    surface: HeightField<'a, STACK>,
+    camera: Camera,
+    size: Size,
+    material: Material,
+    light: Light,
+    environment: Environment,
+    pattern: Pattern,
+    /// Direction through the centre of the top left pixel, steps to the right and downwards: 44 fractional bits.
+    corner: [i64; 3],
+    right: [i64; 3],
+    down: [i64; 3],
+    /// Width of a sample's cone a unit of `t`.
+    footprint: Unit,
+}
+
+impl<'a, const STACK: usize> RayCaster<'a, STACK> {
+    /// A picture of `size` pixels with one sample each, diffuse, lit from the upper left front, under [`Environment::SKY`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a size of 0 or above [`crate::picture::MAX_SIDE`], or where the view is so wide that a ray's direction leaves ±4.
+    pub fn new(surface: HeightField<'a, STACK>, camera: Camera, size: Size) -> Result<Self, Error> {
+        let size = checked_size(size)?;
+        let (cols, rows) = (i64::from(size.width), i64::from(size.height));
+        // |w| + k (cols / rows |r| + |u|) < 4
+        let reach = (i64::from(camera.tangent) * (cols + rows)).checked_div(rows).unwrap_or(i64::MAX);
+        if reach >= 3 << 28 {
+            return Err(Error::OutOfRange {
+                what: "tangent of the view, width plus height",
+                index: 0,
+                value: Wide::from_bits(reach.saturating_mul(1 << 20)),
+                min: Wide::ZERO,
+                max: Wide::from_num(3),
+            });
+        }
+        // one pixel: 2 k / rows, with 28 + 30 - 14 = 44 fractional bits for a direction cosine of 30
+        let step = |cosine: Unit| {
+            (i64::from(camera.tangent) * i64::from(cosine.to_bits())).checked_div(rows).unwrap_or(0) >> 13
+        };
+        let components = |v: Vec3<Unit>| [v.x, v.y, v.z];
+        let right = components(camera.right).map(step);
+        let down = components(camera.up).map(|c| -step(c));
+        let mut corner = components(camera.forward).map(|c| i64::from(c.to_bits()) << 14);
+        for ((c, r), d) in corner.iter_mut().zip(right).zip(down) {
+            *c -= (r * (cols - 1) + d * (rows - 1)) / 2;
+        }
+        // 2 k / rows with 30 fractional bits
+        let footprint =
+            (i64::from(camera.tangent) << 3).checked_div(rows).unwrap_or(0).min(i64::from(i32::MAX));
+        let light = Light::new(Vec3::new((-1).into(), (-2).into(), 3.into()))?;
+        Ok(Self {
+            surface,
+            camera,
+            size,
+            material: Material::DIFFUSE,
+            light,
+            environment: Environment::SKY,
+            pattern: Pattern::new(Sampling::Centre, Filter::Box)?,
+            corner,
+            right,
+            down,
+            footprint: Unit::from_bits(footprint as i32),
+        })
+    }
+
+    /// With this material.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a part outside `[0, 1]`.
+    pub fn with_material(mut self, material: Material) -> Result<Self, Error> {
+        self.material = material.checked()?;
+        Ok(self)
+    }
+
+    /// With this light.
+    #[must_use]
+    pub fn with_light(mut self, light: Light) -> Self {
+        self.light = light;
+        self
+    }
+
+    /// With these surroundings.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a tone outside `[0, 1]`, a scale or a fade outside their ranges.
+    pub fn with_environment(mut self, environment: Environment) -> Result<Self, Error> {
+        self.environment = environment.checked()?;
+        Ok(self)
+    }
+
+    /// With these samples a pixel.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for more than 8 samples a side, or none, or a filter outside its ranges.
+    pub fn with_sampling(mut self, sampling: Sampling, filter: Filter) -> Result<Self, Error> {
+        self.pattern = Pattern::new(sampling, filter)?;
+        Ok(self)
+    }
+
+    /// What the intersections of a whole picture cost: casts all its rays.
+    pub fn statistics(&self) -> Statistics {
+        let mut statistics = Statistics::default();
+        for y in 0..self.size.height {
+            for x in 0..self.size.width {
+                for (dx, dy, _) in self.pattern.samples(x, y) {
+                    let direction = self.offset(self.direction(x, y), dx, dy);
+                    let ray = Ray::from_bits(self.eye(), direction);
+                    let _ = self.surface.intersect_counted(&ray, self.sample_footprint(), &mut statistics);
+                }
+            }
+        }
+        statistics
+    }
+
+    /// The leaf that the ray through the centre of a pixel meets.
+    pub fn hit(&self, x: u32, y: u32) -> Option<super::Hit> {
+        let ray = Ray::from_bits(self.eye(), self.direction(x, y).map(narrow));
+        self.surface.intersect(&ray, self.sample_footprint())
+    }
+
+    fn eye(&self) -> [i32; 3] {
+        [self.camera.eye.x, self.camera.eye.y, self.camera.eye.z].map(|c| c.to_bits())
+    }
+
+    fn sample_footprint(&self) -> Unit {
+        Unit::from_bits(self.footprint.to_bits().checked_div(self.pattern.parts_a_side() as i32).unwrap_or(0))
+    }
+
+    /// The direction through the centre of pixel `(x, y)`, 44 fractional bits.
+    fn direction(&self, x: u32, y: u32) -> [i64; 3] {
+        let mut direction = self.corner;
+        for ((c, r), d) in direction.iter_mut().zip(self.right).zip(self.down) {
+            *c += r * i64::from(x) + d * i64::from(y);
+        }
+        direction
+    }
+
+    /// The direction moved by an offset in pixels (24 fractional bits), 28 fractional bits.
+    #[inline]
+    fn offset(&self, mut direction: [i64; 3], dx: i32, dy: i32) -> [i32; 3] {
+        if (dx, dy) != (0, 0) {
+            for ((c, r), d) in direction.iter_mut().zip(self.right).zip(self.down) {
+                // a step has at most 46 bits, an offset is at most 2 pixels
+                *c += ((r >> 8) * i64::from(dx) + (d >> 8) * i64::from(dy)) >> 16;
+            }
+        }
+        direction.map(narrow)
+    }
+
+    /// The tone of one ray.
+    #[inline]
+    fn tone(&self, direction: [i32; 3]) -> Unit {
+        let ray = Ray::from_bits(self.eye(), direction);
+        let hit = self.surface.intersect(&ray, self.sample_footprint());
+        // |d| < 4 in each component: the squares stay below 2^62
+        let square: i64 = direction.iter().map(|d| i64::from(*d) * i64::from(*d)).sum();
+        let d = unit(direction, square as u64);
+        match hit {
+            None => self.environment.tone(d),
+            Some(hit) => {
+                let n = hit.normal();
+                let bits = [n.x, n.y, n.z].map(|c| c.to_bits());
+                // |n| <= 64 in x and y
+                let square: i64 = bits.iter().map(|c| i64::from(*c) * i64::from(*c)).sum();
+                self.material.tone(unit(bits, square as u64), d, &self.light, &self.environment)
+            }
+        }
+    }
+
+    #[inline]
+    fn pixel(&self, x: u32, y: u32, direction: [i64; 3]) -> Tone {
+        let mut sum = 0_i64;
+        for (dx, dy, weight) in self.pattern.samples(x, y) {
+            sum += i64::from(self.tone(self.offset(direction, dx, dy)).to_bits()) * i64::from(weight);
+        }
+        let tone = (sum >> 30).clamp(0, 1 << 30);
+        Tone(((tone * 65535 + (1 << 29)) >> 30) as u16)
+    }
+}
+
+#[inline]
+fn narrow(direction: i64) -> i32 {
+    ((direction + (1 << 15)) >> 16) as i32
+}
+
+/// `v / sqrt(square)` with 30 fractional bits.
+#[inline]
+fn unit(v: [i32; 3], square: u64) -> Vec3<Unit> {
+    let (mantissa, shift) = reciprocal_sqrt(square);
+    let [x, y, z] = v.map(|c| Unit::from_bits(((i64::from(c) * i64::from(mantissa)) >> (shift - 30)) as i32));
+    Vec3::new(x, y, z)
+}
+
+/// The tones of one row from left to right.
+#[derive(Debug, Clone)]
+pub struct Row<'a, 'b, const STACK: usize> {
+    caster: &'b RayCaster<'a, STACK>,
+    y: u32,
+    x: Range<u32>,
+    direction: [i64; 3],
+}
+
+impl<'a, const STACK: usize> Field for RayCaster<'a, STACK> {
+    type Value = Tone;
+    type Row<'b>
+        = Row<'a, 'b, STACK>
+    where
+        Self: 'b;
+
+    fn size(&self) -> Size {
+        self.size
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> Row<'a, '_, STACK> {
+        Row { caster: self, y, direction: self.direction(x.start, y), x }
+    }
+}
+
+impl<const STACK: usize> Iterator for Row<'_, '_, STACK> {
+    type Item = Tone;
+
+    #[inline]
+    fn next(&mut self) -> Option<Tone> {
+        let x = self.x.next()?;
+        let tone = self.caster.pixel(x, self.y, self.direction);
+        for (c, r) in self.direction.iter_mut().zip(self.caster.right) {
+            *c += r;
+        }
+        Some(tone)
+    }
+
+    fn nth(&mut self, n: usize) -> Option<Tone> {
+        let skipped = n.min(self.x.len()) as u32;
+        self.x.start += skipped;
+        for (c, r) in self.direction.iter_mut().zip(self.caster.right) {
+            *c += r * i64::from(skipped);
+        }
+        self.next()
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.x.size_hint()
+    }
+}
+
+impl<const STACK: usize> ExactSizeIterator for Row<'_, '_, STACK> {}
+impl<const STACK: usize> FusedIterator for Row<'_, '_, STACK> {}

@@ -1,0 +1,156 @@
+//! Where in a pixel rays are cast, and what each counts (eq. 52-53).
+
+use heapless::Vec;
+
+use super::environment::between;
+use crate::Error;
+use crate::num::{Real, Unit, Wide, exp_minus};
+
+/// How many samples a pixel gets, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Sampling {
+    /// One ray through the centre.
+    Centre,
+    /// `n x n` rays through the centres of equal parts, `n` from 1 to 8.
+    Grid(u8),
+    /// `n x n` rays, each at random in its part; the same for the same seed and pixel.
+    Jittered {
+        /// Parts a side, 1 to 8.
+        n: u8,
+        /// Selects one of 2^32 patterns.
+        seed: u32,
+    },
+}
+
+/// The weight `w(u, v)` of the samples of a pixel; its sum is 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Filter {
+    /// Equal weights over the pixel.
+    Box,
+    /// Weights fall off with the distance `r` of a part's centre from the pixel's, `e^(-r^2 / (2 deviation^2))`, over an area `width` pixels wide.
+    Gaussian {
+        /// Standard deviation in pixels, 1/8 to 4.
+        deviation: Real,
+        /// Side of the area in pixels, 1 to 4.
+        width: Real,
+    },
+}
+
+/// Most parts a side.
+const MOST: usize = 8;
+
+/// Samples and weights, ready for use.
+#[derive(Debug, Clone)]
+pub(crate) struct Pattern {
+    /// Place of a part's centre from the pixel's centre, in pixels, 24 fractional bits, and weight of its row or column, 30 bits.
+    parts: Vec<(i32, i32), MOST>,
+    /// Side of a part in pixels, 24 fractional bits.
+    side: i32,
+    seed: Option<u32>,
+}
+
+impl Pattern {
+    pub(crate) fn new(sampling: Sampling, filter: Filter) -> Result<Self, Error> {
+        let (n, seed) = match sampling {
+            Sampling::Centre => (1, None),
+            Sampling::Grid(n) => (n, None),
+            Sampling::Jittered { n, seed } => (n, Some(seed)),
+        };
+        between("samples a side", 0, Wide::from_num(n), Wide::ONE, Wide::from_num(MOST as u8))?;
+        let width = match filter {
+            Filter::Box => Real::ONE,
+            Filter::Gaussian { deviation, width } => {
+                between("deviation of the filter", 0, deviation.into(), Wide::ONE >> 3, Wide::from_num(4))?;
+                between("width of the filter", 0, width.into(), Wide::ONE, Wide::from_num(4))?;
+                width
+            }
+        };
+        let count = i64::from(n);
+        let width = i64::from(width.to_bits());
+        let weigh = |place: i64| match filter {
+            Filter::Box => Unit::ONE,
+            Filter::Gaussian { deviation, .. } => {
+                let deviation = i64::from(deviation.to_bits()).max(1);
+                // (place / deviation)^2 / 2, below 2^8
+                let ratio = (place << 24) / deviation;
+                exp_minus(Real::from_bits(((ratio * ratio) >> 25).min(i64::from(i32::MAX)) as i32))
+            }
+        };
+        let place = |i: i64| (width * (2 * i + 1 - count)).checked_div(2 * count).unwrap_or(0);
+        let sum: i64 = (0..count).map(|i| i64::from(weigh(place(i)).to_bits())).sum();
+        let parts = (0..count).map(|i| {
+            let weight = (i64::from(weigh(place(i)).to_bits()) << 30).checked_div(sum).unwrap_or(0);
+            (place(i) as i32, weight as i32)
+        });
+        Ok(Self { parts: parts.collect(), side: width.checked_div(count).unwrap_or(0) as i32, seed })
+    }
+
+    /// Parts a side.
+    pub(crate) fn parts_a_side(&self) -> u32 {
+        self.parts.len() as u32
+    }
+
+    /// The samples of pixel `(x, y)`: offsets from its centre in pixels (24 fractional bits, y downwards) and weights (30 bits).
+    #[inline]
+    pub(crate) fn samples(&self, x: u32, y: u32) -> impl Iterator<Item = (i32, i32, i32)> + '_ {
+        let mut state = self.seed.map(|seed| hash(seed ^ hash(x.wrapping_add(hash(y)))));
+        self.parts.iter().flat_map(move |row| self.parts.iter().map(move |column| (row, column))).map(
+            move |(row, column)| {
+                let weight = ((i64::from(row.1) * i64::from(column.1)) >> 30) as i32;
+                let (mut dx, mut dy) = (column.0, row.0);
+                if let Some(state) = &mut state {
+                    *state = hash(state.wrapping_add(0x9e37_79b9));
+                    let jitter =
+                        |bits: u32| (((i64::from(bits) - 0x8000) * i64::from(self.side)) >> 16) as i32;
+                    dx += jitter(*state >> 16);
+                    dy += jitter(*state & 0xffff);
+                }
+                (dx, dy, weight)
+            },
+        )
+    }
+}
+
+/// A 32-bit finaliser with full avalanche (after M. D. Hoang's and C. Wellons' search for low bias).
+const fn hash(mut x: u32) -> u32 {
+    x ^= x >> 16;
+    x = x.wrapping_mul(0x7feb_352d);
+    x ^= x >> 15;
+    x = x.wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_add_up_to_one_and_offsets_stay_in_their_area() {
+        let gaussian = Filter::Gaussian { deviation: Real::from_num(0.5), width: Real::from_num(2) };
+        for (sampling, filter, reach) in [
+            (Sampling::Centre, Filter::Box, 0.0),
+            (Sampling::Grid(4), Filter::Box, 0.375),
+            (Sampling::Jittered { n: 8, seed: 7 }, Filter::Box, 0.5),
+            (Sampling::Jittered { n: 5, seed: 7 }, gaussian, 1.0),
+        ] {
+            let pattern = Pattern::new(sampling, filter).unwrap();
+            for (x, y) in [(0, 0), (3, 200), (16000, 1)] {
+                let samples: std::vec::Vec<_> = pattern.samples(x, y).collect();
+                let sum: i64 = samples.iter().map(|s| i64::from(s.2)).sum();
+                assert!((sum - (1 << 30)).abs() < 256, "{sum}");
+                let offset = |v: i32| f64::from(v) / f64::from(1 << 24);
+                assert!(samples.iter().all(|s| offset(s.0).abs() <= reach && offset(s.1).abs() <= reach));
+            }
+        }
+    }
+
+    #[test]
+    fn jitter_is_a_function_of_the_pixel_alone() {
+        let pattern = Pattern::new(Sampling::Jittered { n: 4, seed: 1 }, Filter::Box).unwrap();
+        let at = |x, y| pattern.samples(x, y).collect::<std::vec::Vec<_>>();
+        assert_eq!(at(5, 9), at(5, 9));
+        assert_ne!(at(5, 9), at(9, 5));
+    }
+}
