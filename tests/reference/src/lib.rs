@@ -10,7 +10,9 @@ mod compose;
 mod double_double;
 mod fif;
 mod height_field;
+mod picture;
 mod polynomial;
+mod shade;
 mod vector;
 
 pub use bounds::{Bounds, Cell};
@@ -18,4 +20,6 @@ pub use camera::{Camera, Ray};
 pub use compose::Composite;
 pub use fif::{Fif, Map};
 pub use height_field::{Hit, Trace, leaf_normal, trace};
+pub use picture::{Scene, box_tests, hit, render};
+pub use shade::{Environment, Material};
 pub use vector::Vector;
