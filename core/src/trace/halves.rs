@@ -120,7 +120,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
             return Some(Leaf { nodes: (0, 0), cells: (f, g), span: (t_in, t_out) });
         }
         let mut stack = Vec::<Frame, STACK>::new();
-        let mut frame = Frame {
+        let root = Frame {
             x: Half::enter(&ray.x, 0, x.0, (x.1 - x.0) >> 1, t_in),
             y: Half::enter(&ray.y, 0, y.0, (y.1 - y.0) >> 1, t_in),
             t: t_in,
@@ -128,7 +128,11 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
             t_out,
             small: small >> 1,
         };
+        // never full: at most one frame for each level above the leaves, and depth <= STACK
+        let _ = stack.push(root);
         loop {
+            statistics.stack = statistics.stack.max(stack.len() as u32);
+            let frame = stack.last_mut()?;
             // the part where the walk stands, up to the next plane
             let t_next = frame.x.next.min(frame.y.next).min(frame.t_out);
             let z_next = ray.z.at(t_next);
@@ -136,30 +140,30 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
             let f = self.x.cells.get(frame.x.node as usize)?;
             let g = self.y.cells.get(frame.y.node as usize)?;
             let (low, high) = range(f, g);
-            let (z_low, z_high) = if frame.z < z_next { (frame.z, z_next) } else { (z_next, frame.z) };
+            let (t, z) = (frame.t, frame.z);
+            let (z_low, z_high) = if z < z_next { (z, z_next) } else { (z_next, z) };
             let finished = t_next >= frame.t_out;
             if z_low <= high && z_high >= low {
-                if frame.x.node >= self.leaves || frame.t >> 8 >= frame.small {
-                    let nodes = (frame.x.node, frame.y.node);
-                    return Some(Leaf { nodes, cells: (f, g), span: (frame.t, t_next) });
+                let nodes = (frame.x.node, frame.y.node);
+                if nodes.0 >= self.leaves || t >> 8 >= frame.small {
+                    return Some(Leaf { nodes, cells: (f, g), span: (t, t_next) });
                 }
                 let part = Frame {
-                    x: frame.x.descend(&ray.x, frame.t),
-                    y: frame.y.descend(&ray.y, frame.t),
-                    t: frame.t,
-                    z: frame.z,
+                    x: frame.x.descend(&ray.x, t),
+                    y: frame.y.descend(&ray.y, t),
+                    t,
+                    z,
                     t_out: t_next,
                     small: frame.small >> 1,
                 };
-                if !finished {
+                if finished {
+                    *frame = part;
+                } else {
                     frame.advance(ray, t_next, z_next);
-                    // never full: at most one frame for each level above the leaves, and depth <= STACK
-                    let _ = stack.push(frame);
-                    statistics.stack = statistics.stack.max(stack.len() as u32);
+                    let _ = stack.push(part);
                 }
-                frame = part;
             } else if finished {
-                frame = stack.pop()?;
+                let _ = stack.pop();
             } else {
                 frame.advance(ray, t_next, z_next);
             }
