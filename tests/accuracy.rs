@@ -223,7 +223,7 @@ fn functions() -> Vec<Row> {
             bound,
             places().map(|u| fixed.at(Wide::from_num(at(u))).to_num::<f64>() - exact.at(at(u))),
         ));
-        if let Some(fast) = fixed.dyadic() {
+        if let Some(fast) = fixed.dyadic::<16>() {
             let name: &'static str = Box::leak(format!("Dyadic::at ({})", example.name).into_boxed_str());
             rows.push(row(
                 name,

@@ -5,7 +5,7 @@
 
 use core::ops::Range;
 
-use attractor::draw::{CourseUnit, Dots, Ink, Palette, Picture, Stroke, gradients};
+use attractor::draw::{CourseUnit, Dots, Grey, Ink, Palette, Picture, Stroke};
 use attractor::escape::{Complex, Dwell, Julia, Mandelbrot, View};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::ifs::Ifs;
@@ -17,7 +17,7 @@ use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::image::Image;
-use embedded_graphics::pixelcolor::{BinaryColor, Rgb565};
+use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888};
 use embedded_graphics::primitives::Rectangle;
 
 use crate::Machine;
@@ -165,7 +165,13 @@ impl Iterator for Rp2040Row<'_> {
 
 fn rp2040<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     let set = Mandelbrot::new(View::home(stage.size())?, 1000)?;
-    field::<C, _, _>(stage, Rp2040(set), CourseUnit, 0)
+    // no palette: the frame's cost is the dwell's
+    field::<C, _, _>(
+        stage,
+        Rp2040(set),
+        |dwell: Dwell| Rgb888::new(dwell.count as u8, 0, dwell.is_inside() as u8),
+        0,
+    )
 }
 
 fn fern<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
@@ -195,7 +201,7 @@ fn fif_mirror<C: Colour + Ink, const DEPTH: u32, const CELLS: usize>(
     let pyramid = Pyramid::new(&g, DEPTH, &mut memory)?;
     let caster = mirror(&pyramid, stage.size())?;
     let borrowed = size_of::<[Cell; CELLS]>() + size_of_val(&g) + size_of_val(&pyramid);
-    field::<C, _, _>(stage, caster, gradients::DUSK, borrowed)
+    field::<C, _, _>(stage, caster, Grey, borrowed)
 }
 
 /// A colour for each pixel, row by row.

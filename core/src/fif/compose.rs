@@ -12,8 +12,8 @@ use crate::num::{FRACTION, ONE, Polynomial, Real, Scaling, Wide, mul_high_u, rea
 pub struct Composite<const D: usize> {
     start: u64,
     width: u64,
-    scaling: i64,
-    q: Polynomial<D>,
+    pub(super) scaling: i64,
+    pub(super) q: Polynomial<D>,
 }
 
 impl<const D: usize> Composite<D> {

@@ -1,8 +1,11 @@
 //! A function on a uniform dyadic partition, compiled to 32-bit words: the address walk is a shift.
 //!
-//! With `N = 2^b` equal intervals the digits of an abscissa are its bits. The value is built from the last digit to the first,
+//! With `N = 2^b` equal intervals the digits of an abscissa are its bits. Several digits are taken at once where there is room for the composites of all
+//! their maps (eq. 24-28), which are a system for the same function. The value is built from the last digit to the first,
 //! `y <- alpha_j y + q_j(u)`, `u <- (j + u) / N`: no polynomial is composed, and each step contracts the error of the last. Words have as many fractional bits
 //! as the range of the function allows (24 to 30), products add up in 64 bits and are rounded once a level.
+
+use core::num::NonZeroU32;
 
 use heapless::Vec;
 
@@ -20,7 +23,7 @@ struct Words<const D: usize> {
     powers: [i32; D],
 }
 
-/// A [`Fif`] on `N = 2^b` equal intervals, ready for fast evaluation at dyadic abscissae of up to 32 bits.
+/// A [`Fif`] on `2^b` equal intervals, ready for fast evaluation at dyadic abscissae of up to 32 bits, with room for `M` maps.
 ///
 /// ```
 /// use attractor::fif::{Fif, Knot};
@@ -28,15 +31,15 @@ struct Words<const D: usize> {
 ///
 /// let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
 /// let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.5); 2])?;
-/// let fast = f.dyadic().expect("two equal intervals");
+/// let fast = f.dyadic::<16>().expect("two equal intervals");
 /// assert_eq!(fast.at(Angle::from_num(0.75)), Real::from_num(1)); // x = 1.5
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Dyadic<const N: usize, const D: usize = 1> {
-    maps: Vec<Words<D>, N>,
-    /// `b`: bits a digit.
-    bits: u32,
+pub struct Dyadic<const M: usize, const D: usize = 1> {
+    maps: Vec<Words<D>, M>,
+    /// Bits a step.
+    bits: NonZeroU32,
     /// Fractional bits of a word.
     fraction: u32,
     first: i32,
@@ -44,64 +47,73 @@ pub struct Dyadic<const N: usize, const D: usize = 1> {
 }
 
 impl<const N: usize, const D: usize> Fif<N, D> {
-    /// The function compiled for its dyadic partition; none if the intervals are not `2^b` equal ones, `1 <= b <= 8`.
-    pub fn dyadic(&self) -> Option<Dyadic<N, D>> {
+    /// The function compiled for its dyadic partition, with room for `M` maps: the more, the more digits are taken at once. With two intervals
+    /// `M` = 2 takes one binary digit a step, 16 takes four.
+    ///
+    /// None if the intervals are not `2^b` equal ones, `1 <= b <= 8`, or `M` is less than `2^b`.
+    pub fn dyadic<const M: usize>(&self) -> Option<Dyadic<M, D>> {
         let count = self.maps.len();
-        if !count.is_power_of_two() || !(2..=256).contains(&count) {
+        if !count.is_power_of_two() || !(2..=256).contains(&count) || M < count {
             return None;
         }
-        let bits = count.trailing_zeros();
-        if self.maps.iter().zip(0_u64..).any(|(m, j)| m.start != j << (63 - bits) || m.width != ONE >> bits) {
+        let digit = count.trailing_zeros();
+        if self.maps.iter().zip(0_u64..).any(|(m, j)| m.start != j << (63 - digit) || m.width != ONE >> digit)
+        {
             return None;
         }
-        // the largest number that a word must hold: a value, or a partial sum of Horner's scheme without the constant
-        let powers_norm = |m: &super::function::Map<D>| {
-            m.q.powers.iter().fold(0_i64, |s, c| s.saturating_add(c.saturating_abs()))
+        // as many digits a step as there is room for: the composites of all addresses of that length are again such a system
+        let mut bits = digit;
+        while bits + digit <= 8 && M >> (bits + digit) > 0 {
+            bits += digit;
+        }
+        let composite = |address: usize| {
+            let digits = (0..bits / digit).rev();
+            self.composite(digits.map(move |k| (address >> (k * digit)) & (count - 1)))
         };
-        let largest = self
-            .maps
-            .iter()
-            .map(powers_norm)
-            .max()
-            .unwrap_or(0)
-            .max(self.range.0.saturating_abs())
-            .max(self.range.1.saturating_abs());
+        // the largest number that a word must hold: a value, or a partial sum of Horner's scheme without the constant
+        let mut largest = self.range.0.saturating_abs().max(self.range.1.saturating_abs());
+        let mut steepest = 0;
+        for address in 0..1_usize << bits {
+            let map = composite(address);
+            let powers = map.q.powers.iter().fold(0_i64, |s, c| s.saturating_add(c.saturating_abs()));
+            largest = largest.max(powers);
+            steepest = steepest.max(map.scaling.unsigned_abs());
+        }
         // words with `fraction` bits: largest * 2^(fraction - 55) < 2^31
         let integer_bits = (64 - largest.leading_zeros()).saturating_sub(FRACTION);
         let fraction = 31_u32.saturating_sub(integer_bits).clamp(20, 30);
         let word = |v: i64| {
             round_shift(v, FRACTION - fraction).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
         };
-        let maps = self
-            .maps
-            .iter()
-            .map(|m| {
-                // wraps for large constants, as the sums do; the final sum is a value and fits
-                let constant = if fraction >= 24 {
-                    m.q.constant.wrapping_shl(fraction - 24)
-                } else {
-                    m.q.constant >> (24 - fraction)
-                };
-                Words {
-                    constant: constant.wrapping_add(1 << 30),
-                    scaling: round_shift(m.scaling, 32).min(i64::from(i32::MAX)) as i32,
-                    powers: m.q.powers.map(word),
-                }
-            })
-            .collect();
-        let steepest = self.max_scaling().to_bits() as u64;
-        let units = 3 * D as u64 + 1; // half units of a word a level
-        let sum = (units << (24 + 30 - fraction)).div_ceil(((1 << 31) - steepest).max(1));
+        let mut maps = Vec::new();
+        for address in 0..1_usize << bits {
+            let map = composite(address);
+            // wraps for large constants, as the sums do; the final sum is a value and fits
+            let constant = if fraction >= 24 {
+                map.q.constant.wrapping_shl(fraction - 24)
+            } else {
+                map.q.constant >> (24 - fraction)
+            };
+            // 2^bits <= M: never full
+            let _ = maps.push(Words {
+                constant: constant.wrapping_add(1 << 30),
+                scaling: round_shift(map.scaling, 32).min(i64::from(i32::MAX)) as i32,
+                powers: map.q.powers.map(word),
+            });
+        }
+        let units = 3 * D as u64 + 1; // half units of a word a step
+        let rest = ((1 << 31) - (steepest >> 32)).saturating_sub(1).max(1);
+        let sum = (units << (24 + 30 - fraction)).div_ceil(rest);
         let error = Real::from_bits(sum.saturating_add(1).min(i32::MAX as u64) as i32);
-        Some(Dyadic { maps, bits, fraction, first: word(self.first), error })
+        Some(Dyadic { maps, bits: NonZeroU32::new(bits)?, fraction, first: word(self.first), error })
     }
 }
 
-impl<const N: usize, const D: usize> Dyadic<N, D> {
+impl<const M: usize, const D: usize> Dyadic<M, D> {
     /// The value at the place `u` of the domain, a fraction in `[0, 1)`.
     ///
-    /// Result: exact maps give `f(u)` within [`Dyadic::error_bound`] (tests/accuracy.rs). Cost: about 13 Cortex-M4 instructions a level for degree 1; as
-    /// many levels as `u` has digits before its trailing zeros.
+    /// Result: exact maps give `f(u)` within [`Dyadic::error_bound`] (tests/accuracy.rs). Cost: about 20 Cortex-M4 instructions a step for degree 1; as
+    /// many steps as `u` has digits before its trailing zeros, over the digits a step.
     #[inline]
     pub fn at(&self, u: Angle) -> Real {
         real_from(i64::from(self.word(u.to_bits())), self.fraction)
@@ -114,16 +126,18 @@ impl<const N: usize, const D: usize> Dyadic<N, D> {
 
     #[inline]
     fn word(&self, u: u32) -> i32 {
-        let bits = self.bits;
+        let bits = self.bits.get();
         // digits up to the last that is not 0; the rest of the address stays on the first knot
-        let mut left = (32 - u.trailing_zeros()).div_ceil(bits);
-        // the digits, the last one lowest, even where b does not divide 32
-        let mut digits = u64::from(u) << (left * bits) >> 32;
+        let mut left = (32 + bits - 1 - u.trailing_zeros()) / self.bits;
+        // the digits, the last one lowest; where b does not divide 32 the last one is filled up with zeros
+        let total = left * bits;
+        let (mut digits, filled) = if total > 32 { (u, total - 32) } else { (u >> ((32 - total) & 31), 0) };
+        let mask = (1_u32 << bits) - 1;
+        let mut digit = (digits << filled) & mask;
+        digits >>= bits - filled;
         let mut t = 0_u32; // the pre-image, 31 fractional bits
         let mut y = self.first;
-        let mask = (1_u32 << bits) - 1;
         while left > 0 {
-            let digit = digits as u32 & mask;
             // digit < N = maps.len(): `get` only spares the proof to the compiler
             let Some(map) = self.maps.get(digit as usize) else { break };
             let mut q = 0_i32;
@@ -139,6 +153,7 @@ impl<const N: usize, const D: usize> Dyadic<N, D> {
                 .wrapping_add(i64::from(y).wrapping_mul(i64::from(map.scaling)));
             y = (sum >> 31) as i32;
             t = (t >> bits) | (digit << (31 - bits));
+            digit = digits & mask;
             digits >>= bits;
             left -= 1;
         }

@@ -230,7 +230,11 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             }
         }
         let levels = levels_of(&maps);
-        let starts = maps.iter().map(|m| (m.start >> 32) as u32).collect();
+        let mut starts = Vec::new();
+        for map in &maps {
+            // as many as maps: never full
+            let _ = starts.push((map.start >> 32) as u32);
+        }
         Ok(Self { maps, starts, x0, width, per_width: Reciprocal::of(width), first, last, range, levels })
     }
 
@@ -384,13 +388,12 @@ fn on_unit_interval<const D: usize>(
 /// because the first root may be large.
 fn range_of<const N: usize, const D: usize>(maps: &Vec<Map<D>, N>) -> (i64, i64) {
     const COARSE: u32 = FRACTION - 16;
-    let images: Vec<_, N> = maps
-        .iter()
-        .map(|m| {
-            let (low, high) = m.q.range();
-            (m.scaling, low >> COARSE, (high >> COARSE) + 1)
-        })
-        .collect();
+    let mut images: Vec<_, N> = Vec::new();
+    for m in maps {
+        let (low, high) = m.q.range();
+        // as many as maps: never full
+        let _ = images.push((m.scaling, low >> COARSE, (high >> COARSE) + 1));
+    }
     // |f| <= max |q| / (1 - max |alpha|)
     let steepest = maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
     let largest =

@@ -9,7 +9,7 @@
 
 use heapless::Vec;
 
-use super::height_field::{HeightField, Leaf, Statistics, range};
+use super::height_field::{HeightField, Leaf, Statistics, meets_bits, range};
 use super::ray::{Axis, Footprint, Ray};
 
 /// Where a walk stands along one axis of a node.
@@ -139,11 +139,9 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
             statistics.box_tests = statistics.box_tests.wrapping_add(1);
             let f = self.x.cells.get(frame.x.node as usize)?;
             let g = self.y.cells.get(frame.y.node as usize)?;
-            let (low, high) = range(f, g);
             let (t, z) = (frame.t, frame.z);
-            let (z_low, z_high) = if z < z_next { (z, z_next) } else { (z_next, z) };
             let finished = t_next >= frame.t_out;
-            if z_low <= high && z_high >= low {
+            if meets_bits(f, g, z, z_next) {
                 let nodes = (frame.x.node, frame.y.node);
                 if nodes.0 >= self.leaves || t >> 8 >= frame.small {
                     return Some(Leaf { nodes, cells: (f, g), span: (t, t_next) });

@@ -16,8 +16,8 @@ mod sampling;
 
 pub use camera::Camera;
 pub use environment::Environment;
-pub use height_field::{HeightField, Hit, Statistics};
+pub use height_field::{HeightField, Hit, Statistics, meets};
 pub use material::{Light, Material};
-pub use ray::{Footprint, Ray};
+pub use ray::Ray;
 pub use ray_caster::{RayCaster, Row, Tone};
 pub use sampling::{Filter, Sampling};

@@ -60,7 +60,7 @@ impl Axis {
 
 /// How wide a sample's cone is: `width = t * per_t`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Footprint {
+pub(crate) struct Footprint {
     per_t: Unit,
     /// `1 / per_t` as a mantissa and a shift.
     reciprocal: (u32, u32),
@@ -68,9 +68,14 @@ pub struct Footprint {
 
 impl Footprint {
     /// A cone that is `per_t` wide at `t` = 1; 0 and less count as `2^-30`.
-    pub fn new(per_t: Unit) -> Self {
+    pub(crate) fn new(per_t: Unit) -> Self {
         let per_t = per_t.max(Unit::DELTA);
         Self { per_t, reciprocal: reciprocal(per_t.to_bits().unsigned_abs()) }
+    }
+
+    /// Its width at `t` = 1.
+    pub(crate) fn per_t(self) -> Unit {
+        self.per_t
     }
 
     /// One of `n` cones side by side.

@@ -160,7 +160,8 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
                 for (dx, dy, _) in self.pattern.samples(x, y) {
                     let direction = self.offset(self.direction(x, y), dx, dy);
                     let ray = Ray::from_bits(self.eye(), direction);
-                    let _ = self.surface.intersect_counted(&ray, self.cone.footprint, &mut statistics);
+                    let _ =
+                        self.surface.intersect_counted(&ray, self.cone.footprint.per_t(), &mut statistics);
                 }
             }
         }
@@ -170,7 +171,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     /// The leaf that the ray through the centre of a pixel meets.
     pub fn hit(&self, x: u32, y: u32) -> Option<super::Hit> {
         let ray = Ray::from_bits(self.eye(), self.direction(x, y).map(narrow));
-        self.surface.intersect(&ray, self.cone.footprint)
+        self.surface.intersect(&ray, self.cone.footprint.per_t())
     }
 
     fn eye(&self) -> [i32; 3] {

@@ -80,11 +80,13 @@ impl Pattern {
         };
         let place = |i: i64| (width * (2 * i + 1 - count)).checked_div(2 * count).unwrap_or(0);
         let sum: i64 = (0..count).map(|i| i64::from(weigh(place(i)).to_bits())).sum();
-        let parts = (0..count).map(|i| {
+        let mut parts = Vec::new();
+        for i in 0..count {
             let weight = (i64::from(weigh(place(i)).to_bits()) << 30).checked_div(sum).unwrap_or(0);
-            (place(i) as i32, weight as i32)
-        });
-        Ok(Self { parts: parts.collect(), side: width.checked_div(count).unwrap_or(0) as i32, seed })
+            // at most MOST, as checked above
+            let _ = parts.push((place(i) as i32, weight as i32));
+        }
+        Ok(Self { parts, side: width.checked_div(count).unwrap_or(0) as i32, seed })
     }
 
     /// Parts a side.

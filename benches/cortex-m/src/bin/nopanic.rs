@@ -52,7 +52,7 @@ fn functions() -> Result<(), Error> {
     bb(f.composite(bb([0_usize, 1])).vertical_scaling());
     bb(f.derivative::<4>())?;
     let integral = bb(f.integral::<4>(zero))?;
-    if let Some(dyadic) = f.dyadic() {
+    if let Some(dyadic) = f.dyadic::<16>() {
         bb((dyadic.at(bb(Angle::ZERO)), dyadic.error_bound()));
     }
     bb(f.graph(bb(10)).last());

@@ -21,7 +21,7 @@ pub(crate) fn figure_1() -> Result<Fif<2, 1>, Error> {
 
 #[inline(never)]
 pub(super) fn dyadic(watch: &mut Watch<'_>) -> Tally {
-    let Some(f) = figure_1().ok().and_then(|f| f.dyadic()) else { return Tally::default() };
+    let Some(f) = figure_1().ok().and_then(|f| f.dyadic::<16>()) else { return Tally::default() };
     watch.over(&PLACES, |u| f.at(Angle::from_bits(u)).to_bits() as u32)
 }
 
@@ -33,7 +33,7 @@ pub(super) fn any(watch: &mut Watch<'_>) -> Tally {
 
 #[inline(never)]
 pub(super) fn integral(watch: &mut Watch<'_>) -> Tally {
-    let integral = figure_1().and_then(|f| f.integral::<2>(Wide::ZERO)).ok().and_then(|f| f.dyadic());
+    let integral = figure_1().and_then(|f| f.integral::<2>(Wide::ZERO)).ok().and_then(|f| f.dyadic::<16>());
     let Some(f) = integral else { return Tally::default() };
     watch.over(&PLACES, |u| f.at(Angle::from_bits(u)).to_bits() as u32)
 }

@@ -4,7 +4,7 @@ use core::hint::black_box;
 
 use attractor::fif::{Cell, Pyramid};
 use attractor::num::{Real, Unit, Vec3};
-use attractor::trace::{Environment, HeightField, Hit, Light, Material, Ray, Statistics};
+use attractor::trace::{Environment, HeightField, Hit, Light, Material, Ray, Statistics, meets};
 use embedded_graphics::geometry::Size;
 
 use super::{Tally, Watch, fold};
@@ -46,6 +46,62 @@ fn towards_the_ground(eye: Vec3) -> [Ray; COUNT] {
         Ray::new(eye, Vec3::new(direction.x >> 1, direction.y >> 1, direction.z >> 1))
     })
 }
+
+/// Cells of two profiles and the heights between which a ray passes over them: half of them meet.
+fn with_boxes(work: impl FnOnce(&[(Cell, Cell, Real, Real); COUNT]) -> Tally) -> Tally {
+    with_hits(|hits| {
+        let mut count = 0_i32;
+        work(&hits.map(|(_, f, g)| {
+            count += 1;
+            let height = Real::saturating_mul(f.max, g.max) + Real::from_bits((count & 3) << 14);
+            (f, g, height, height + Real::from_bits((count & 4) << 12))
+        }))
+    })
+}
+
+#[inline(never)]
+pub(super) fn box_fixed(watch: &mut Watch<'_>) -> Tally {
+    with_boxes(|boxes| {
+        watch.time(|| {
+            let mut checksum = 0_u32;
+            for (f, g, z_in, z_out) in black_box(boxes) {
+                checksum = checksum.rotate_left(1) ^ u32::from(meets(f, g, *z_in, *z_out));
+            }
+            Tally { checksum, units: COUNT as u32 }
+        })
+    })
+}
+
+macro_rules! boxes {
+    ($name:ident, $float:ty) => {
+        #[inline(never)]
+        pub(super) fn $name(watch: &mut Watch<'_>) -> Tally {
+            with_boxes(|boxes| {
+                let boxes = boxes.map(|(f, g, z_in, z_out)| {
+                    [f.min, f.max, g.min, g.max, z_in, z_out].map(|v| v.to_num::<$float>())
+                });
+                watch.time(|| {
+                    let mut checksum = 0_u32;
+                    for [a, b, c, d, z_in, z_out] in black_box(&boxes) {
+                        let (low, high) = if *a >= 0.0 && *c >= 0.0 {
+                            (a * c, b * d)
+                        } else {
+                            let ends = [a * c, a * d, b * c, b * d];
+                            let low = ends.iter().fold(ends[0], |m, e| if *e < m { *e } else { m });
+                            (low, ends.iter().fold(ends[0], |m, e| if *e > m { *e } else { m }))
+                        };
+                        let (z_low, z_high) = if z_in < z_out { (*z_in, *z_out) } else { (*z_out, *z_in) };
+                        checksum = checksum.rotate_left(1) ^ u32::from(z_low <= high && z_high >= low);
+                    }
+                    Tally { checksum, units: COUNT as u32 }
+                })
+            })
+        }
+    };
+}
+
+boxes!(box_f32, f32);
+boxes!(box_f64, f64);
 
 /// Whole walks, divided by the boxes that they test.
 #[inline(never)]
