@@ -11,9 +11,11 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
   fif-curve    knots = [[x, y], ...], vertical_scaling = [a, ...], [polynomials], [integrate = times], [contractions = [map, ...]], [palette];
                [data] csv, x, y, [y_unit] instead of knots, the scalings then fitted
   fif-surface  [f] and [g] as above, height f(x) g(y); [camera] eye, look_at, [up], [field_of_view]; [light] direction;
-               [material = \"diffuse\" | \"phong\" | \"mirror\"], [environment = \"gradient\" | \"checkerboard\" | \"plain\"], [samples], [depth], [palette]
+               [material = \"diffuse\" | \"phong\" | \"mirror\"], [environment = \"gradient\" | \"checkerboard\" | \"plain\"],
+               [gradient] zenith, horizon, nadir; [checkerboard] bright, dark, horizon, scale, fade; [samples], [depth], [palette]
   ifs          maps = [[a, b, c, d, e, f, p], ...], [points], [shading = \"maps\" | \"density\" | \"plain\"], [palette]
-  mandelbrot   [centre = [\"re\", \"im\"]], [width = \"3.0\"], [max_dwell = 100], [palette], [lift], [cycle], [inside = \"#rrggbb\"]
+  mandelbrot   [centre = [\"re\", \"im\"]], [width = \"3.0\"], [max_dwell = 100], [palette], [lift], [cycle], [inside = \"#rrggbb\"],
+               [grey] palette, lift, cycle, inside: the colours on displays without colour
   julia        c = [\"re\", \"im\"], and as mandelbrot
 Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
 ";

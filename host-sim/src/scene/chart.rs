@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::ops::Range;
 
-use attractor::draw::{Ink, Level, Stroke, hex};
+use attractor::draw::{Level, Stroke, hex};
 use attractor::fif::{Cell, Pyramid};
 use attractor::num::{Real, Wide};
 use attractor::picture::{Bounds2, Field, Point2, Window};
@@ -16,6 +16,7 @@ use embedded_graphics::prelude::Drawable;
 use super::function::{Fixed, depth_for};
 use super::nested::Nested;
 use super::{Watch, draw_field};
+use crate::color::{Depth, ground, solid};
 use crate::fail::Fail;
 use crate::palette::Named;
 
@@ -62,20 +63,21 @@ impl<'a> Chart<'a> {
     pub(super) fn draw<D>(&self, target: &mut D, watch: Watch<'_, D>, nested: &Nested) -> bool
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
-        let ground = Ground::of(self, nested);
+        let field = Ground::of(self, nested);
+        let paper = ground::<D::Color>(PAPER);
         let palette = |value: Place| match value {
-            Place::Paper => PAPER,
+            Place::Paper => paper,
             Place::Rule => RULE,
             // the depth below the curve: bright close to it, dim further down
             Place::Under(level) => self.palette.at(Level(8_000 + level.0 / 4)),
         };
-        if !draw_field(ground, palette, target, watch) {
+        if !draw_field(field, palette, target, watch) {
             return false;
         }
         let inner = self.window.size();
-        let line = D::Color::ink(self.palette.at(Level(56_000)), Point::zero());
+        let line = solid::<D::Color>(self.palette.at(Level(56_000)));
         let graph = self.fif.graph(inner.width.saturating_mul(8));
         let Ok(_) = Stroke::new(graph, self.window, line).at(self.corner).draw(target);
         if self.fif.maps() <= MARKED {
@@ -100,11 +102,11 @@ impl<'a> Chart<'a> {
     pub(super) fn mark<D>(&self, at: Point2, target: &mut D)
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
         let centre = self.pixel(at);
         let reach = if self.size.width.min(self.size.height) < 200 { 1 } else { 2 };
-        let color = D::Color::ink(MARK, Point::zero());
+        let color = solid::<D::Color>(MARK);
         let dots = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| Point::new(x, y)));
         // without its corners, so that it looks round
         let dots = dots.filter(|p| reach == 1 || p.x.abs() + p.y.abs() <= 3);

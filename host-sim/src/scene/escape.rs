@@ -7,8 +7,10 @@ use attractor::num::Wide;
 use attractor::picture::MAX_SIDE;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
+use serde::Deserialize;
 use toml::Spanned;
 
+use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::{Colors, Named, color};
@@ -24,6 +26,18 @@ pub(super) struct Keys<'a> {
     pub(super) lift: bool,
     pub(super) cycle: Option<&'a Spanned<i64>>,
     pub(super) inside: Option<&'a Spanned<String>>,
+    pub(super) grey: Option<&'a Grey>,
+}
+
+/// The table `[grey]`: the colours on displays without colour.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Grey {
+    palette: Option<Named>,
+    #[serde(default)]
+    lift: bool,
+    cycle: Option<Spanned<i64>>,
+    inside: Option<Spanned<String>>,
 }
 
 /// What is seen, and how.
@@ -36,7 +50,9 @@ pub(super) struct Escape {
     width: Option<Wide>,
     home: (Wide, Wide),
     pub(super) max_dwell: u32,
-    pub(super) colors: Colors,
+    colors: Colors,
+    /// On displays without colour.
+    grey: Colors,
 }
 
 impl Escape {
@@ -58,6 +74,18 @@ impl Escape {
             cycle: count(source, "cycle", keys.cycle, MAX_DWELL)?,
             inside: keys.inside.map_or(Ok(Rgb888::BLACK), |text| color(source, "inside", text))?,
         };
+        let grey = match keys.grey {
+            None => colors,
+            Some(grey) => Colors {
+                named: grey.palette.unwrap_or(Named::Grey),
+                lift: grey.lift,
+                cycle: count(source, "grey.cycle", grey.cycle.as_ref(), MAX_DWELL)?,
+                inside: grey
+                    .inside
+                    .as_ref()
+                    .map_or(Ok(Rgb888::BLACK), |text| color(source, "grey.inside", text))?,
+            },
+        };
         let scene = Self {
             file: source.name.clone(),
             centre,
@@ -65,6 +93,7 @@ impl Escape {
             home: (home_width, home_height),
             max_dwell,
             colors,
+            grey,
         };
         if let Some(width) = keys.width {
             // the coarsest grid there is: what it refuses, every size refuses
@@ -72,6 +101,11 @@ impl Escape {
                 .map_err(|error| source.fail(width.span(), "width", error))?;
         }
         Ok(scene)
+    }
+
+    /// The palette on a display of colour `C`.
+    pub(super) fn colors<C: Depth>(&self) -> Colors {
+        if C::GREY_BITS.is_some() { self.grey } else { self.colors }
     }
 
     /// The view on a display of this size.

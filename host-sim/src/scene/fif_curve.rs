@@ -3,7 +3,6 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::draw::Ink;
 use attractor::num::Wide;
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
@@ -14,6 +13,7 @@ use super::data::{self, Table};
 use super::function::{Description, Fixed, Function};
 use super::nested::Nested;
 use super::{Request, Watch};
+use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
@@ -85,7 +85,7 @@ impl FifCurve {
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
         let fif = &self.function.fixed;
         let nested = Nested::new(fif, &self.contractions, request.size);

@@ -3,7 +3,6 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::draw::Ink;
 use attractor::fif::{Cell, Factor, Pyramid, Surface};
 use attractor::num::{Real, Vec3};
 use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
@@ -13,9 +12,11 @@ use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::environment::{Around, Board, Sky, Surroundings};
 use super::fif_curve::abscissa;
 use super::function::{DEGREE, Description, Function, MAPS, depth_for};
 use super::{Request, Watch, draw_field};
+use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::{Colors, Named};
@@ -33,7 +34,9 @@ struct File {
     camera: Spanned<Eye>,
     light: Option<Spanned<Lamp>>,
     material: Option<Surfaced>,
-    environment: Option<Surroundings>,
+    environment: Option<Around>,
+    gradient: Option<Spanned<Sky>>,
+    checkerboard: Option<Spanned<Board>>,
     samples: Option<Spanned<u8>>,
     depth: Option<Spanned<u32>>,
     palette: Option<Named>,
@@ -62,14 +65,6 @@ enum Surfaced {
     Mirror,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Surroundings {
-    Gradient,
-    Checkerboard,
-    Plain,
-}
-
 /// A surface ready to be drawn.
 #[derive(Debug)]
 pub(super) struct FifSurface {
@@ -89,6 +84,8 @@ pub(super) struct FifSurface {
 impl FifSurface {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
         let file: File = source.parse()?;
+        let (gradient, checkerboard) = (file.gradient, file.checkerboard);
+        let environment = Surroundings { named: file.environment, gradient, checkerboard };
         let light = file.light.map(|light| {
             let direction = &light.get_ref().direction;
             let towards = vector(source, direction, "light.direction")?;
@@ -111,11 +108,7 @@ impl FifSurface {
                 Surfaced::Phong => Material::PHONG,
                 Surfaced::Mirror => Material::Mirror,
             },
-            environment: match file.environment.unwrap_or(Surroundings::Gradient) {
-                Surroundings::Gradient => Environment::SKY,
-                Surroundings::Checkerboard => Environment::CHECKERBOARD,
-                Surroundings::Plain => Environment::Plain(attractor::num::Unit::ZERO),
-            },
+            environment: environment.compile(source)?,
             samples,
             depth: file.depth.as_ref().map(|depth| *depth.get_ref()),
             palette: file.palette.unwrap_or(Named::Dusk),
@@ -175,7 +168,7 @@ impl FifSurface {
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
         self.with_surface(request.size.width.max(request.size.height), |surface| {
             let caster = self

@@ -4,10 +4,10 @@ use std::convert::Infallible;
 use std::io::Write;
 
 use attractor::Error;
-use attractor::draw::{ColoredDots, Ink, Level};
+use attractor::draw::{Dots, Level};
 use attractor::ifs::{Affine, Ifs, MAX_MAPS};
 use attractor::num::{Real, Unit};
-use attractor::picture::{Bounds2, Point2, Window};
+use attractor::picture::{Bounds2, Window};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::pixelcolor::Rgb888;
@@ -20,6 +20,7 @@ use super::chart::PAPER;
 use super::density::Density;
 use super::{Request, Watch, draw_field};
 use crate::cli::MAX_POINTS;
+use crate::color::{Depth, ground, solid};
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
@@ -93,7 +94,7 @@ impl IfsScene {
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
         let size = request.size;
         let margin = margin(size);
@@ -101,33 +102,33 @@ impl IfsScene {
         let corner = Point::new(margin as i32, margin as i32);
         let window = Window::fit(self.bounds, inner).map_err(Fail::new)?;
         let pixels = size.width.saturating_mul(size.height);
-        let each = if self.shading == Shading::Density { 16 } else { 1 };
+        let each = if self.shading == Shading::Density { 16 } else { 4 };
         let points = self.points.unwrap_or(pixels.saturating_mul(each).min(MAX_POINTS)) as usize;
         let mut game = self.ifs.seeded_chaos_game(request.seed);
         if self.shading == Shading::Density {
+            let paper = ground::<D::Color>(PAPER);
             let density = Density::of(game.take(points), &window, size, corner);
-            draw_field(&density, |level| density_color(self.palette, level), target, watch);
+            draw_field(&density, |level| density_color(self.palette, paper, level), target, watch);
             return Ok(());
         }
-        let paper = |y: i32| (0..size.width as i32).map(move |x| D::Color::ink(PAPER, Point::new(x, y)));
-        for y in 0..size.height as i32 {
-            let row = Rectangle::new(Point::new(0, y), Size::new(size.width, 1));
-            let Ok(()) = target.fill_contiguous(&row, paper(y));
-        }
+        let paper = solid(ground::<D::Color>(PAPER));
+        let Ok(()) = target.fill_solid(&Rectangle::new(Point::zero(), size), paper);
         let portions = points.div_ceil(PORTION);
         let colors = self.map_colors();
         for portion in 0..portions {
             let count = PORTION.min(points - portion * PORTION);
-            let dots: Vec<(Point2, usize)> = std::iter::from_fn(|| {
-                let point = game.next()?;
-                Some((point, game.last_map()))
-            })
-            .take(count)
-            .collect();
-            // dots of one colour each: a point is shown or not, never dithered away
-            let color = |map: usize| colors.get(map).copied().unwrap_or(PAPER);
-            let dots = ColoredDots::<_, _, D::Color>::new(dots.into_iter(), window, color);
-            let Ok(_) = dots.at(corner).draw(target);
+            let mut dots = vec![Vec::new(); colors.len()];
+            for _ in 0..count {
+                let Some(point) = game.next() else { break };
+                let made_by = game.last_map();
+                if let Some(dots) = dots.get_mut(made_by) {
+                    dots.push(point);
+                }
+            }
+            for (dots, color) in dots.into_iter().zip(&colors) {
+                let dots = Dots::new(dots.into_iter(), window, solid::<D::Color>(*color));
+                let Ok(_) = dots.at(corner).draw(target);
+            }
             if !watch(target, portion as u32 + 1, portions as u32) {
                 break;
             }
@@ -162,8 +163,8 @@ fn margin(size: Size) -> u32 {
 }
 
 /// Paper where nothing was hit, else the palette without its darkest part.
-fn density_color(palette: Named, level: Option<Level>) -> Rgb888 {
-    level.map_or(PAPER, |level| palette.at(Level(level.0 / 4 * 3 + 16_000)))
+fn density_color(palette: Named, paper: Rgb888, level: Option<Level>) -> Rgb888 {
+    level.map_or(paper, |level| palette.at(Level(level.0 / 4 * 3 + 16_000)))
 }
 
 /// The kernel's error with the map that it is about.

@@ -3,7 +3,6 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::draw::Ink;
 use attractor::escape::{Complex, Julia, View};
 use attractor::num::Wide;
 use embedded_graphics::draw_target::DrawTarget;
@@ -11,8 +10,9 @@ use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::escape::{self, Escape, Keys};
+use super::escape::{self, Escape, Grey, Keys};
 use super::{Request, Watch, draw_field};
+use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
 use crate::source::{Num, Source};
@@ -33,6 +33,7 @@ struct File {
     lift: bool,
     cycle: Option<Spanned<i64>>,
     inside: Option<Spanned<String>>,
+    grey: Option<Grey>,
 }
 
 /// A view of a filled-in Julia set ready to be drawn.
@@ -56,6 +57,7 @@ impl JuliaScene {
             lift: file.lift,
             cycle: file.cycle.as_ref(),
             inside: file.inside.as_ref(),
+            grey: file.grey.as_ref(),
         };
         let [re, im] = source.pair(file.c.get_ref(), "c")?;
         let c = Complex::new(re, im);
@@ -73,9 +75,9 @@ impl JuliaScene {
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
-        draw_field(self.picture(request)?, self.escape.colors, target, watch);
+        draw_field(self.picture(request)?, self.escape.colors::<D::Color>(), target, watch);
         Ok(())
     }
 

@@ -3,15 +3,15 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::draw::Ink;
 use attractor::escape::Mandelbrot;
 use attractor::num::Wide;
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::escape::{self, Escape, Keys};
+use super::escape::{self, Escape, Grey, Keys};
 use super::{Request, Watch, draw_field};
+use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
 use crate::source::{Num, Source};
@@ -31,6 +31,7 @@ struct File {
     lift: bool,
     cycle: Option<Spanned<i64>>,
     inside: Option<Spanned<String>>,
+    grey: Option<Grey>,
 }
 
 /// A view of the set ready to be drawn.
@@ -50,6 +51,7 @@ impl MandelbrotScene {
             lift: file.lift,
             cycle: file.cycle.as_ref(),
             inside: file.inside.as_ref(),
+            grey: file.grey.as_ref(),
         };
         Ok(Self(Escape::load(source, &keys, HOME)?))
     }
@@ -61,9 +63,9 @@ impl MandelbrotScene {
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
-        draw_field(self.picture(request)?, self.0.colors, target, watch);
+        draw_field(self.picture(request)?, self.0.colors::<D::Color>(), target, watch);
         Ok(())
     }
 

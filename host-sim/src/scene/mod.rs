@@ -3,6 +3,7 @@
 mod chart;
 mod data;
 mod density;
+mod environment;
 mod escape;
 mod fif_curve;
 mod fif_surface;
@@ -16,7 +17,7 @@ use std::convert::Infallible;
 use std::io::Write;
 use std::path::Path;
 
-use attractor::draw::{Ink, Palette, Picture, RowCursor};
+use attractor::draw::{Palette, Picture, RowCursor};
 use attractor::picture::Field;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -26,6 +27,7 @@ use std::collections::HashMap;
 use toml::Spanned;
 
 use crate::builtin;
+use crate::color::Depth;
 use crate::fail::Fail;
 use crate::source::Source;
 
@@ -117,7 +119,7 @@ impl Scene {
     pub(crate) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
         match &self.kind {
             Kind::FifCurve(scene) => scene.draw(request, target, watch),
@@ -146,7 +148,7 @@ where
     F: Field,
     P: Palette<F::Value>,
     D: DrawTarget<Error = Infallible>,
-    D::Color: Ink,
+    D::Color: Depth,
 {
     let rows = field.size().height;
     let picture = Picture::<F, P, D::Color>::new(field, palette);

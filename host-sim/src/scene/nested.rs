@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::ops::Range;
 
-use attractor::draw::{Ink, Level};
+use attractor::draw::Level;
 use attractor::num::Real;
 use attractor::picture::Point2;
 use embedded_graphics::draw_target::DrawTarget;
@@ -12,6 +12,7 @@ use embedded_graphics::primitives::Rectangle;
 
 use super::chart::{Chart, MARK};
 use super::function::Fixed;
+use crate::color::{Depth, ground, solid};
 use crate::palette::Named;
 
 /// The intervals of ever longer compositions; empty for an ordinary chart.
@@ -58,7 +59,7 @@ impl Nested {
     pub(super) fn draw<D>(&self, chart: &Chart<'_>, target: &mut D)
     where
         D: DrawTarget<Error = Infallible>,
-        D::Color: Ink,
+        D::Color: Depth,
     {
         if self.intervals.is_empty() {
             return;
@@ -69,24 +70,17 @@ impl Nested {
         let full = (column(Real::ZERO), column(Real::ONE) + 1);
         for (level, (from, to)) in self.intervals.iter().enumerate() {
             let y = top + (level as u32 * (self.bar + self.gap)) as i32;
-            let fill = |left: i32, right: i32, rgb, target: &mut D| {
-                let area =
-                    Rectangle::new(Point::new(left, y), Size::new((right - left).max(1) as u32, self.bar));
-                let Ok(()) = target.fill_contiguous(&area, colors::<D::Color>(area, rgb));
+            let fill = |left: i32, right: i32, color: D::Color, target: &mut D| {
+                let size = Size::new((right - left).max(1) as u32, self.bar);
+                let Ok(()) = target.fill_solid(&Rectangle::new(Point::new(left, y), size), color);
             };
-            fill(full.0, full.1, Named::Ocean.at(Level(6_000)), target);
+            let lane = ground::<D::Color>(Named::Ocean.at(Level(6_000)));
+            fill(full.0, full.1, solid(lane), target);
             let share = Level::ratio(level as u32 + 2, last as u32 + 2);
             let right = if *to == Real::ONE { full.1 } else { column(*to) };
             let rgb = if level == last { MARK } else { Named::Ocean.at(share) };
-            fill(column(*from), right, rgb, target);
+            fill(column(*from), right, solid(rgb), target);
         }
         chart.mark(Point2::new(self.point, chart.value(self.point)), target);
     }
-}
-
-/// One colour, dithered where the display has to.
-fn colors<C: Ink>(area: Rectangle, rgb: embedded_graphics::pixelcolor::Rgb888) -> impl Iterator<Item = C> {
-    let (left, top) = (area.top_left.x, area.top_left.y);
-    let rows = (0..area.size.height as i32).map(move |y| top + y);
-    rows.flat_map(move |y| (0..area.size.width as i32).map(move |x| C::ink(rgb, Point::new(left + x, y))))
 }
