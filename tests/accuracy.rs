@@ -1,4 +1,10 @@
 //! The table of promises: every kernel with its format, the inputs tried, the errors found and the bound that it states.
+//!
+//! Inputs come from four generators: a hand list, edge cases, a seeded random sequence, evenly spaced values.
+
+use attractor::fif::{Cell, Fif, Knot, Pyramid};
+use attractor::num::{self, Angle, Real, Scaling, Wide};
+use attractor_reference as reference;
 
 /// One line of the table.
 #[derive(Debug, Clone)]
@@ -17,7 +23,190 @@ pub struct Row {
     pub bound: f64,
 }
 
+impl Row {
+    /// Whether something was measured and it kept the promise.
+    pub fn holds(&self) -> bool {
+        self.inputs > 0 && self.max_error > 0.0 && self.max_error <= self.bound
+    }
+}
+
 /// The whole table, measured now.
 pub fn table() -> Vec<Row> {
-    Vec::new()
+    let mut rows = numbers();
+    rows.extend(functions());
+    rows
 }
+
+fn row(kernel: &'static str, format: &'static str, bound: f64, errors: impl IntoIterator<Item = f64>) -> Row {
+    let (mut inputs, mut max_error, mut squares) = (0, 0.0_f64, 0.0);
+    for e in errors {
+        inputs += 1;
+        max_error = max_error.max(e.abs());
+        squares += e * e;
+    }
+    Row { kernel, format, inputs, max_error, rms: (squares / f64::from(inputs.max(1) as u32)).sqrt(), bound }
+}
+
+/// `2^k`.
+pub fn two_to(k: i32) -> f64 {
+    f64::from(k).exp2()
+}
+
+/// A seeded sequence of words (SplitMix64, Steele, Lea, Flood 2014).
+pub fn words(seed: u64) -> impl Iterator<Item = u64> {
+    let mut state = seed;
+    std::iter::repeat_with(move || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    })
+}
+
+/// Edges, random and evenly spaced 32-bit words.
+fn patterns() -> Vec<u32> {
+    let edges = (0..32).flat_map(|k| [(1_u32 << k).wrapping_sub(1), 1 << k, (1 << k) + 1]);
+    let random = words(1).take(20_000).map(|w| w as u32);
+    let even = (0..20_000_u32).map(|i| i * 214_748);
+    edges.chain([u32::MAX, u32::MAX - 1]).chain(random).chain(even).collect()
+}
+
+fn numbers() -> Vec<Row> {
+    let words = patterns();
+    let positive = || words.iter().copied().filter(|w| *w > 0);
+    let turns = |w: u32| f64::from(w) / two_to(32) * std::f64::consts::TAU;
+    vec![
+        row("num::reciprocal", "31 bits", two_to(-29), positive().map(|d| {
+            let (m, s) = num::reciprocal(d);
+            f64::from(m) / two_to(s as i32) * f64::from(d) - 1.0
+        })),
+        row("num::reciprocal_sqrt", "31 bits", two_to(-28), positive().map(|w| {
+            let v = u64::from(w) * u64::from(w >> 3 | 1);
+            let (m, s) = num::reciprocal_sqrt(v);
+            f64::from(m) / two_to(s as i32) * (v as f64).sqrt() - 1.0
+        })),
+        row("num::sin_cos", "I2F30", two_to(-28), words.iter().flat_map(|w| {
+            let (s, c) = num::sin_cos(Angle::from_bits(*w));
+            [s.to_num::<f64>() - turns(*w).sin(), c.to_num::<f64>() - turns(*w).cos()]
+        })),
+        row("num::exp_minus", "I2F30", two_to(-27), words.iter().map(|w| {
+            let x = Real::from_bits((*w >> 1) as i32);
+            num::exp_minus(x).to_num::<f64>() - (-x.to_num::<f64>()).exp()
+        })),
+    ]
+}
+
+/// A function of the papers or like them, fixed and exact.
+pub struct Example {
+    /// What it is.
+    pub name: &'static str,
+    /// The abscissae and ordinates.
+    pub knots: Vec<(f64, f64)>,
+    /// The vertical scalings.
+    pub scaling: Vec<f64>,
+    /// How often it is integrated from 0.
+    pub integrate: u32,
+}
+
+impl Example {
+    fn new(name: &'static str, knots: &[(f64, f64)], scaling: &[f64], integrate: u32) -> Self {
+        Self { name, knots: knots.to_vec(), scaling: scaling.to_vec(), integrate }
+    }
+
+    /// The fixed-point function.
+    pub fn fixed(&self) -> Fif<16, 4> {
+        let knots: Vec<_> = self.knots.iter().map(|(x, y)| Knot::new(Wide::from_num(*x), Wide::from_num(*y))).collect();
+        let scaling: Vec<_> = self.scaling.iter().map(|a| nearest(*a)).collect();
+        let mut f = Fif::interpolating(&knots, &scaling).expect(self.name);
+        for _ in 0..self.integrate {
+            f = f.integral(Wide::ZERO).expect(self.name);
+        }
+        f
+    }
+
+    /// The reference.
+    pub fn exact(&self) -> reference::Fif {
+        let mut f = reference::Fif::interpolating(&self.knots, &self.scaling);
+        for _ in 0..self.integrate {
+            f = f.integral(0.0);
+        }
+        f
+    }
+}
+
+/// The nearest scaling: `from_num` truncates.
+pub fn nearest(alpha: f64) -> Scaling {
+    Scaling::from_bits((alpha * two_to(31)).round().min(two_to(31) - 1.0) as i32)
+}
+
+/// Functions on dyadic partitions.
+pub fn dyadic_examples() -> Vec<Example> {
+    let tent = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
+    let four = [(0.0, 0.3), (0.25, -0.7), (0.5, 1.1), (0.75, 0.2), (1.0, -0.4)];
+    vec![
+        Example::new("f of figure 1", &tent, &[0.5, 0.5], 0),
+        Example::new("g of figure 1", &tent, &[0.85, -0.85], 0),
+        Example::new("integral of f", &tent, &[0.5, 0.5], 1),
+        Example::new("integral of g", &tent, &[0.85, -0.85], 1),
+        Example::new("second integral of g", &tent, &[0.85, -0.85], 2),
+        Example::new("four maps", &four, &[0.7, -0.3, 0.55, 0.1], 0),
+        Example::new("steep", &tent, &[0.99, -0.99], 0),
+        Example::new("large", &[(-8.0, -31.25), (0.0, 40.1), (8.0, 22.7)], &[0.3, 0.37], 0),
+        Example::new("two straight maps", &[(0.0, 0.1), (0.5, 0.7), (1.0, 1.3)], &[0.0, 0.0], 0),
+    ]
+}
+
+/// Functions whose partition is not dyadic.
+pub fn other_examples() -> Vec<Example> {
+    vec![
+        Example::new("thirds", &[(0.0, 0.0), (1.0, 0.6), (2.0, -0.3), (3.0, 0.5)], &[0.4, -0.6, 0.3], 0),
+        Example::new("uneven", &[(0.0, 0.0), (0.1, 0.5), (0.3, 0.2), (1.0, 1.0)], &[0.3, 0.8, -0.5], 0),
+        Example::new("years", &[(1700.0, 0.05), (1800.0, 1.1), (1917.0, 0.4), (2008.0, 0.03)], &[0.2, -0.35, 0.5], 0),
+        Example::new("integral of uneven", &[(0.0, 0.0), (0.1, 0.5), (0.3, 0.2), (1.0, 1.0)], &[0.3, 0.8, -0.5], 1),
+    ]
+}
+
+/// Dyadic places of the unit interval: coarse, fine, random with up to 44 digits, and the ends.
+fn places() -> impl Iterator<Item = f64> {
+    let grid = (0..=4096).map(|i| f64::from(i) / 4096.0);
+    let random = words(2).take(4_000).map(|w| ((w >> (20 + w % 40)) as f64) / two_to(44 - (w % 40) as i32));
+    let edges = (1..44).flat_map(|k| [two_to(-k), 1.0 - two_to(-k)]);
+    grid.chain(random).chain(edges)
+}
+
+fn functions() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for example in dyadic_examples() {
+        let (fixed, exact) = (example.fixed(), example.exact());
+        let (x0, xn) = (example.knots[0].0, example.knots[example.knots.len() - 1].0);
+        let steepest = exact.max_scaling();
+        // the promise, or the function's own where that is tighter
+        let promised = (1.0 / (1.0 - steepest) + 1.0) * two_to(-24);
+        let bound = promised.min(fixed.error_bound().to_num());
+        let at = |u: f64| x0 + u * (xn - x0);
+        let name: &'static str = Box::leak(format!("Fif::at ({})", example.name).into_boxed_str());
+        rows.push(row(name, "I8F24", bound, places().map(|u| {
+            fixed.at(Wide::from_num(at(u))).to_num::<f64>() - exact.at(at(u))
+        })));
+        if let Some(fast) = fixed.dyadic() {
+            let name: &'static str = Box::leak(format!("Dyadic::at ({})", example.name).into_boxed_str());
+            rows.push(row(name, "I8F24", fast.error_bound().to_num(), places().filter(|u| *u < 1.0).map(|u| {
+                let bits = (u * two_to(32)) as u32;
+                fast.at(Angle::from_bits(bits)).to_num::<f64>() - exact.at(at(f64::from(bits) / two_to(32)))
+            })));
+        }
+    }
+    // composition ends at another abscissa than x: compare a function that is smooth enough for the difference not to show
+    let smooth = &dyadic_examples()[3];
+    let (fixed, exact) = (smooth.fixed(), smooth.exact());
+    rows.push(row("Fif::at_by_composition (integral of g)", "I8F24", fixed.error_bound().to_num::<f64>() + 4.0 * two_to(-23), places().map(|u| {
+        fixed.at_by_composition(Wide::from_num(2.0 * u), Real::DELTA).to_num::<f64>() - exact.at(2.0 * u)
+    })));
+    rows.push(row("Fif::integral (second integral of g)", "I16F48", two_to(-24), {
+        let twice = &dyadic_examples()[4];
+        let (fixed, exact) = (twice.fixed(), twice.exact());
+        places().map(move |u| fixed.at_wide(Wide::from_num(2.0 * u)).to_num::<f64>() - exact.at(2.0 * u))
+    }));
+    rows
+}
+

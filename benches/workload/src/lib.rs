@@ -18,6 +18,7 @@ pub mod kernels;
 mod machine;
 pub mod scenes;
 pub mod sink;
+mod surface;
 
 pub use crc::Crc32;
 pub use machine::{Blind, Machine};

@@ -3,15 +3,27 @@
 //! To add one: write a function that builds its objects, [claims](Stage::claim) their RAM and [shows](Stage::show) them, and add a line to
 //! [`ALL`]. The function takes the size from the stage, so that one function serves several lines.
 
-use attractor::num::{Angle, sin_cos};
+use core::ops::Range;
+
+use attractor::draw::{CourseUnit, Dots, Ink, Palette, Picture, Stroke, gradients};
+use attractor::escape::{Complex, Dwell, Julia, Mandelbrot, View};
+use attractor::fif::{Cell, Fif, Pyramid};
+use attractor::ifs::Ifs;
+use attractor::ifs::catalogue::BARNSLEY_FERN;
+use attractor::num::{Angle, Real, Wide, sin_cos};
+use attractor::picture::{Bounds2, Field, Point2, Window};
+use attractor::trace::RayCaster;
 use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
+use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb565};
 use embedded_graphics::primitives::Rectangle;
 
 use crate::Machine;
+use crate::kernels::figure_1;
 use crate::sink::{Colour, Failure, Outcome, Stage};
+use crate::surface::{g_integral, mirror};
 
 /// One row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -25,18 +37,25 @@ pub struct Scene {
     /// Whether it is small enough for a machine with 16 KiB of RAM.
     pub small: bool,
     /// Builds and shows it.
-    pub show: fn(&mut Stage<'_>) -> Result<(), Failure>,
+    pub show: Show,
+}
+
+type Show = fn(&mut Stage<'_>) -> Result<(), Failure>;
+
+const fn colour(name: &'static str, show: Show) -> Scene {
+    Scene { name, size: Size::new(240, 240), bits: 16, small: true, show }
+}
+
+const fn mono(name: &'static str, show: Show) -> Scene {
+    Scene { name, size: Size::new(128, 64), bits: 1, small: true, show }
+}
+
+/// For machines with more than 16 KiB of RAM.
+const fn roomy(scene: Scene) -> Scene {
+    Scene { small: false, ..scene }
 }
 
 impl Scene {
-    const fn colour(name: &'static str, show: fn(&mut Stage<'_>) -> Result<(), Failure>) -> Self {
-        Self { name, size: Size::new(240, 240), bits: 16, small: true, show }
-    }
-
-    const fn mono(name: &'static str, show: fn(&mut Stage<'_>) -> Result<(), Failure>) -> Self {
-        Self { name, size: Size::new(128, 64), bits: 1, small: true, show }
-    }
-
     /// Builds, shows and measures the scene.
     ///
     /// # Errors
@@ -49,11 +68,24 @@ impl Scene {
 }
 
 /// The table. The first rows are the floor: a picture that computes nothing.
+#[rustfmt::skip]
 pub static ALL: &[Scene] = &[
-    Scene::colour("blank", blank::<Rgb565>),
-    Scene::mono("blank", blank::<BinaryColor>),
-    Scene::colour("waves", waves::<Rgb565>),
-    Scene::mono("waves", waves::<BinaryColor>),
+    colour("blank", blank::<Rgb565>),
+    mono("blank", blank::<BinaryColor>),
+    colour("waves", waves::<Rgb565>),
+    mono("waves", waves::<BinaryColor>),
+    colour("mandelbrot home", mandelbrot::<Rgb565>),
+    mono("mandelbrot home", mandelbrot::<BinaryColor>),
+    Scene { size: Size::new(640, 480), ..roomy(colour("mandelbrot rp2040", rp2040::<Rgb565>)) },
+    colour("julia", julia::<Rgb565>),
+    mono("julia", julia::<BinaryColor>),
+    colour("fern", fern::<Rgb565>),
+    mono("fern", fern::<BinaryColor>),
+    colour("fif graph", graph::<Rgb565>),
+    mono("fif graph", graph::<BinaryColor>),
+    roomy(colour("fif mirror", fif_mirror::<Rgb565, 8, { Pyramid::cells(2, 8) }>)),
+    roomy(mono("fif mirror", fif_mirror::<BinaryColor, 8, { Pyramid::cells(2, 8) }>)),
+    mono("fif mirror of depth 6", fif_mirror::<BinaryColor, 6, { Pyramid::cells(2, 6) }>),
 ];
 
 fn blank<C: Colour>(stage: &mut Stage<'_>) -> Result<(), Failure> {
@@ -71,6 +103,99 @@ fn waves<C: Colour>(stage: &mut Stage<'_>) -> Result<(), Failure> {
         },
     };
     stage.show(&waves, size_of_val(&waves))
+}
+
+/// Shows a field through a palette, as one image at the origin.
+fn field<C: Colour + Ink, F: Field, P: Palette<F::Value>>(
+    stage: &mut Stage<'_>,
+    field: F,
+    palette: P,
+    borrowed: usize,
+) -> Result<(), Failure> {
+    let picture = Picture::<F, P, C>::new(field, palette);
+    stage.show(&Image::new(&picture, Point::zero()), size_of_val(&picture) + borrowed)
+}
+
+fn mandelbrot<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+    let set = Mandelbrot::new(View::home(stage.size())?, 100)?;
+    field::<C, _, _>(stage, set, CourseUnit, 0)
+}
+
+fn julia<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+    const C: Complex<Wide> = Complex::new(Wide::lit("-0.8"), Wide::lit("0.156"));
+    let view = View::new(Complex::new(Wide::ZERO, Wide::ZERO), const { Wide::lit("3.2") }, stage.size())?;
+    field::<C, _, _>(stage, Julia::new(view, C, 100)?, CourseUnit, 0)
+}
+
+/// The frame that was published for the RP2040: `c = (-2 + 3 i / 640, 1 - 2 j / 480)`, at most 1000 iterations. Its pixels are not square.
+struct Rp2040(Mandelbrot);
+
+impl Field for Rp2040 {
+    type Value = Dwell;
+    type Row<'a> = Rp2040Row<'a>;
+
+    fn size(&self) -> Size {
+        Size::new(640, 480)
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> Rp2040Row<'_> {
+        const DOWN: i64 = Wide::lit("2").to_bits();
+        Rp2040Row { set: &self.0, columns: x, im: Wide::from_bits((DOWN >> 1) - DOWN * i64::from(y) / 480) }
+    }
+}
+
+struct Rp2040Row<'a> {
+    set: &'a Mandelbrot,
+    columns: Range<u32>,
+    im: Wide,
+}
+
+impl Iterator for Rp2040Row<'_> {
+    type Item = Dwell;
+
+    fn next(&mut self) -> Option<Dwell> {
+        const ACROSS: i64 = Wide::lit("3").to_bits();
+        const LEFT: i64 = Wide::lit("-2").to_bits();
+        // the numerator is a multiple of 128: 3 2^48 / 640 = 3 2^41 / 5
+        let i = i64::from(self.columns.next()?);
+        let re = Wide::from_bits(LEFT + (ACROSS >> 7) * i / 5);
+        Some(self.set.dwell_at(Complex::new(re, self.im)))
+    }
+}
+
+fn rp2040<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+    let set = Mandelbrot::new(View::home(stage.size())?, 1000)?;
+    field::<C, _, _>(stage, Rp2040(set), CourseUnit, 0)
+}
+
+fn fern<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+    stage.claim(size_of::<Ifs<4>>())?;
+    let fern = BARNSLEY_FERN.ifs::<4>()?;
+    let window = Window::fit(fern.bounds(), stage.size())?;
+    let points = fern.seeded_chaos_game(1).take(stage.size().width as usize * 100);
+    let dots = Dots::new(points, window, C::from(BinaryColor::On));
+    stage.show(&dots, size_of_val(&dots) + size_of_val(&fern))
+}
+
+fn graph<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+    let f = figure_1()?;
+    let (low, high) = f.range();
+    let at = |x, y| Point2::new(Real::from_bits(x), y);
+    let window = Window::stretch(Bounds2 { min: at(0, low), max: at(1 << 24, high) }, stage.size())?;
+    let stroke = Stroke::new(f.graph(stage.size().width), window, C::from(BinaryColor::On));
+    stage.show(&stroke, size_of_val(&stroke) + size_of_val(&f))
+}
+
+fn fif_mirror<C: Colour + Ink, const DEPTH: u32, const CELLS: usize>(
+    stage: &mut Stage<'_>,
+) -> Result<(), Failure> {
+    stage.claim(size_of::<[Cell; CELLS]>() + size_of::<RayCaster<'_>>() + size_of::<Fif<2, 2>>())?;
+    let mut memory = [Cell::ZERO; CELLS];
+    let g = g_integral()?;
+    let pyramid = Pyramid::new(&g, DEPTH, &mut memory)?;
+    let caster = mirror(&pyramid, stage.size())?;
+    let borrowed = size_of::<[Cell; CELLS]>() + size_of_val(&g) + size_of_val(&pyramid);
+    field::<C, _, _>(stage, caster, gradients::DUSK, borrowed)
 }
 
 /// A colour for each pixel, row by row.

@@ -8,7 +8,8 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
-use attractor_workload::kernels;
+use attractor_workload::Blind;
+use attractor_workload::kernels::{self, Watch};
 
 use crate::targets;
 use crate::{Options, emulator, images, toolchain};
@@ -25,7 +26,7 @@ pub(crate) fn run(options: &Options, name: &str) -> Result<bool> {
         let images = images::build(target, &compiler)?;
         for (format, work) in [("fixed", Some(kernel.fixed)), ("f32", kernel.f32), ("f64", kernel.f64)] {
             let Some(work) = work else { continue };
-            let units = f64::from(work().units.max(1));
+            let units = f64::from(work(&mut Watch::new(&mut Blind, 1)).units.max(1));
             let once = histogram(target, images.path("kernels")?, options, name, format, 1)?;
             let mut twice = histogram(target, images.path("kernels")?, options, name, format, 2)?;
             for (instruction, count) in once {

@@ -100,12 +100,12 @@ impl<const N: usize, const D: usize> Fif<N, D> {
                 Some([a, b]) => (value(a.y), value(b.y)),
                 _ => (0, 0),
             };
-            let left = a - twice_high(y0, scaling);
-            let right = b - twice_high(yn, scaling);
+            let left = a.saturating_sub(twice_high(y0, scaling));
+            let right = b.saturating_sub(twice_high(yn, scaling));
             let mut q = Polynomial::ZERO;
             q.constant = left;
             if let Some(c) = q.powers.first_mut() {
-                *c = right - left;
+                *c = right.saturating_sub(left);
             }
             Ok(q)
         })

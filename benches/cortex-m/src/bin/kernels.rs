@@ -7,25 +7,23 @@
 use core::hint::black_box;
 
 use attractor_cortex_m::semihosting::{print, println, process};
-use attractor_cortex_m::workload::Machine;
-use attractor_cortex_m::workload::kernels::{self, Kernel, Loop, Tally};
+use attractor_cortex_m::workload::kernels::{self, Kernel, Loop, Tally, Watch};
 use attractor_cortex_m::{Board, arguments, entry};
 
 attractor_cortex_m::report_panics!();
 
+/// Reading the counter costs as much.
 #[inline(never)]
-fn nothing() -> Tally {
-    Tally { checksum: 0, units: 0 }
+fn nothing(watch: &mut Watch<'_>) -> Tally {
+    watch.time(Tally::default)
 }
 
-/// Instructions of one run, the call and the reading of the counter included.
+/// One run: what it computed and how many instructions it took, the reading of the counter included.
 #[inline(never)]
 fn count(board: &mut Board, work: Loop) -> (Tally, u32) {
-    let work = black_box(work);
-    let before = board.instructions();
-    let tally = work();
-    let after = board.instructions();
-    (black_box(tally), after.wrapping_sub(before))
+    let mut watch = Watch::new(board, 1);
+    let tally = black_box(work)(&mut watch);
+    (tally, watch.spent())
 }
 
 #[entry]
@@ -47,14 +45,15 @@ fn main() -> ! {
         _ => times = argument.parse::<u32>().ok(),
     });
     if let (Some(work), Some(times)) = (work, times) {
-        for _ in 0..times {
-            black_box(black_box(work)());
-        }
+        black_box(work(&mut Watch::new(&mut board, times)));
         process::exit(0);
     }
 
     let (_, floor) = count(&mut board, nothing);
     for kernel in kernels::ALL {
+        if cfg!(small) && !kernel.small {
+            continue;
+        }
         print!(
             "{{\"line\":\"kernel\",\"name\":\"{}\",\"unit\":\"{}\",\"counted\":{}",
             kernel.name,

@@ -1,15 +1,24 @@
 //! Inner loops, counted by the unit of work.
 //!
-//! To add one: write its loops beside those of its room, each with [`over`] or by hand, and add a line to [`all`].
-//! A loop returns a checksum of everything it computed (so that nothing is optimised away, and so that host and target can be
-//! compared) and how many units of work it did.
+//! To add one: write its loops beside those of its room and add a line to [`ALL`]. A loop builds what it needs and hands the work to
+//! [`Watch::time`], or to [`Watch::over`] for a table of inputs; only that is counted. It returns a checksum of everything it computed
+//! (so that nothing is optimised away, and so that host and target can be compared) and how many units of work it did.
 
+mod escape;
+mod fif;
+mod ifs;
 mod num;
+mod trace;
 
+pub(crate) use fif::figure_1;
+
+use core::fmt;
 use core::hint::black_box;
 
+use crate::Machine;
+
 /// What one run of a loop did.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tally {
     /// Over all results. Equal on every machine for fixed point; floating point owes nothing.
     pub checksum: u32,
@@ -17,8 +26,61 @@ pub struct Tally {
     pub units: u32,
 }
 
+/// Times the part of a loop that counts.
+pub struct Watch<'m> {
+    machine: &'m mut dyn Machine,
+    times: u32,
+    spent: u32,
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch")
+            .field("times", &self.times)
+            .field("spent", &self.spent)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'m> Watch<'m> {
+    /// A watch that lets the work be done so many times: once, but for a histogram.
+    pub fn new(machine: &'m mut dyn Machine, times: u32) -> Self {
+        Self { machine, times, spent: 0 }
+    }
+
+    /// Instructions of what was timed, reading the counter included: a loop that does nothing tells how many these are.
+    pub const fn spent(&self) -> u32 {
+        self.spent
+    }
+
+    /// Does `work` and counts its instructions.
+    #[inline(always)]
+    pub fn time(&mut self, mut work: impl FnMut() -> Tally) -> Tally {
+        let mut tally = Tally::default();
+        let before = self.machine.instructions();
+        for _ in 0..self.times {
+            tally = black_box(work());
+        }
+        let after = self.machine.instructions();
+        self.spent = after.wrapping_sub(before);
+        tally
+    }
+
+    /// Times `kernel` on every input. The checksum costs one instruction a result on a machine with a barrel shifter.
+    #[inline(always)]
+    fn over<T: Copy>(&mut self, inputs: &[T], mut kernel: impl FnMut(T) -> u32) -> Tally {
+        self.time(|| {
+            let mut checksum = 0_u32;
+            for input in black_box(inputs) {
+                checksum = checksum.rotate_left(1) ^ kernel(*input);
+            }
+            Tally { checksum, units: inputs.len() as u32 }
+        })
+    }
+}
+
 /// A loop that can be run again and again.
-pub type Loop = fn() -> Tally;
+pub type Loop = fn(&mut Watch<'_>) -> Tally;
 
 /// One row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -33,38 +95,45 @@ pub struct Kernel {
     pub f32: Option<Loop>,
     /// The same in double precision.
     pub f64: Option<Loop>,
+    /// Whether a machine with 16 KiB of RAM holds what it needs.
+    pub small: bool,
 }
 
-impl Kernel {
-    const fn new(name: &'static str, unit: &'static str, fixed: Loop, f32: Loop, f64: Loop) -> Self {
-        Self { name, unit, fixed, f32: Some(f32), f64: Some(f64) }
-    }
+/// A row with its floating-point rivals.
+const fn beside(name: &'static str, unit: &'static str, fixed: Loop, f32: Loop, f64: Loop) -> Kernel {
+    Kernel { name, unit, fixed, f32: Some(f32), f64: Some(f64), small: true }
+}
+
+/// A row without.
+const fn alone(name: &'static str, unit: &'static str, fixed: Loop) -> Kernel {
+    Kernel { name, unit, fixed, f32: None, f64: None, small: true }
+}
+
+/// The same, for machines with room.
+const fn roomy(kernel: Kernel) -> Kernel {
+    Kernel { small: false, ..kernel }
 }
 
 /// The table. The first row is the floor: what the loop, its loads and its checksum cost alone.
+#[rustfmt::skip]
 pub static ALL: &[Kernel] = &[
-    Kernel::new("identity", "call", num::identity_fixed, num::identity_f32, num::identity_f64),
-    Kernel::new("reciprocal", "call", num::reciprocal_fixed, num::reciprocal_f32, num::reciprocal_f64),
-    Kernel::new(
-        "reciprocal_sqrt",
-        "call",
-        num::reciprocal_sqrt_fixed,
-        num::reciprocal_sqrt_f32,
-        num::reciprocal_sqrt_f64,
-    ),
-    Kernel::new("sqrt", "call", num::sqrt_fixed, num::sqrt_f32, num::sqrt_f64),
-    Kernel::new("sin_cos", "call", num::sin_cos_fixed, num::sin_cos_f32, num::sin_cos_f64),
+    beside("identity", "call", num::identity_fixed, num::identity_f32, num::identity_f64),
+    beside("reciprocal", "call", num::reciprocal_fixed, num::reciprocal_f32, num::reciprocal_f64),
+    beside("reciprocal_sqrt", "call", num::reciprocal_sqrt_fixed, num::reciprocal_sqrt_f32, num::reciprocal_sqrt_f64),
+    beside("sqrt", "call", num::sqrt_fixed, num::sqrt_f32, num::sqrt_f64),
+    beside("sin_cos", "call", num::sin_cos_fixed, num::sin_cos_f32, num::sin_cos_f64),
+    beside("dwell fine", "iteration", escape::fine, escape::plain_f32, escape::plain_f64),
+    beside("dwell coarse", "iteration", escape::coarse, escape::plain_f32, escape::plain_f64),
+    beside("chaos game", "point", ifs::fern_fixed, ifs::fern_f32, ifs::fern_f64),
+    beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
+    beside("fif", "call at any abscissa", fif::any, fif::any_f32, fif::any_f64),
+    beside("fif integral", "call of 24 levels", fif::integral, fif::integral_f32, fif::integral_f64),
+    roomy(alone("ray", "ray that hits or misses", trace::rays)),
+    roomy(alone("box test", "box", trace::boxes)),
+    roomy(beside("normal", "unit normal of a hit", trace::normals, trace::normals_f32, trace::normals_f64)),
+    roomy(alone("shade mirror", "call", trace::mirror_shading)),
+    roomy(alone("shade phong", "call", trace::phong)),
 ];
-
-/// Runs `kernel` on every input. The checksum costs one instruction a result on a machine with a barrel shifter.
-#[inline(always)]
-fn over<T: Copy, const N: usize>(inputs: &'static [T; N], mut kernel: impl FnMut(T) -> u32) -> Tally {
-    let mut checksum = 0_u32;
-    for input in black_box(inputs) {
-        checksum = checksum.rotate_left(1) ^ kernel(*input);
-    }
-    Tally { checksum, units: N as u32 }
-}
 
 /// A result in double precision, for a checksum.
 #[inline(always)]

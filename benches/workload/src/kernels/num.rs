@@ -2,7 +2,7 @@
 
 use attractor::num::{self, Angle};
 
-use super::{Tally, fold, over};
+use super::{Tally, Watch, fold};
 use crate::float;
 use crate::inputs::{mixed, table};
 
@@ -28,74 +28,74 @@ table!(ANGLES_F32: f32, i => (ANGLES[i] >> 8) as f32 / 16_777_216.0);
 table!(ANGLES_F64: f64, i => ANGLES[i] as f64 / 4_294_967_296.0);
 
 #[inline(never)]
-pub(super) fn identity_fixed() -> Tally {
-    over(&WORDS, |v| v)
+pub(super) fn identity_fixed(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&WORDS, |v| v)
 }
 
 #[inline(never)]
-pub(super) fn identity_f32() -> Tally {
-    over(&WORDS_F32, f32::to_bits)
+pub(super) fn identity_f32(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&WORDS_F32, f32::to_bits)
 }
 
 #[inline(never)]
-pub(super) fn identity_f64() -> Tally {
-    over(&WORDS_F64, fold)
+pub(super) fn identity_f64(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&WORDS_F64, fold)
 }
 
 #[inline(never)]
-pub(super) fn reciprocal_fixed() -> Tally {
-    over(&WORDS, |v| {
+pub(super) fn reciprocal_fixed(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&WORDS, |v| {
         let (mantissa, shift) = num::reciprocal(v);
         mantissa ^ shift
     })
 }
 
 #[inline(never)]
-pub(super) fn reciprocal_f32() -> Tally {
-    over(&WORDS_F32, |v| (1.0 / v).to_bits())
+pub(super) fn reciprocal_f32(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&WORDS_F32, |v| (1.0 / v).to_bits())
 }
 
 #[inline(never)]
-pub(super) fn reciprocal_f64() -> Tally {
-    over(&WORDS_F64, |v| fold(1.0 / v))
+pub(super) fn reciprocal_f64(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&WORDS_F64, |v| fold(1.0 / v))
 }
 
 #[inline(never)]
-pub(super) fn reciprocal_sqrt_fixed() -> Tally {
-    over(&SQUARES, |v| {
+pub(super) fn reciprocal_sqrt_fixed(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES, |v| {
         let (mantissa, shift) = num::reciprocal_sqrt(v);
         mantissa ^ shift
     })
 }
 
 #[inline(never)]
-pub(super) fn reciprocal_sqrt_f32() -> Tally {
-    over(&SQUARES_F32, |v| (1.0 / float::sqrt(v)).to_bits())
+pub(super) fn reciprocal_sqrt_f32(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES_F32, |v| (1.0 / float::sqrt(v)).to_bits())
 }
 
 #[inline(never)]
-pub(super) fn reciprocal_sqrt_f64() -> Tally {
-    over(&SQUARES_F64, |v| fold(1.0 / libm::sqrt(v)))
+pub(super) fn reciprocal_sqrt_f64(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES_F64, |v| fold(1.0 / libm::sqrt(v)))
 }
 
 #[inline(never)]
-pub(super) fn sqrt_fixed() -> Tally {
-    over(&SQUARES, num::sqrt)
+pub(super) fn sqrt_fixed(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES, num::sqrt)
 }
 
 #[inline(never)]
-pub(super) fn sqrt_f32() -> Tally {
-    over(&SQUARES_F32, |v| float::sqrt(v).to_bits())
+pub(super) fn sqrt_f32(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES_F32, |v| float::sqrt(v).to_bits())
 }
 
 #[inline(never)]
-pub(super) fn sqrt_f64() -> Tally {
-    over(&SQUARES_F64, |v| fold(libm::sqrt(v)))
+pub(super) fn sqrt_f64(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES_F64, |v| fold(libm::sqrt(v)))
 }
 
 #[inline(never)]
-pub(super) fn sin_cos_fixed() -> Tally {
-    over(&ANGLES, |v| {
+pub(super) fn sin_cos_fixed(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&ANGLES, |v| {
         let (sin, cos) = num::sin_cos(Angle::from_bits(v));
         (sin.to_bits() ^ cos.to_bits().rotate_left(16)) as u32
     })
@@ -103,8 +103,8 @@ pub(super) fn sin_cos_fixed() -> Tally {
 
 /// The same reduction and the same series as in fixed point.
 #[inline(never)]
-pub(super) fn sin_cos_f32() -> Tally {
-    over(&ANGLES_F32, |turns| {
+pub(super) fn sin_cos_f32(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&ANGLES_F32, |turns| {
         let quarter = float::mul_add(turns, 4.0, 0.5) as i32;
         let x = float::mul_add(quarter as f32, -0.25, turns) * core::f32::consts::TAU;
         let square = x * x;
@@ -128,8 +128,8 @@ pub(super) fn sin_cos_f32() -> Tally {
 }
 
 #[inline(never)]
-pub(super) fn sin_cos_f64() -> Tally {
-    over(&ANGLES_F64, |turns| {
+pub(super) fn sin_cos_f64(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&ANGLES_F64, |turns| {
         let quarter = (turns * 4.0 + 0.5) as i32;
         let x = (turns - f64::from(quarter) * 0.25) * core::f64::consts::TAU;
         let square = x * x;

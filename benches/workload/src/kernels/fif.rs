@@ -1,0 +1,133 @@
+//! Evaluation of the function `f` of figure 1 and of its integral.
+
+use attractor::Error;
+use attractor::fif::{Fif, Knot};
+use attractor::num::{Angle, Scaling, Wide};
+
+use super::{Tally, Watch, fold};
+use crate::float::mul_add;
+use crate::inputs::{mixed, table};
+
+table! {
+    /// Abscissae with exactly 24 binary digits.
+    PLACES: u32, i => (mixed(i) as u32 & 0xffff_ff00) | 0x100
+}
+
+/// The paper's `f`: knots (0, 0), (1, 1), (2, 0), both scalings 1/2.
+pub(crate) fn figure_1() -> Result<Fif<2, 1>, Error> {
+    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+    Fif::interpolating(&knots, &[Scaling::from_bits(1 << 30); 2])
+}
+
+#[inline(never)]
+pub(super) fn dyadic(watch: &mut Watch<'_>) -> Tally {
+    let Some(f) = figure_1().ok().and_then(|f| f.dyadic()) else { return Tally::default() };
+    watch.over(&PLACES, |u| f.at(Angle::from_bits(u)).to_bits() as u32)
+}
+
+#[inline(never)]
+pub(super) fn any(watch: &mut Watch<'_>) -> Tally {
+    let Ok(f) = figure_1() else { return Tally::default() };
+    watch.over(&PLACES, |u| f.at(Wide::from_bits(i64::from(u) << 17)).to_bits() as u32)
+}
+
+#[inline(never)]
+pub(super) fn integral(watch: &mut Watch<'_>) -> Tally {
+    let integral = figure_1().and_then(|f| f.integral::<2>(Wide::ZERO)).ok().and_then(|f| f.dyadic());
+    let Some(f) = integral else { return Tally::default() };
+    watch.over(&PLACES, |u| f.at(Angle::from_bits(u)).to_bits() as u32)
+}
+
+/// The same two walks in floating point: from the last digit to the first for 24 digits, and forwards along the pre-images for any abscissa,
+/// until the horizontal factor is below the resolution of the type.
+///
+/// `f`: `q_1 = u`, `q_2 = 1 - u`, `alpha = 1/2`; its integral (eq. 37-38, in `u`): `q_1 = u^2 / 2`, `q_2 = 1 + u - u^2 / 2`, `alpha = 1/4`.
+macro_rules! walks {
+    ($dyadic:ident, $any:ident, $integral:ident, $float:ty, $fused:expr, $fold:expr, $levels:literal) => {
+        #[inline(never)]
+        pub(super) fn $dyadic(watch: &mut Watch<'_>) -> Tally {
+            // start of the interval, constant and linear coefficient, scaling
+            let maps: [[$float; 4]; 2] = core::hint::black_box([[0.0, 0.0, 1.0, 0.5], [0.5, 1.0, -1.0, 0.5]]);
+            watch.over(&PLACES, |u| {
+                let (mut t, mut y): ($float, $float) = (0.0, 0.0);
+                let mut digits = u >> 8;
+                for _ in 0..24 {
+                    let [start, constant, linear, scaling] = maps[(digits & 1) as usize];
+                    y = $fused(scaling, y, $fused(linear, t, constant));
+                    t = $fused(t, 0.5, start);
+                    digits >>= 1;
+                }
+                $fold(y)
+            })
+        }
+
+        #[inline(never)]
+        pub(super) fn $any(watch: &mut Watch<'_>) -> Tally {
+            let maps: [[$float; 4]; 2] = core::hint::black_box([[0.0, 0.0, 1.0, 0.5], [0.5, 1.0, -1.0, 0.5]]);
+            let inputs = PLACES.map(|u| u as $float / 4_294_967_296.0);
+            watch.over(&inputs, |place| {
+                let mut u = place;
+                let (mut sum, mut factor): ($float, $float) = (0.0, 1.0);
+                for _ in 0..$levels {
+                    let [start, constant, linear, scaling] = maps[usize::from(u >= 0.5)];
+                    u = (u - start) * 2.0;
+                    sum = $fused(factor, $fused(linear, u, constant), sum);
+                    factor *= scaling;
+                    if u == 0.0 {
+                        break;
+                    }
+                }
+                $fold(sum)
+            })
+        }
+
+        #[inline(never)]
+        pub(super) fn $integral(watch: &mut Watch<'_>) -> Tally {
+            let maps: [[$float; 5]; 2] =
+                core::hint::black_box([[0.0, 0.0, 0.0, 0.5, 0.25], [0.5, 1.0, 1.0, -0.5, 0.25]]);
+            watch.over(&PLACES, |u| {
+                let (mut t, mut y): ($float, $float) = (0.0, 0.0);
+                let mut digits = u >> 8;
+                for _ in 0..24 {
+                    let [start, constant, linear, square, scaling] = maps[(digits & 1) as usize];
+                    y = $fused(scaling, y, $fused(t, $fused(square, t, linear), constant));
+                    t = $fused(t, 0.5, start);
+                    digits >>= 1;
+                }
+                $fold(y)
+            })
+        }
+    };
+}
+
+walks!(dyadic_f32, any_f32, integral_f32, f32, mul_add, f32::to_bits, 24);
+walks!(dyadic_f64, any_f64, integral_f64, f64, |a: f64, b: f64, c: f64| a * b + c, fold, 53);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The walk of `dyadic_f64`, for one place.
+    fn at(maps: [[f64; 5]; 2], u: u32) -> f64 {
+        let (mut t, mut y) = (0.0, 0.0);
+        for k in 8..32 {
+            let [start, constant, linear, square, scaling] = maps[(u >> k & 1) as usize];
+            y = scaling * y + t * (square * t + linear) + constant;
+            t = t * 0.5 + start;
+        }
+        y
+    }
+
+    #[test]
+    fn the_maps_written_in_floating_point_are_those_of_core() {
+        let f = figure_1().unwrap();
+        let integral = f.integral::<2>(Wide::ZERO).unwrap();
+        for u in PLACES {
+            let x = Wide::from_bits(i64::from(u) << 17);
+            let float = at([[0.0, 0.0, 1.0, 0.0, 0.5], [0.5, 1.0, -1.0, 0.0, 0.5]], u);
+            assert!((f.at(x).to_num::<f64>() - float).abs() < 1e-6, "f at {x}");
+            let float = at([[0.0, 0.0, 0.0, 0.5, 0.25], [0.5, 1.0, 1.0, -0.5, 0.25]], u);
+            assert!((integral.at(x).to_num::<f64>() - float).abs() < 1e-6, "integral at {x}: {float}");
+        }
+    }
+}

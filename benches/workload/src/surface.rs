@@ -1,0 +1,22 @@
+//! The surface `G x G` of the paper: `G` is the integral of the function `g` of figure 1 (scalings 0.85 and -0.85), mirrored under a sky.
+
+use attractor::Error;
+use attractor::fif::{Fif, Knot, Pyramid};
+use attractor::num::{Real, Scaling, Vec3, Wide};
+use attractor::trace::{Camera, HeightField, Material, RayCaster};
+use embedded_graphics::geometry::Size;
+
+/// The paper's `G`.
+pub(crate) fn g_integral() -> Result<Fif<2, 2>, Error> {
+    const STEEP: Scaling = Scaling::lit("0.85");
+    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+    let g = Fif::<2, 1>::interpolating(&knots, &[STEEP, -STEEP])?;
+    g.integral::<2>(Wide::ZERO)
+}
+
+/// From the upper left front; the surface fills a third of a square picture.
+pub(crate) fn mirror<'a>(pyramid: &Pyramid<'a>, size: Size) -> Result<RayCaster<'a>, Error> {
+    let at = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+    let camera = Camera::new(at(-4, -3, 5), at(1, 1, 0), at(0, 0, 1), Real::from_num(32))?;
+    RayCaster::new(HeightField::new(pyramid, pyramid)?, camera, size)?.with_material(Material::Mirror)
+}
