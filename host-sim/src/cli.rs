@@ -49,16 +49,16 @@ pub(crate) enum Command {
 #[derive(Debug, Args)]
 pub(crate) struct Look {
     /// Size of the display in pixels
-    #[arg(long, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
     pub(crate) size: Size,
     /// Colour of the display
     #[arg(long, value_name = "DEPTH", default_value = "rgb565")]
     pub(crate) color: ColorDepth,
     /// Side of a pixel of the display in pixels of the file or the window
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) scale: u32,
     /// Seed of the chaos game and of jittered samples
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
 }
 
@@ -98,11 +98,11 @@ pub(crate) struct Sample {
     #[arg(value_name = "SCENE")]
     pub(crate) scene: String,
     /// How many points; mandelbrot and julia take --size instead
-    #[arg(long, value_name = "N", default_value_t = 1000,
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 1000,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_POINTS)))]
     pub(crate) points: u32,
     /// Size of the picture whose pixels are listed
-    #[arg(long, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
     pub(crate) size: Size,
 }
 

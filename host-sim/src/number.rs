@@ -45,19 +45,19 @@ impl<'de> Deserialize<'de> for Number {
 ///
 /// The error says what is wrong in words that follow the value.
 pub(crate) fn nearest<F: Fixed + FromStr>(digits: &str) -> Result<F, String> {
+    let digits = digits.replace('_', "");
     if let Ok(value) = digits.parse() {
         return Ok(value);
     }
-    match digits.replace('_', "").parse::<f64>() {
+    match digits.parse::<f64>() {
         Ok(value) if value.is_finite() => {
-            Err(format!("is outside the format, allowed is {} to {}", short(F::MIN), short(F::MAX)))
+            // a power of two on both sides
+            let limit = format!("{:.0}", F::MIN);
+            let above = limit.trim_start_matches('-');
+            Err(format!("is outside the format, allowed is from {limit} to just below {above}"))
         }
         _ => Err("is not a finite decimal number".to_owned()),
     }
-}
-
-fn short<F: Fixed>(value: F) -> String {
-    format!("{:.9}", value).trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// The `f64` nearest to a decimal number.

@@ -155,14 +155,3 @@ pub(super) fn sample(
     }
     Ok(())
 }
-
-/// `min(iterations until |z| > 2, max)` in `f64`.
-pub(super) fn reference_dwell((mut x, mut y): (f64, f64), c: (f64, f64), max: u32) -> u32 {
-    for n in 0..max {
-        if x * x + y * y > 4.0 {
-            return n;
-        }
-        (x, y) = (x * x - y * y + c.0, 2.0 * x * y + c.1);
-    }
-    max
-}

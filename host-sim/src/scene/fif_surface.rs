@@ -187,11 +187,11 @@ impl FifSurface {
                 .map_err(|error| Fail::new(format_args!("{}: [{key}]: {error}", self.file)))
         };
         let (f, g) = (factor(&self.f, "f")?, factor(&self.g, "g")?);
-        let slope = |function: &Function, key: &str| -> Result<reference::Fif, Fail> {
-            let fail = |error| Fail::new(format_args!("{}: [{key}]: {error}", self.file));
-            function.reference.derivative().map_err(fail)
+        let profile = |function: &Function, key: &str| {
+            reference::Factor::new(function.reference.clone())
+                .map_err(|error| Fail::new(format_args!("{}: [{key}]: {error}", self.file)))
         };
-        let (df, dg) = (slope(&self.f, "f")?, slope(&self.g, "g")?);
+        let exactly = reference::Surface { x: profile(&self.f, "f")?, y: profile(&self.g, "g")? };
         let surface = Surface::new(&f, &g);
         writeln!(out, "x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference")?;
         let root = points.isqrt();
@@ -199,16 +199,14 @@ impl FifSurface {
         let ((x0, x1), (y0, y1)) = (self.f.fixed.domain(), self.g.fixed.domain());
         for j in 0..side {
             let y = abscissa(y0, y1, j, side);
-            let v = y.to_num();
-            let (gy, dgy) = (self.g.reference.at(v), dg.at(v));
             for i in 0..side {
                 let x = abscissa(x0, x1, i, side);
-                let u = x.to_num();
-                let (fx, dfx) = (self.f.reference.at(u), df.at(u));
+                let (u, v) = (x.to_num(), y.to_num());
+                let [nx, ny, nz] = exactly.normal(u, v);
                 let n = surface.normal(x, y);
                 write!(out, "{},{},{},", exact(x), exact(y), exact(surface.height(x, y)))?;
                 write!(out, "{},{},{},", exact(n.x), exact(n.y), exact(n.z))?;
-                writeln!(out, "{:?},{:?},{:?},1.0", fx * gy, -dfx * gy, -fx * dgy)?;
+                writeln!(out, "{:?},{nx:?},{ny:?},{nz:?}", exactly.height(u, v))?;
             }
         }
         Ok(())

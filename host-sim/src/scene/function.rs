@@ -62,6 +62,7 @@ impl Description {
         };
         let mut fixed = fixed.map_err(|error| self.explain(source, prefix, error))?;
         self.check_ordinates(source, prefix, &knots, &fixed)?;
+        self.check_abscissae(source, prefix)?;
         let mut reference = self.reference(source);
         let times = self.integrate.as_ref().map_or(0, |times| *times.get_ref());
         for _ in 0..times {
@@ -105,6 +106,20 @@ impl Description {
                 let span = self.knots.get_ref().get(i).map_or(0..0, Spanned::span);
                 let reason = format!("the polynomials make its ordinate {:.6}", got.y);
                 return Err(source.fail(span, &format!("{prefix}knots[{i}]"), reason));
+            }
+        }
+        Ok(())
+    }
+
+    /// Knots that differ in the format may be one and the same `f64`, of which the reference could make nothing.
+    fn check_abscissae(&self, source: &Source, prefix: &str) -> Result<(), Fail> {
+        let x = |knot: &Spanned<[Num; 2]>| number::float(source.digits(&knot.get_ref()[0]));
+        for (i, pair) in self.knots.get_ref().windows(2).enumerate() {
+            if let [a, b] = pair
+                && x(a) >= x(b)
+            {
+                let reason = "its abscissa is the same f64 as that of its neighbour";
+                return Err(source.fail(b.span(), &format!("{prefix}knots[{}]", i + 1), reason));
             }
         }
         Ok(())

@@ -83,7 +83,8 @@ impl JuliaScene {
 
     pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
         let picture = self.picture(request)?;
-        let reference = |re, im| escape::reference_dwell((re, im), self.float, self.escape.max_dwell);
+        let reference =
+            |re, im| attractor_reference::julia_dwell((re, im), self.float, self.escape.max_dwell);
         escape::sample(picture.view(), |s| picture.dwell_at(s).count, reference, out)
     }
 }

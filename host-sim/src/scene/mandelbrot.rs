@@ -71,7 +71,7 @@ impl MandelbrotScene {
 
     pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
         let picture = self.picture(request)?;
-        let reference = |re, im| escape::reference_dwell((re, im), (re, im), self.0.max_dwell);
+        let reference = |re, im| attractor_reference::dwell((re, im), self.0.max_dwell);
         escape::sample(picture.view(), |c| picture.dwell_at(c).count, reference, out)
     }
 }
