@@ -34,6 +34,7 @@ impl Row {
 pub fn table() -> Vec<Row> {
     let mut rows = numbers();
     rows.extend(functions());
+    rows.extend(surfaces());
     rows
 }
 
@@ -76,23 +77,43 @@ fn numbers() -> Vec<Row> {
     let positive = || words.iter().copied().filter(|w| *w > 0);
     let turns = |w: u32| f64::from(w) / two_to(32) * std::f64::consts::TAU;
     vec![
-        row("num::reciprocal", "31 bits", two_to(-29), positive().map(|d| {
-            let (m, s) = num::reciprocal(d);
-            f64::from(m) / two_to(s as i32) * f64::from(d) - 1.0
-        })),
-        row("num::reciprocal_sqrt", "31 bits", two_to(-28), positive().map(|w| {
-            let v = u64::from(w) * u64::from(w >> 3 | 1);
-            let (m, s) = num::reciprocal_sqrt(v);
-            f64::from(m) / two_to(s as i32) * (v as f64).sqrt() - 1.0
-        })),
-        row("num::sin_cos", "I2F30", two_to(-28), words.iter().flat_map(|w| {
-            let (s, c) = num::sin_cos(Angle::from_bits(*w));
-            [s.to_num::<f64>() - turns(*w).sin(), c.to_num::<f64>() - turns(*w).cos()]
-        })),
-        row("num::exp_minus", "I2F30", two_to(-27), words.iter().map(|w| {
-            let x = Real::from_bits((*w >> 1) as i32);
-            num::exp_minus(x).to_num::<f64>() - (-x.to_num::<f64>()).exp()
-        })),
+        row(
+            "num::reciprocal",
+            "31 bits",
+            two_to(-29),
+            positive().map(|d| {
+                let (m, s) = num::reciprocal(d);
+                f64::from(m) / two_to(s as i32) * f64::from(d) - 1.0
+            }),
+        ),
+        row(
+            "num::reciprocal_sqrt",
+            "31 bits",
+            two_to(-28),
+            positive().map(|w| {
+                let v = u64::from(w) * u64::from(w >> 3 | 1);
+                let (m, s) = num::reciprocal_sqrt(v);
+                f64::from(m) / two_to(s as i32) * (v as f64).sqrt() - 1.0
+            }),
+        ),
+        row(
+            "num::sin_cos",
+            "I2F30",
+            two_to(-28),
+            words.iter().flat_map(|w| {
+                let (s, c) = num::sin_cos(Angle::from_bits(*w));
+                [s.to_num::<f64>() - turns(*w).sin(), c.to_num::<f64>() - turns(*w).cos()]
+            }),
+        ),
+        row(
+            "num::exp_minus",
+            "I2F30",
+            two_to(-27),
+            words.iter().map(|w| {
+                let x = Real::from_bits((*w >> 1) as i32);
+                num::exp_minus(x).to_num::<f64>() - (-x.to_num::<f64>()).exp()
+            }),
+        ),
     ]
 }
 
@@ -115,7 +136,8 @@ impl Example {
 
     /// The fixed-point function.
     pub fn fixed(&self) -> Fif<16, 4> {
-        let knots: Vec<_> = self.knots.iter().map(|(x, y)| Knot::new(Wide::from_num(*x), Wide::from_num(*y))).collect();
+        let knots: Vec<_> =
+            self.knots.iter().map(|(x, y)| Knot::new(Wide::from_num(*x), Wide::from_num(*y))).collect();
         let scaling: Vec<_> = self.scaling.iter().map(|a| nearest(*a)).collect();
         let mut f = Fif::interpolating(&knots, &scaling).expect(self.name);
         for _ in 0..self.integrate {
@@ -161,8 +183,18 @@ pub fn other_examples() -> Vec<Example> {
     vec![
         Example::new("thirds", &[(0.0, 0.0), (1.0, 0.6), (2.0, -0.3), (3.0, 0.5)], &[0.4, -0.6, 0.3], 0),
         Example::new("uneven", &[(0.0, 0.0), (0.1, 0.5), (0.3, 0.2), (1.0, 1.0)], &[0.3, 0.8, -0.5], 0),
-        Example::new("years", &[(1700.0, 0.05), (1800.0, 1.1), (1917.0, 0.4), (2008.0, 0.03)], &[0.2, -0.35, 0.5], 0),
-        Example::new("integral of uneven", &[(0.0, 0.0), (0.1, 0.5), (0.3, 0.2), (1.0, 1.0)], &[0.3, 0.8, -0.5], 1),
+        Example::new(
+            "years",
+            &[(1700.0, 0.05), (1800.0, 1.1), (1917.0, 0.4), (2008.0, 0.03)],
+            &[0.2, -0.35, 0.5],
+            0,
+        ),
+        Example::new(
+            "integral of uneven",
+            &[(0.0, 0.0), (0.1, 0.5), (0.3, 0.2), (1.0, 1.0)],
+            &[0.3, 0.8, -0.5],
+            1,
+        ),
     ]
 }
 
@@ -185,23 +217,37 @@ fn functions() -> Vec<Row> {
         let bound = promised.min(fixed.error_bound().to_num());
         let at = |u: f64| x0 + u * (xn - x0);
         let name: &'static str = Box::leak(format!("Fif::at ({})", example.name).into_boxed_str());
-        rows.push(row(name, "I8F24", bound, places().map(|u| {
-            fixed.at(Wide::from_num(at(u))).to_num::<f64>() - exact.at(at(u))
-        })));
+        rows.push(row(
+            name,
+            "I8F24",
+            bound,
+            places().map(|u| fixed.at(Wide::from_num(at(u))).to_num::<f64>() - exact.at(at(u))),
+        ));
         if let Some(fast) = fixed.dyadic() {
             let name: &'static str = Box::leak(format!("Dyadic::at ({})", example.name).into_boxed_str());
-            rows.push(row(name, "I8F24", fast.error_bound().to_num(), places().filter(|u| *u < 1.0).map(|u| {
-                let bits = (u * two_to(32)) as u32;
-                fast.at(Angle::from_bits(bits)).to_num::<f64>() - exact.at(at(f64::from(bits) / two_to(32)))
-            })));
+            rows.push(row(
+                name,
+                "I8F24",
+                fast.error_bound().to_num(),
+                places().filter(|u| *u < 1.0).map(|u| {
+                    let bits = (u * two_to(32)) as u32;
+                    fast.at(Angle::from_bits(bits)).to_num::<f64>()
+                        - exact.at(at(f64::from(bits) / two_to(32)))
+                }),
+            ));
         }
     }
     // composition ends at another abscissa than x: compare a function that is smooth enough for the difference not to show
     let smooth = &dyadic_examples()[3];
     let (fixed, exact) = (smooth.fixed(), smooth.exact());
-    rows.push(row("Fif::at_by_composition (integral of g)", "I8F24", fixed.error_bound().to_num::<f64>() + 4.0 * two_to(-23), places().map(|u| {
-        fixed.at_by_composition(Wide::from_num(2.0 * u), Real::DELTA).to_num::<f64>() - exact.at(2.0 * u)
-    })));
+    rows.push(row(
+        "Fif::at_by_composition (integral of g)",
+        "I8F24",
+        fixed.error_bound().to_num::<f64>() + 4.0 * two_to(-23),
+        places().map(|u| {
+            fixed.at_by_composition(Wide::from_num(2.0 * u), Real::DELTA).to_num::<f64>() - exact.at(2.0 * u)
+        }),
+    ));
     rows.push(row("Fif::integral (second integral of g)", "I16F48", two_to(-24), {
         let twice = &dyadic_examples()[4];
         let (fixed, exact) = (twice.fixed(), twice.exact());
@@ -210,3 +256,90 @@ fn functions() -> Vec<Row> {
     rows
 }
 
+fn surfaces() -> Vec<Row> {
+    let mut rows = Vec::new();
+    let tent = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
+    let slope = |a: [f64; 2]| Example::new("slope", &tent, &a, 0);
+    let (f, g) = (slope([0.5, 0.5]), slope([0.85, -0.85]));
+    let factor =
+        |e: &Example| attractor::fif::Factor::<16, 4>::from_slope(&e.fixed(), Wide::ZERO).expect("a factor");
+    let (ff, gg) = (factor(&f), factor(&g));
+    let exact = |e: &Example| reference::Factor::from_slope(e.exact(), 0.0);
+    let (fe, ge) = (exact(&f), exact(&g));
+    let surface = attractor::fif::Surface::new(&ff, &gg);
+    let truth = reference::Surface { x: fe, y: ge };
+    let grid = || (0..=64).flat_map(|i| (0..=64).map(move |j| (f64::from(i) / 32.0, f64::from(j) / 32.0)));
+    let random = || {
+        let mut w = words(3);
+        let mut next = move || (w.next().unwrap_or(0) >> 24) as f64 / two_to(39);
+        (0..4000).map(move |_| (next(), next())).collect::<Vec<_>>()
+    };
+    let points = || grid().chain(random());
+    let wide = |v: f64| Wide::from_num(v);
+    rows.push(row(
+        "Surface::height (f x g)",
+        "I8F24",
+        two_to(-22),
+        points().map(|(x, y)| surface.height(wide(x), wide(y)).to_num::<f64>() - truth.height(x, y)),
+    ));
+    rows.push(row(
+        "Surface::normal (f x g)",
+        "I8F24",
+        two_to(-18),
+        points().flat_map(|(x, y)| {
+            let (n, t) = (surface.normal(wide(x), wide(y)), truth.normal(x, y));
+            [n.x.to_num::<f64>() - t[0], n.y.to_num::<f64>() - t[1]]
+        }),
+    ));
+    rows.push(row(
+        "Surface::mean_normal (f x g)",
+        "I8F24",
+        two_to(-18),
+        random()
+            .chunks(2)
+            .flat_map(|c| {
+                let (x0, x1) = (c[0].0.min(c[1].0), c[0].0.max(c[1].0));
+                let (y0, y1) = (c[0].1.min(c[1].1), c[0].1.max(c[1].1));
+                let n = surface.mean_normal((wide(x0), wide(x1)), (wide(y0), wide(y1)));
+                let t = truth.mean_normal(x0, x1, y0, y1);
+                [n.x.to_num::<f64>() - t[0], n.y.to_num::<f64>() - t[1]]
+            })
+            .collect::<Vec<_>>(),
+    ));
+    for (e, mean_name, slope_name) in [
+        (&dyadic_examples()[3], "Cell::mean (integral of g)", "Cell::slope (integral of g)"),
+        (&other_examples()[3], "Cell::mean (integral of uneven)", "Cell::slope (integral of uneven)"),
+    ] {
+        let depth = if e.knots.len() == 3 { 8 } else { 5 };
+        let fixed = e.fixed();
+        let mut memory = vec![Cell::ZERO; Pyramid::cells(fixed.maps(), depth)];
+        let pyramid = Pyramid::new(&fixed, depth, &mut memory).expect("a pyramid");
+        let bounds = reference::Bounds::new(&e.exact(), depth as usize);
+        let pairs = |pick: fn(&Cell) -> Real, exact: fn(&reference::Cell) -> f64| {
+            (0..=depth)
+                .flat_map(|k| {
+                    let (cells, truth) = (pyramid.level(k), &bounds.levels[k as usize]);
+                    assert_eq!(cells.len(), truth.len());
+                    cells
+                        .iter()
+                        .zip(truth)
+                        .map(|(c, t)| pick(c).to_num::<f64>() - exact(t))
+                        .collect::<Vec<_>>()
+                })
+                .collect::<Vec<_>>()
+        };
+        let a = e.exact().max_scaling();
+        rows.push(row(mean_name, "I8F24", two_to(-23) / (1.0 - a), pairs(|c| c.mean, |c| c.mean)));
+        let ratio = e
+            .exact()
+            .maps
+            .iter()
+            .zip(e.knots.windows(2))
+            .map(|(m, k)| {
+                m.vertical_scaling.abs() * (e.knots[e.knots.len() - 1].0 - e.knots[0].0) / (k[1].0 - k[0].0)
+            })
+            .fold(0.0, f64::max);
+        rows.push(row(slope_name, "I8F24", two_to(-23) / (1.0 - ratio), pairs(|c| c.slope, |c| c.slope)));
+    }
+    rows
+}

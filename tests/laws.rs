@@ -15,7 +15,8 @@ struct Random {
 
 impl Random {
     fn fixed(&self) -> Fif<6, 3> {
-        let knots: Vec<_> = self.knots.iter().map(|(x, y)| Knot::new(Wide::from_num(*x), Wide::from_num(*y))).collect();
+        let knots: Vec<_> =
+            self.knots.iter().map(|(x, y)| Knot::new(Wide::from_num(*x), Wide::from_num(*y))).collect();
         let scaling: Vec<_> = self.scaling.iter().map(|a| Scaling::from_num(*a)).collect();
         Fif::interpolating(&knots, &scaling).unwrap()
     }
@@ -157,9 +158,14 @@ fn values_are_exact_at_an_abscissa_within_two_to_the_minus_40() {
             let x = Wide::from_num(x0 + (w >> 11) as f64 / two_to(53) * (xn - x0));
             let y = fixed.at(x).to_num::<f64>();
             // f is continuous: it takes every value between those it takes near x
-            let near = (-200..=200).map(|i| exact.at((x.to_num::<f64>() + f64::from(i) / 200.0 * two_to(-40)).clamp(x0, xn)));
+            let near = (-200..=200)
+                .map(|i| exact.at((x.to_num::<f64>() + f64::from(i) / 200.0 * two_to(-40)).clamp(x0, xn)));
             let (min, max) = near.fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
-            assert!(min - bound <= y && y <= max + bound, "{} at {x}: {y} outside [{min}, {max}]", example.name);
+            assert!(
+                min - bound <= y && y <= max + bound,
+                "{} at {x}: {y} outside [{min}, {max}]",
+                example.name
+            );
             tried += 1;
         }
         assert_eq!(tried, 1000);
@@ -189,6 +195,10 @@ fn one_map_is_a_polynomial() {
     let f = Fif::<1, 1>::interpolating(&knots, &[Scaling::from_num(0.9)]).unwrap();
     for i in 0..=64 {
         let x = Wide::from_num(i) / 32;
-        assert_eq!(f.at(x), Real::from_num(x + Wide::ONE), "the straight line through two knots is its own image");
+        assert_eq!(
+            f.at(x),
+            Real::from_num(x + Wide::ONE),
+            "the straight line through two knots is its own image"
+        );
     }
 }

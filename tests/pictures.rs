@@ -59,7 +59,12 @@ fn diffuse() -> (Material, reference::Material) {
 fn phong() -> (Material, reference::Material) {
     let (ambient, diffuse, specular, shininess) = (0.125, 0.5, 0.375, 24);
     (
-        Material::Phong { ambient: unit(ambient), diffuse: unit(diffuse), specular: unit(specular), shininess },
+        Material::Phong {
+            ambient: unit(ambient),
+            diffuse: unit(diffuse),
+            specular: unit(specular),
+            shininess,
+        },
         reference::Material::Phong { ambient, diffuse, specular, shininess: f64::from(shininess) },
     )
 }
@@ -79,7 +84,13 @@ fn gradient() -> (Environment, reference::Environment) {
 fn checkerboard() -> (Environment, reference::Environment) {
     let (bright, dark, horizon, scale, fade) = (0.9375, 0.1875, 0.5, 1.0, 0.125);
     (
-        Environment::Checkerboard { bright: unit(bright), dark: unit(dark), horizon: unit(horizon), scale: Real::from_num(scale), fade: unit(fade) },
+        Environment::Checkerboard {
+            bright: unit(bright),
+            dark: unit(dark),
+            horizon: unit(horizon),
+            scale: Real::from_num(scale),
+            fade: unit(fade),
+        },
         reference::Environment::Checkerboard { bright, dark, horizon, scale, fade },
     )
 }
@@ -93,8 +104,13 @@ fn grid(n: u8, deviation: Option<f64>, width: f64) -> (Sampling, Filter, Vec<(f6
     let place = |i: u8| (f64::from(i) + 0.5) / f64::from(n) * width - width / 2.0;
     let weight = |d: f64| deviation.map_or(1.0, |s| (-d * d / (2.0 * s * s)).exp());
     let sum: f64 = (0..n).map(|i| weight(place(i))).sum();
-    let samples = (0..n).flat_map(|j| (0..n).map(move |i| (place(i), place(j), weight(place(i)) * weight(place(j)) / sum / sum)));
-    let filter = deviation.map_or(Filter::Box, |s| Filter::Gaussian { deviation: Real::from_num(s), width: Real::from_num(width) });
+    let samples = (0..n).flat_map(|j| {
+        (0..n).map(move |i| (place(i), place(j), weight(place(i)) * weight(place(j)) / sum / sum))
+    });
+    let filter = deviation.map_or(Filter::Box, |s| Filter::Gaussian {
+        deviation: Real::from_num(s),
+        width: Real::from_num(width),
+    });
     (Sampling::Grid(n), filter, samples.collect())
 }
 
@@ -111,16 +127,25 @@ fn compare(case: &Case, side: u32) -> (f64, f64) {
         let up = real3([0.0, 0.0, 1.0]);
         let camera = Camera::new(real3(eye), real3(look_at), up, Real::from_num(degrees)).unwrap();
         let caster = RayCaster::new(surface, camera, Size::new(side, side)).unwrap();
-        let caster = caster.with_material(case.material.0).unwrap().with_environment(case.environment.0).unwrap();
+        let caster =
+            caster.with_material(case.material.0).unwrap().with_environment(case.environment.0).unwrap();
         let caster = caster.with_light(Light::new(real3([-1.0, -2.0, 3.0])).unwrap());
         let caster = caster.with_sampling(case.sampling.0, case.sampling.1).unwrap();
-        (0..side).flat_map(|y| caster.row(y, 0..side).collect::<Vec<_>>()).map(|t| f64::from(t.0) / 65535.0).collect::<Vec<_>>()
+        (0..side)
+            .flat_map(|y| caster.row(y, 0..side).collect::<Vec<_>>())
+            .map(|t| f64::from(t.0) / 65535.0)
+            .collect::<Vec<_>>()
     });
     let bounds = reference::Bounds::new(&e.exact(), case.depth as usize);
     let scene = reference::Scene {
         x: bounds.clone(),
         y: bounds,
-        camera: reference::Camera { eye: case.view.eye, look_at: case.view.look_at, up: [0.0, 0.0, 1.0], field_of_view: case.view.degrees.to_radians() },
+        camera: reference::Camera {
+            eye: case.view.eye,
+            look_at: case.view.look_at,
+            up: [0.0, 0.0, 1.0],
+            field_of_view: case.view.degrees.to_radians(),
+        },
         material: case.material.1,
         environment: case.environment.1,
         light: [-1.0, -2.0, 3.0],
@@ -131,7 +156,8 @@ fn compare(case: &Case, side: u32) -> (f64, f64) {
     };
     let exact = reference::render(&scene, side as usize, side as usize, &case.sampling.2);
     assert_eq!(tones.len(), exact.len());
-    let square: f64 = tones.iter().zip(&exact).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / tones.len() as f64;
+    let square: f64 =
+        tones.iter().zip(&exact).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / tones.len() as f64;
     let far = tones.iter().zip(&exact).filter(|(a, b)| (*a - *b).abs() > 2.0 / 255.0).count();
     assert!(exact.iter().any(|t| (t - exact[0]).abs() > 0.1), "a picture of nothing");
     (-10.0 * square.max(1e-16).log10(), far as f64 / tones.len() as f64)
@@ -139,7 +165,13 @@ fn compare(case: &Case, side: u32) -> (f64, f64) {
 
 fn assert_close(case: &Case, side: u32, most_far: f64) {
     let (psnr, far) = compare(case, side);
-    println!("{:22} {:?} {:?}: {psnr:.1} dB, {:.4} % differ", case.surface, case.material.1, case.sampling.0, far * 100.0);
+    println!(
+        "{:22} {:?} {:?}: {psnr:.1} dB, {:.4} % differ",
+        case.surface,
+        case.material.1,
+        case.sampling.0,
+        far * 100.0
+    );
     assert!(psnr >= 40.0, "{}: {psnr} dB", case.surface);
     assert!(far <= most_far, "{}: {far}", case.surface);
 }
@@ -148,7 +180,14 @@ fn assert_close(case: &Case, side: u32, most_far: f64) {
 fn diffuse_phong_and_mirror_pictures_are_those_of_the_reference() {
     for surface in ["integral of f", "integral of g"] {
         for material in [diffuse(), phong(), mirror()] {
-            let case = Case { surface, view: CORNER, depth: 8, material, environment: gradient(), sampling: centre() };
+            let case = Case {
+                surface,
+                view: CORNER,
+                depth: 8,
+                material,
+                environment: gradient(),
+                sampling: centre(),
+            };
             assert_close(&case, SIDE, 0.002);
         }
     }
@@ -157,7 +196,14 @@ fn diffuse_phong_and_mirror_pictures_are_those_of_the_reference() {
 #[test]
 fn a_mirrored_checkerboard_is_that_of_the_reference() {
     for surface in ["integral of f", "integral of g"] {
-        let case = Case { surface, view: CORNER, depth: 8, material: mirror(), environment: checkerboard(), sampling: centre() };
+        let case = Case {
+            surface,
+            view: CORNER,
+            depth: 8,
+            material: mirror(),
+            environment: checkerboard(),
+            sampling: centre(),
+        };
         let (psnr, far) = compare(&case, SIDE);
         println!("{surface}: {psnr:.1} dB, {:.4} % differ", far * 100.0);
         assert!(far <= 0.005, "{surface}: {far}");
@@ -167,21 +213,42 @@ fn a_mirrored_checkerboard_is_that_of_the_reference() {
 #[test]
 fn every_direction_of_view_gives_the_references_picture() {
     for view in [ALONG_X, INSIDE, BELOW] {
-        let case = Case { surface: "integral of g", view, depth: 7, material: diffuse(), environment: gradient(), sampling: centre() };
+        let case = Case {
+            surface: "integral of g",
+            view,
+            depth: 7,
+            material: diffuse(),
+            environment: gradient(),
+            sampling: centre(),
+        };
         assert_close(&case, 120, 0.002);
     }
 }
 
 #[test]
 fn other_partitions_give_the_references_picture() {
-    let case = Case { surface: "integral of uneven", view: CORNER, depth: 5, material: mirror(), environment: gradient(), sampling: centre() };
+    let case = Case {
+        surface: "integral of uneven",
+        view: CORNER,
+        depth: 5,
+        material: mirror(),
+        environment: gradient(),
+        sampling: centre(),
+    };
     assert_close(&case, 120, 0.002);
 }
 
 #[test]
 fn grids_and_gaussian_weights_are_those_of_the_reference() {
     for sampling in [grid(3, None, 1.0), grid(4, Some(0.5), 2.0)] {
-        let case = Case { surface: "integral of g", view: CORNER, depth: 8, material: mirror(), environment: gradient(), sampling };
+        let case = Case {
+            surface: "integral of g",
+            view: CORNER,
+            depth: 8,
+            material: mirror(),
+            environment: gradient(),
+            sampling,
+        };
         assert_close(&case, 80, 0.002);
     }
 }
@@ -189,7 +256,14 @@ fn grids_and_gaussian_weights_are_those_of_the_reference() {
 /// The closer a surface, the deeper its leaves: the footprint decides.
 #[test]
 fn leaves_grow_with_the_footprint_as_in_the_reference() {
-    let case = |depth| Case { surface: "integral of g", view: CORNER, depth, material: diffuse(), environment: gradient(), sampling: centre() };
+    let case = |depth| Case {
+        surface: "integral of g",
+        view: CORNER,
+        depth,
+        material: diffuse(),
+        environment: gradient(),
+        sampling: centre(),
+    };
     assert_close(&case(12), 60, 0.002);
     let e = example("integral of g");
     let fixed = e.fixed();
@@ -200,7 +274,13 @@ fn leaves_grow_with_the_footprint_as_in_the_reference() {
             let caster = RayCaster::new(surface, camera, Size::new(side, side)).unwrap();
             (0..side).filter_map(|x| caster.hit(x, side / 2 + side / 8)).map(|h| h.level).max().unwrap()
         };
-        assert!(levels(32) < levels(128) && levels(128) < levels(512), "{} {} {}", levels(32), levels(128), levels(512));
+        assert!(
+            levels(32) < levels(128) && levels(128) < levels(512),
+            "{} {} {}",
+            levels(32),
+            levels(128),
+            levels(512)
+        );
     });
 }
 
@@ -212,28 +292,47 @@ fn jittered_samples_repeat_with_their_seed_and_approach_the_mean() {
         let up = real3([0.0, 0.0, 1.0]);
         let camera = Camera::new(real3(CORNER.eye), real3(CORNER.look_at), up, Real::from_num(30)).unwrap();
         let tones = |sampling| {
-            let caster = RayCaster::new(surface, camera, Size::new(60, 60)).unwrap().with_material(Material::Mirror).unwrap();
+            let caster = RayCaster::new(surface, camera, Size::new(60, 60))
+                .unwrap()
+                .with_material(Material::Mirror)
+                .unwrap();
             let caster = caster.with_sampling(sampling, Filter::Box).unwrap();
-            (0..60).flat_map(|y| caster.row(y, 0..60).collect::<Vec<_>>()).map(|t| f64::from(t.0) / 65535.0).collect::<Vec<_>>()
+            (0..60)
+                .flat_map(|y| caster.row(y, 0..60).collect::<Vec<_>>())
+                .map(|t| f64::from(t.0) / 65535.0)
+                .collect::<Vec<_>>()
         };
-        let rmse = |a: &[f64], b: &[f64]| (a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / a.len() as f64).sqrt();
+        let rmse = |a: &[f64], b: &[f64]| {
+            (a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / a.len() as f64).sqrt()
+        };
         let truth = tones(Sampling::Jittered { n: 8, seed: 1 });
         assert_eq!(truth, tones(Sampling::Jittered { n: 8, seed: 1 }));
         let (one, four) = (tones(Sampling::Centre), tones(Sampling::Jittered { n: 4, seed: 2 }));
-        assert!(rmse(&four, &truth) < 0.5 * rmse(&one, &truth), "{} {}", rmse(&four, &truth), rmse(&one, &truth));
+        assert!(
+            rmse(&four, &truth) < 0.5 * rmse(&one, &truth),
+            "{} {}",
+            rmse(&four, &truth),
+            rmse(&one, &truth)
+        );
     });
 }
 
 /// Box tests a ray, on the paper's surfaces at depth 8 with a view that fills about a third: at most 13. The stack keeps its bound.
 #[test]
 fn a_ray_takes_at_most_13_box_tests() {
-    for (surface, view) in [("integral of f", View { eye: [-4.5, -4.0, 5.5], ..CORNER }), ("integral of g", CORNER)] {
+    for (surface, view) in
+        [("integral of f", View { eye: [-4.5, -4.0, 5.5], ..CORNER }), ("integral of g", CORNER)]
+    {
         let fixed = example(surface).fixed();
         with_surface(&fixed, 8, |surface| {
             let up = real3([0.0, 0.0, 1.0]);
-            let camera = Camera::new(real3(view.eye), real3(view.look_at), up, Real::from_num(view.degrees)).unwrap();
+            let camera =
+                Camera::new(real3(view.eye), real3(view.look_at), up, Real::from_num(view.degrees)).unwrap();
             let caster = RayCaster::new(surface, camera, Size::new(SIDE, SIDE)).unwrap();
-            let hits = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))).filter(|(x, y)| caster.hit(*x, *y).is_some()).count();
+            let hits = (0..SIDE)
+                .flat_map(|y| (0..SIDE).map(move |x| (x, y)))
+                .filter(|(x, y)| caster.hit(*x, *y).is_some())
+                .count();
             let filled = hits as f64 / f64::from(SIDE * SIDE);
             assert!((0.28..0.45).contains(&filled), "the surface fills {filled}");
             let Statistics { rays, box_tests, stack } = caster.statistics();

@@ -6,7 +6,10 @@ use attractor_tests::accuracy;
 fn every_kernel_keeps_its_bound() {
     let table = accuracy::table();
     for row in &table {
-        println!("{:44} {:8} {:7} {:10.3e} {:10.3e} {:10.3e}", row.kernel, row.format, row.inputs, row.max_error, row.rms, row.bound);
+        println!(
+            "{:44} {:8} {:7} {:10.3e} {:10.3e} {:10.3e}",
+            row.kernel, row.format, row.inputs, row.max_error, row.rms, row.bound
+        );
     }
     let broken: Vec<_> = table.iter().filter(|r| !r.holds()).map(|r| r.kernel).collect();
     assert!(table.len() > 20 && broken.is_empty(), "{broken:?}");
@@ -32,7 +35,11 @@ fn every_stated_error_is_measured() {
                 promises |= line.contains("Error: ");
             } else if line.starts_with("pub ") && promises {
                 let words = line.split(|c: char| !c.is_alphanumeric() && c != '_');
-                let name = words.skip_while(|w| !["fn", "struct", "mean", "slope"].contains(w)).find(|w| !["fn", "struct"].contains(w)).unwrap_or("").to_owned();
+                let name = words
+                    .skip_while(|w| !["fn", "struct", "mean", "slope"].contains(w))
+                    .find(|w| !["fn", "struct"].contains(w))
+                    .unwrap_or("")
+                    .to_owned();
                 stated += 1;
                 if !has_tests && !table.iter().any(|r| r.kernel.split([':', ' ']).any(|w| w == name)) {
                     unmeasured.push(format!("{name} in {}", path.display()));

@@ -4,10 +4,12 @@
 #![no_std]
 
 mod board;
+mod wire;
 
 pub use attractor_workload as workload;
 pub use board::Board;
 pub use semihosting;
+pub use wire::Wire;
 
 #[cfg(target_arch = "arm")]
 pub use cortex_m_rt::entry;
@@ -21,6 +23,27 @@ macro_rules! report_panics {
         #[panic_handler]
         fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
             $crate::semihosting::eprintln!("{info}");
+            $crate::semihosting::process::exit(101)
+        }
+    };
+}
+
+/// No panic handler: the image links only when nothing in it can panic.
+#[cfg(not(feature = "locate-panics"))]
+#[macro_export]
+macro_rules! never_panics {
+    () => {
+        use panic_never as _;
+    };
+}
+
+/// The least panic handler, so that the image links after all and the callers of `core::panicking` can be looked for.
+#[cfg(feature = "locate-panics")]
+#[macro_export]
+macro_rules! never_panics {
+    () => {
+        #[panic_handler]
+        fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
             $crate::semihosting::process::exit(101)
         }
     };

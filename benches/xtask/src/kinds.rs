@@ -8,15 +8,16 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
-use attractor_workload::Blind;
-use attractor_workload::kernels::{self, Watch};
+use attractor_workload::kernels;
 
 use crate::targets;
 use crate::{Options, emulator, images, toolchain};
 
 /// Prints the histogram of each format's loop.
 pub(crate) fn run(options: &Options, name: &str) -> Result<bool> {
-    let Some(kernel) = kernels::ALL.iter().find(|kernel| kernel.name == name) else {
+    // the image is told the row: its arguments cannot hold spaces
+    let row = kernels::ALL.iter().position(|kernel| kernel.name == name);
+    let Some((index, kernel)) = row.and_then(|row| Some((row.to_string(), kernels::ALL.get(row)?))) else {
         let names: Vec<_> = kernels::ALL.iter().map(|kernel| kernel.name).collect();
         bail!("no kernel {name}; there are {}", names.join(", "));
     };
@@ -25,39 +26,44 @@ pub(crate) fn run(options: &Options, name: &str) -> Result<bool> {
         let compiler = toolchain::find(target, options.toolchain)?;
         let images = images::build(target, &compiler)?;
         for (format, work) in [("fixed", Some(kernel.fixed)), ("f32", kernel.f32), ("f64", kernel.f64)] {
-            let Some(work) = work else { continue };
-            let units = f64::from(work(&mut Watch::new(&mut Blind, 1)).units.max(1));
-            let once = histogram(target, images.path("kernels")?, options, name, format, 1)?;
-            let mut twice = histogram(target, images.path("kernels")?, options, name, format, 2)?;
+            if work.is_none() {
+                continue;
+            }
+            let (units, once) = histogram(target, images.path("kernels")?, options, &index, format, 1)?;
+            let (_, mut twice) = histogram(target, images.path("kernels")?, options, &index, format, 2)?;
             for (instruction, count) in once {
                 *twice.entry(instruction).or_default() -= count;
             }
-            print(&format!("{name} {format}, instructions a {}", kernel.unit), &twice, units);
+            print(
+                &format!("{name} {format}, instructions a {}", kernel.unit),
+                &twice,
+                f64::from(units.max(1)),
+            );
         }
     }
     Ok(true)
 }
 
-/// How often each mnemonic was executed.
+/// The units of one run, and how often each mnemonic was executed.
 fn histogram(
     target: &targets::Target,
     image: &Path,
     options: &Options,
-    name: &str,
+    index: &str,
     format: &str,
     times: u32,
-) -> Result<BTreeMap<String, i64>> {
+) -> Result<(u32, BTreeMap<String, i64>)> {
     let log = std::env::temp_dir().join(format!("attractor-{}.log", std::process::id()));
     let machine = target.counting.unwrap_or(target.machine);
     let switches = ["-singlestep", "-d", "in_asm,exec,nochain", "-D", &log.display().to_string()];
     let times = times.to_string();
     let done =
-        emulator::run(&machine, image, &[name, format, &times], &switches, Path::new("."), options.limit());
+        emulator::run(&machine, image, &[index, format, &times], &switches, Path::new("."), options.limit());
     let text = std::fs::read_to_string(&log).context("QEMU wrote no log");
     // the log is of no use whatever happened
     let _ = std::fs::remove_file(&log);
-    done?;
-    Ok(count(&text?))
+    let units = done?.trim().parse().context("the image did not say its units")?;
+    Ok((units, count(&text?)))
 }
 
 /// Reads QEMU's log: `0x00000400:  b580  push {r7, lr}` where an instruction is translated, `Trace 0: 0x7f.. [../00000400/..]` where
@@ -73,7 +79,8 @@ fn count(log: &str) -> BTreeMap<String, i64> {
                 *counts.entry(mnemonic).or_default() += 1;
             }
         } else if let Some((address, rest)) = line.strip_prefix("0x").and_then(|rest| rest.split_once(':')) {
-            let is_code = |word: &&str| word.len() % 4 == 0 && word.chars().all(|c| c.is_ascii_hexdigit());
+            let is_code =
+                |word: &&str| word.len().is_multiple_of(4) && word.chars().all(|c| c.is_ascii_hexdigit());
             let mnemonic = rest.split_whitespace().find(|word| !is_code(word));
             if let (Ok(address), Some(mnemonic)) = (u64::from_str_radix(address, 16), mnemonic) {
                 mnemonics.insert(address, mnemonic.to_owned());

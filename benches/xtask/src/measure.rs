@@ -24,7 +24,15 @@ pub(crate) fn measure(
     let mut measured = Measured::new(target, toolchain.release.clone());
     let here = Path::new(".");
 
-    emulator::run(&target.machine, images.path("nopanic")?, &[], &[], here, limit)?;
+    for name in &images.panicking {
+        measured.problems.push(format!(
+            "image {name} must not panic, but can on {} (benches/cortex-m/README.md says how to find where)",
+            target.triple
+        ));
+    }
+    if let Ok(nopanic) = images.path("nopanic") {
+        emulator::run(&target.machine, nopanic, &[], &[], here, limit)?;
+    }
     for machine in [Some(target.machine), target.counting].into_iter().flatten() {
         for line in run(&machine, images.path("kernels")?, limit)? {
             measured.take(&machine, line);

@@ -11,26 +11,31 @@
 
 use heapless::Vec;
 
-use super::ray::{Axis, Ray};
+use super::halves::Cone;
+use super::ray::{Axis, Footprint, Ray};
 use crate::Error;
 use crate::fif::{Cell, Pyramid};
-use crate::num::{Real, Unit, Vec3, Wide};
+use crate::num::{Real, Vec3, Wide};
 
 /// A height field `f(x) g(y)` as the pyramids of its factors, for a stack of at most `STACK` frames.
 #[derive(Debug, Clone, Copy)]
 pub struct HeightField<'a, const STACK: usize = 16> {
-    x: Side<'a>,
-    y: Side<'a>,
+    pub(super) x: Side<'a>,
+    pub(super) y: Side<'a>,
     depth: u32,
+    /// The first node of the deepest level along x.
+    pub(super) leaves: u32,
+    /// Whether nodes have two equal parts along both axes.
+    halved: bool,
 }
 
 /// One factor: its pyramid and its domain with 24 fractional bits.
 #[derive(Debug, Clone, Copy)]
-struct Side<'a> {
-    cells: &'a [Cell],
+pub(super) struct Side<'a> {
+    pub(super) cells: &'a [Cell],
     starts: &'a [u32],
-    origin: i32,
-    width: i32,
+    pub(super) origin: i32,
+    pub(super) width: i32,
 }
 
 /// The leaf that a ray meets first.
@@ -47,15 +52,34 @@ pub struct Hit {
 
 impl Hit {
     /// The mean normal of the surface over the leaf, `(-mean h_x, -mean h_y, 1)`, components saturated at ±64.
-    #[inline]
     pub fn normal(&self) -> Vec3 {
-        let (f, g) = &self.cells;
-        let product = |a: Real, b: Real| {
-            let p = (i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24;
-            Real::from_bits(-(p.clamp(-(1 << 30), 1 << 30) as i32))
-        };
-        Vec3::new(product(f.slope, g.mean), product(f.mean, g.slope), Real::ONE)
+        let [x, y, z] = normal(&self.cells.0, &self.cells.1).map(Real::from_bits);
+        Vec3::new(x, y, z)
     }
+}
+
+/// A leaf as the walk finds it: its nodes along x and y, their cells, the ray's part above it.
+pub(crate) struct Leaf<'a> {
+    pub(super) nodes: (u32, u32),
+    pub(super) cells: (&'a Cell, &'a Cell),
+    pub(super) span: (i32, i32),
+}
+
+impl Leaf<'_> {
+    /// The mean normal over the leaf, 24 fractional bits, saturated at ±64.
+    #[inline(always)]
+    pub(crate) fn normal(&self) -> [i32; 3] {
+        normal(self.cells.0, self.cells.1)
+    }
+}
+
+#[inline(always)]
+fn normal(f: &Cell, g: &Cell) -> [i32; 3] {
+    let product = |a: Real, b: Real| {
+        let p = (i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24;
+        -(p.clamp(-(1 << 30), 1 << 30) as i32)
+    };
+    [product(f.slope, g.mean), product(f.mean, g.slope), 1 << 24]
 }
 
 /// What intersections have cost, added up.
@@ -69,25 +93,34 @@ pub struct Statistics {
     pub stack: u32,
 }
 
-/// The extent of a node along one axis.
+/// The extent of a node along one axis. Nodes are numbered level by level: the parts of node `q` are `n q + 1` to `n q + n`.
 #[derive(Debug, Clone, Copy)]
 struct Extent {
-    index: u32,
+    node: u32,
     low: i32,
     width: i32,
 }
 
-/// A walk through the parts of one node.
+/// Where a walk stands along one axis of a node.
+#[derive(Debug, Clone, Copy)]
+struct Along {
+    /// The extent of the node that is walked.
+    low: i32,
+    width: i32,
+    /// The part where the walk stands, 0 at the low end, and its number.
+    part: u32,
+    node: u32,
+    /// Where the ray leaves the part along this axis; the greatest number for the last part, which the node's own end limits.
+    next: i32,
+}
+
+/// A walk through the parts of one node, from `t` with the ray's height `z` there, to `t_out`.
 #[derive(Debug, Clone, Copy)]
 struct Frame {
-    level: u32,
-    /// Where the cells of the parts' level begin, along x and y.
-    below: (u32, u32),
-    x: Extent,
-    y: Extent,
-    /// The part where the walk stands.
-    part: (i32, i32),
+    x: Along,
+    y: Along,
     t: i32,
+    z: i32,
     t_out: i32,
 }
 
@@ -111,77 +144,84 @@ impl<'a> Side<'a> {
     }
 
     fn whole(&self) -> Extent {
-        Extent { index: 0, low: self.origin, width: self.width }
+        Extent { node: 0, low: self.origin, width: self.width }
+    }
+
+    /// Whether a node has two equal parts, the ordinary case, for which [`super::halves`] has a walk of its own.
+    fn is_halved(&self) -> bool {
+        self.starts == [0, 1 << 30]
+    }
+
+    #[inline(always)]
+    fn parts(&self) -> u32 {
+        self.starts.len() as u32
     }
 
     /// The left end of part `k` of a node; that of part `n` is the node's right end.
-    #[inline]
-    fn plane(&self, node: &Extent, k: i32) -> i32 {
+    #[inline(always)]
+    fn plane(&self, low: i32, width: i32, k: u32) -> i32 {
         let offset = match self.starts.get(k as usize) {
-            Some(start) => ((i64::from(*start) * i64::from(node.width)) >> 31) as i32,
-            None => node.width,
+            Some(start) => ((i64::from(*start) * i64::from(width)) >> 31) as i32,
+            None => width,
         };
-        node.low + offset
+        low + offset
     }
 
-    /// The part in which the walk begins: the first whose far plane the ray has not crossed at `t`.
-    #[inline]
-    fn enter(&self, axis: &Axis, node: &Extent, t: i32) -> i32 {
-        let last = self.starts.len() as i32 - 1;
+    /// The part in which the walk begins at `t`: the first that the ray has not left.
+    #[inline(always)]
+    fn enter(&self, axis: &Axis, extent: Extent, t: i32) -> Along {
+        let Extent { node, low, width } = extent;
+        let parts = self.parts();
+        let at = |part, next| Along { low, width, part, node: node * parts + 1 + part, next };
         if axis.direction > 0 {
-            let mut k = 0;
-            while k < last && axis.crossing(self.plane(node, k + 1)) <= t {
-                k += 1;
+            for part in 0..parts - 1 {
+                let next = axis.crossing(self.plane(low, width, part + 1));
+                if next > t {
+                    return at(part, next);
+                }
             }
-            k
-        } else if axis.direction < 0 {
-            let mut k = last;
-            while k > 0 && axis.crossing(self.plane(node, k)) <= t {
-                k -= 1;
-            }
-            k
+            at(parts - 1, i32::MAX)
         } else {
-            let mut k = 0;
-            while k < last && self.plane(node, k + 1) <= axis.origin {
-                k += 1;
+            for part in (1..parts).rev() {
+                let next = axis.crossing(self.plane(low, width, part));
+                if next > t {
+                    return at(part, next);
+                }
             }
-            k
+            at(0, i32::MAX)
         }
     }
 
-    /// Where the ray leaves part `k`.
-    #[inline]
-    fn leave(&self, axis: &Axis, node: &Extent, k: i32) -> i32 {
-        if axis.direction > 0 {
-            axis.crossing(self.plane(node, k + 1))
-        } else if axis.direction < 0 {
-            axis.crossing(self.plane(node, k))
-        } else {
+    /// One part on. Never past the last one, whose `next` no parameter reaches.
+    #[inline(always)]
+    fn advance(&self, axis: &Axis, along: &mut Along) {
+        let up = axis.direction > 0;
+        let step = if up { 1 } else { u32::MAX };
+        along.part = along.part.wrapping_add(step);
+        along.node = along.node.wrapping_add(step);
+        let last = if up { along.part + 1 >= self.parts() } else { along.part == 0 };
+        along.next = if last {
             i32::MAX
+        } else {
+            axis.crossing(self.plane(along.low, along.width, along.part + u32::from(up)))
+        };
+    }
+
+    #[inline(always)]
+    fn part(&self, along: &Along) -> Extent {
+        let low = self.plane(along.low, along.width, along.part);
+        Extent { node: along.node, low, width: self.plane(along.low, along.width, along.part + 1) - low }
+    }
+
+    /// Level of a node and its index there.
+    fn place(&self, node: u32) -> (u32, u32) {
+        let (mut level, mut first, mut count) = (0, 0_u32, 1_u32);
+        while node >= first.saturating_add(count) && level < Pyramid::MAX_DEPTH {
+            first += count;
+            count = count.saturating_mul(self.starts.len() as u32);
+            level += 1;
         }
-    }
-
-    /// The index of part `k` of a node in its level.
-    #[inline]
-    fn child(&self, node: &Extent, k: i32) -> u32 {
-        node.index * self.starts.len() as u32 + k as u32
-    }
-
-    /// Where the cells of the level begin that is below the one that begins at `offset`.
-    #[inline]
-    fn below(&self, offset: u32) -> u32 {
-        offset * self.starts.len() as u32 + 1
-    }
-
-    #[inline]
-    fn cell(&self, offset: u32, index: u32) -> Option<&'a Cell> {
-        self.cells.get((offset + index) as usize)
-    }
-
-    #[inline]
-    fn part(&self, node: &Extent, k: i32) -> Extent {
-        let low = self.plane(node, k);
-        Extent { index: self.child(node, k), low, width: self.plane(node, k + 1) - low }
+        (level, node.saturating_sub(first))
     }
 }
 
@@ -213,7 +253,13 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
                 max,
             });
         }
-        Ok(Self { x: Side::new("domain along x", x)?, y: Side::new("domain along y", y)?, depth })
+        let leaves = match depth.checked_sub(1) {
+            Some(above) => Pyramid::cells(x.branching() as usize, above) as u32,
+            None => 0,
+        };
+        let (x, y) = (Side::new("domain along x", x)?, Side::new("domain along y", y)?);
+        let halved = x.is_halved() && y.is_halved();
+        Ok(Self { x, y, depth, leaves, halved })
     }
 
     /// The depth of the tree: no more than this many frames are on the stack.
@@ -223,131 +269,147 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
 
     /// Rigorous bounds of the heights.
     pub fn heights(&self) -> (Real, Real) {
-        let (low, high) = self.range(0, 0, 0, 0).unwrap_or((0, 0));
+        let cell = |side: &Side<'_>| side.cells.first().copied().unwrap_or_default();
+        let (low, high) = range(&cell(&self.x), &cell(&self.y));
         (Real::from_bits(low), Real::from_bits(high))
     }
 
-    /// The first leaf that the ray meets. A node is a leaf at the deepest level, or where it is no wider than `footprint` times the ray's parameter.
+    /// The surface's box, 24 fractional bits: both ends along x, y and z.
+    pub(super) fn extent(&self) -> [[i32; 2]; 3] {
+        let (low, high) = self.heights();
+        let side = |s: &Side<'_>| [s.origin, s.origin + s.width];
+        [side(&self.x), side(&self.y), [low.to_bits(), high.to_bits()]]
+    }
+
+    /// The first leaf that the ray meets. A node is a leaf at the deepest level, or where it is no wider than the `footprint`.
     ///
     /// Rays that start inside the surface's box and rays parallel to a plane are handled; the smallest `t` is 0.
     ///
     /// Error: the leaf is the exact one unless the ray passes a box within `2^-22` (tests/pictures.rs). Cost: about 30 Cortex-M4 instructions a box test.
-    pub fn intersect(&self, ray: &Ray, footprint: Unit) -> Option<Hit> {
-        self.walk(ray, footprint.to_bits(), &mut Statistics::default())
+    pub fn intersect(&self, ray: &Ray, footprint: Footprint) -> Option<Hit> {
+        self.leaf(ray, &self.cone(footprint)).map(|leaf| self.hit(ray, leaf))
+    }
+
+    /// The leaf alone: all that shading needs.
+    #[inline(always)]
+    pub(super) fn leaf(&self, ray: &Ray, cone: &Cone) -> Option<Leaf<'a>> {
+        self.walk(ray, cone, &mut Statistics::default())
     }
 
     /// As [`HeightField::intersect`], and adds to `statistics` what it took.
-    pub fn intersect_counted(&self, ray: &Ray, footprint: Unit, statistics: &mut Statistics) -> Option<Hit> {
-        self.walk(ray, footprint.to_bits(), statistics)
+    pub fn intersect_counted(
+        &self,
+        ray: &Ray,
+        footprint: Footprint,
+        statistics: &mut Statistics,
+    ) -> Option<Hit> {
+        self.walk(ray, &self.cone(footprint), statistics).map(|leaf| self.hit(ray, leaf))
     }
 
-    #[inline]
-    fn walk(&self, ray: &Ray, footprint: i32, statistics: &mut Statistics) -> Option<Hit> {
+    #[inline(always)]
+    fn walk(&self, ray: &Ray, cone: &Cone, statistics: &mut Statistics) -> Option<Leaf<'a>> {
+        if self.halved {
+            self.walk_halves(ray, cone, statistics)
+        } else {
+            let ray = *ray;
+            self.walk_parts(&ray, cone.footprint, statistics)
+        }
+    }
+
+    /// The walk for any number of parts of any width. Never inlined, so that a ray's numbers may stay in registers elsewhere.
+    #[inline(never)]
+    pub(super) fn walk_parts(
+        &self,
+        ray: &Ray,
+        footprint: Footprint,
+        statistics: &mut Statistics,
+    ) -> Option<Leaf<'a>> {
         statistics.rays = statistics.rays.wrapping_add(1);
         statistics.box_tests = statistics.box_tests.wrapping_add(1);
-        let (low, high) = self.range(0, 0, 0, 0)?;
         let (x, y) = (self.x.whole(), self.y.whole());
-        let mut span = (0, i32::MAX);
-        span = ray.x.clip(x.low, x.low + x.width, span);
-        span = ray.y.clip(y.low, y.low + y.width, span);
-        span = ray.z.clip(low, high, span);
-        if span.0 > span.1 || span.1 == i32::MAX {
+        let span = ray.x.clip(x.low, x.low + x.width, (0, i32::MAX));
+        let span = ray.y.clip(y.low, y.low + y.width, span);
+        if span.0 > span.1 {
             return None;
         }
-        if self.is_leaf(0, &x, &y, span.0, footprint) {
-            return self.hit(ray, 0, (0, 0), (0, 0), span);
+        let (f, g) = (self.x.cells.first()?, self.y.cells.first()?);
+        let (low, high) = range(f, g);
+        let (t_in, t_out) = ray.z.clip(low, high, span);
+        if t_in > t_out || t_out == i32::MAX {
+            return None;
+        }
+        if self.leaves == 0 || is_small(&x, &y, t_in, footprint) {
+            return Some(Leaf { nodes: (0, 0), cells: (f, g), span: (t_in, t_out) });
         }
         let mut stack = Vec::<Frame, STACK>::new();
-        let mut frame = self.enter(ray, 0, (1, 1), (x, y), span);
+        let mut frame = self.enter(ray, (x, y), t_in, ray.z.at(t_in), t_out);
         loop {
             // the part where the walk stands, up to the next plane
-            let (a, b) = frame.part;
-            let next_x = self.x.leave(&ray.x, &frame.x, a);
-            let next_y = self.y.leave(&ray.y, &frame.y, b);
-            let (t_in, t_out) = (frame.t, next_x.min(next_y).min(frame.t_out));
-            let finished = t_out >= frame.t_out;
+            let t_next = frame.x.next.min(frame.y.next).min(frame.t_out);
+            let z_next = ray.z.at(t_next);
             statistics.box_tests = statistics.box_tests.wrapping_add(1);
-            let index = (self.x.child(&frame.x, a), self.y.child(&frame.y, b));
-            let (low, high) = self.range(frame.below.0, index.0, frame.below.1, index.1)?;
-            let (z_in, z_out) = (ray.z.at(t_in), ray.z.at(t_out));
-            if z_in.min(z_out) <= high && z_in.max(z_out) >= low {
-                let (x, y) = (self.x.part(&frame.x, a), self.y.part(&frame.y, b));
-                let (level, below) = (frame.level + 1, frame.below);
-                if self.is_leaf(level, &x, &y, t_in, footprint) {
-                    return self.hit(ray, level, below, index, (t_in, t_out));
+            let f = self.x.cells.get(frame.x.node as usize)?;
+            let g = self.y.cells.get(frame.y.node as usize)?;
+            let (low, high) = range(f, g);
+            let (z_low, z_high) = if frame.z < z_next { (frame.z, z_next) } else { (z_next, frame.z) };
+            let finished = t_next >= frame.t_out;
+            if z_low <= high && z_high >= low {
+                let (x, y) = (self.x.part(&frame.x), self.y.part(&frame.y));
+                let (t, z) = (frame.t, frame.z);
+                if x.node >= self.leaves || is_small(&x, &y, t, footprint) {
+                    return Some(Leaf { nodes: (x.node, y.node), cells: (f, g), span: (t, t_next) });
                 }
                 if !finished {
+                    self.advance(ray, &mut frame, t_next, z_next);
                     // never full: at most one frame for each level above the leaves, and depth <= STACK
-                    let _ = stack.push(frame.advanced(ray, next_x <= next_y, t_out));
+                    let _ = stack.push(frame);
                     statistics.stack = statistics.stack.max(stack.len() as u32);
                 }
-                let below = (self.x.below(below.0), self.y.below(below.1));
-                frame = self.enter(ray, level, below, (x, y), (t_in, t_out));
+                frame = self.enter(ray, (x, y), t, z, t_next);
             } else if finished {
                 frame = stack.pop()?;
             } else {
-                frame = frame.advanced(ray, next_x <= next_y, t_out);
+                self.advance(ray, &mut frame, t_next, z_next);
             }
         }
     }
 
-    #[inline]
-    fn enter(
-        &self,
-        ray: &Ray,
-        level: u32,
-        below: (u32, u32),
-        (x, y): (Extent, Extent),
-        (t, t_out): (i32, i32),
-    ) -> Frame {
-        let part = (self.x.enter(&ray.x, &x, t), self.y.enter(&ray.y, &y, t));
-        Frame { level, below, x, y, part, t, t_out }
+    #[inline(always)]
+    fn enter(&self, ray: &Ray, (x, y): (Extent, Extent), t: i32, z: i32, t_out: i32) -> Frame {
+        Frame { x: self.x.enter(&ray.x, x, t), y: self.y.enter(&ray.y, y, t), t, z, t_out }
     }
 
-    #[inline]
-    fn is_leaf(&self, level: u32, x: &Extent, y: &Extent, t: i32, footprint: i32) -> bool {
-        level >= self.depth || i64::from(x.width.max(y.width)) <= (i64::from(t) * i64::from(footprint)) >> 30
-    }
-
-    fn hit(
-        &self,
-        ray: &Ray,
-        level: u32,
-        below: (u32, u32),
-        index: (u32, u32),
-        span: (i32, i32),
-    ) -> Option<Hit> {
-        let (f, g) = (self.x.cell(below.0, index.0)?, self.y.cell(below.1, index.1)?);
-        let (low, high) = range(f, g);
-        let (t_in, t_out) = ray.z.clip(low, high, span);
-        // a ray that only touches the box may round to an empty part
-        let t = if t_in <= t_out { t_in + (t_out - t_in) / 2 } else { span.0 };
-        Some(Hit { level, index, t: Real::from_bits(t), cells: (*f, *g) })
-    }
-
-    #[inline]
-    fn range(&self, x_below: u32, i: u32, y_below: u32, j: u32) -> Option<(i32, i32)> {
-        Some(range(self.x.cell(x_below, i)?, self.y.cell(y_below, j)?))
-    }
-}
-
-impl Frame {
-    /// The walk after its part: one step along x or y, from `t` on.
-    #[inline]
-    fn advanced(mut self, ray: &Ray, along_x: bool, t: i32) -> Self {
-        if along_x {
-            self.part.0 += if ray.x.direction > 0 { 1 } else { -1 };
+    /// One part on, along the axis whose plane comes first.
+    #[inline(always)]
+    fn advance(&self, ray: &Ray, frame: &mut Frame, t: i32, z: i32) {
+        if frame.x.next <= frame.y.next {
+            self.x.advance(&ray.x, &mut frame.x);
         } else {
-            self.part.1 += if ray.y.direction > 0 { 1 } else { -1 };
+            self.y.advance(&ray.y, &mut frame.y);
         }
-        self.t = t;
-        self
+        (frame.t, frame.z) = (t, z);
+    }
+
+    fn hit(&self, ray: &Ray, leaf: Leaf<'_>) -> Hit {
+        let (f, g) = leaf.cells;
+        let (low, high) = range(f, g);
+        let (t_in, t_out) = ray.z.clip(low, high, leaf.span);
+        // a ray that only touches the box may round to an empty part
+        let t = if t_in <= t_out { t_in + (t_out - t_in) / 2 } else { leaf.span.0 };
+        let ((level, i), (_, j)) = (self.x.place(leaf.nodes.0), self.y.place(leaf.nodes.1));
+        Hit { level, index: (i, j), t: Real::from_bits(t), cells: (*f, *g) }
     }
 }
 
-/// Bounds of the product of two ranges (eq. 49), 24 fractional bits, outward.
-#[inline]
-fn range(f: &Cell, g: &Cell) -> (i32, i32) {
+/// Whether a node is no wider than the footprint at `t`.
+#[inline(always)]
+fn is_small(x: &Extent, y: &Extent, t: i32, footprint: Footprint) -> bool {
+    i64::from(t) >= footprint.reaches(x.width.max(y.width))
+}
+
+/// Bounds of the product of two ranges (eq. 49), 24 fractional bits, outward by at most one unit more than need be.
+#[inline(always)]
+pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
     let product = |a: Real, b: Real| i64::from(a.to_bits()) * i64::from(b.to_bits());
     let (low, high) = if f.min >= 0 && g.min >= 0 {
         (product(f.min, g.min), product(f.max, g.max))
@@ -357,5 +419,5 @@ fn range(f: &Cell, g: &Cell) -> (i32, i32) {
         (a.min(b).min(c).min(d), a.max(b).max(c).max(d))
     };
     // HeightField::new has checked that the products stay below 64
-    ((low >> 24) as i32, ((high + ((1 << 24) - 1)) >> 24) as i32)
+    ((low >> 24) as i32, (high >> 24) as i32 + 1)
 }

@@ -6,8 +6,10 @@
 
 mod camera;
 mod environment;
+mod halves;
 mod height_field;
 mod material;
+mod outline;
 mod ray;
 mod ray_caster;
 mod sampling;
@@ -16,6 +18,6 @@ pub use camera::Camera;
 pub use environment::Environment;
 pub use height_field::{HeightField, Hit, Statistics};
 pub use material::{Light, Material};
-pub use ray::Ray;
+pub use ray::{Footprint, Ray};
 pub use ray_caster::{RayCaster, Row, Tone};
 pub use sampling::{Filter, Sampling};

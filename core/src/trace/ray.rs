@@ -1,6 +1,6 @@
 //! A ray `eye + t d`, made ready for many intersections with axis-parallel planes.
 
-use crate::num::{Real, Vec3, reciprocal};
+use crate::num::{Real, Unit, Vec3, reciprocal};
 
 /// One coordinate of a ray: origin, direction, and the direction's reciprocal.
 #[derive(Debug, Clone, Copy)]
@@ -11,31 +11,37 @@ pub(crate) struct Axis {
     pub(crate) direction: i32,
     /// `1 / direction` as a signed mantissa of 30 bits and a right shift that gives `t` 24 fractional bits.
     mantissa: i32,
+    /// From 2 to 31, because a direction's magnitude is from 1 to `2^30`.
     shift: u32,
+    /// `32 - shift`.
+    rest: u32,
+    /// `shift - 1`: bits from there on must be the sign's.
+    over: u32,
 }
 
 impl Axis {
-    #[inline]
+    /// A component of 0 counts as `2^-28`: a ray parallel to a plane leans by less than a direction's resolution, and every plane is crossed.
+    #[inline(always)]
     fn new(origin: i32, direction: i32) -> Self {
+        let direction = if direction == 0 { 1 } else { direction };
         let (mantissa, shift) = reciprocal(direction.unsigned_abs());
         let mantissa = (mantissa >> 1) as i32;
-        Self {
-            origin,
-            direction,
-            mantissa: if direction < 0 { -mantissa } else { mantissa },
-            // distance / 2^24 * 2^28 / direction, with 24 fractional bits; the mantissa has lost one
-            shift: shift - 29,
-        }
+        // distance / 2^24 * 2^28 / direction, with 24 fractional bits; the mantissa has lost one
+        let shift = shift - 29;
+        let mantissa = if direction < 0 { -mantissa } else { mantissa };
+        Self { origin, direction, mantissa, shift, rest: 32 - shift, over: shift - 1 }
     }
 
-    /// The parameter at which the ray crosses the plane at `plane` (24 fractional bits), saturated. Not for `direction` = 0.
-    #[inline]
+    /// The parameter at which the ray crosses the plane at `plane` (24 fractional bits), saturated.
+    #[inline(always)]
     pub(crate) fn crossing(&self, plane: i32) -> i32 {
         // |plane|, |origin| < 64: the difference fits 32 bits
         let product = i64::from(plane.wrapping_sub(self.origin)) * i64::from(self.mantissa);
-        let t = product >> (self.shift & 63);
-        let narrow = t as i32;
-        if i64::from(narrow) == t { narrow } else { ((t >> 63) as i32) ^ i32::MAX }
+        // by halves: a 64-bit shift by a variable takes twice as long
+        let (high, low) = ((product >> 32) as i32, product as u32);
+        let t = (low >> (self.shift & 31)) | ((high as u32) << (self.rest & 31));
+        let sign = high >> 31;
+        if (high >> (self.over & 31)) == sign { t as i32 } else { sign ^ i32::MAX }
     }
 
     /// The coordinate at parameter `t`, saturated by the caller's choice of `t` inside the scene.
@@ -45,14 +51,39 @@ impl Axis {
     }
 
     /// The part of `[t_in, t_out]` in which the coordinate lies between `low` and `high`; empty if `t_in > t_out` in the result.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn clip(&self, low: i32, high: i32, (t_in, t_out): (i32, i32)) -> (i32, i32) {
-        if self.direction == 0 {
-            // parallel: all or nothing
-            return if low <= self.origin && self.origin <= high { (t_in, t_out) } else { (1, 0) };
-        }
         let (near, far) = if self.direction > 0 { (low, high) } else { (high, low) };
         (t_in.max(self.crossing(near)), t_out.min(self.crossing(far)))
+    }
+}
+
+/// How wide a sample's cone is: `width = t * per_t`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Footprint {
+    per_t: Unit,
+    /// `1 / per_t` as a mantissa and a shift.
+    reciprocal: (u32, u32),
+}
+
+impl Footprint {
+    /// A cone that is `per_t` wide at `t` = 1; 0 and less count as `2^-30`.
+    pub fn new(per_t: Unit) -> Self {
+        let per_t = per_t.max(Unit::DELTA);
+        Self { per_t, reciprocal: reciprocal(per_t.to_bits().unsigned_abs()) }
+    }
+
+    /// One of `n` cones side by side.
+    pub(crate) fn part(self, n: u32) -> Self {
+        Self::new(Unit::from_bits(self.per_t.to_bits().checked_div(n as i32).unwrap_or(0)))
+    }
+
+    /// From where on the cone is at least `width` wide (both 24 fractional bits).
+    #[inline(always)]
+    pub(crate) fn reaches(self, width: i32) -> i64 {
+        let (mantissa, shift) = self.reciprocal;
+        // per_t has 30 fractional bits
+        (i64::from(width) * i64::from(mantissa)) >> ((shift - 30) & 63)
     }
 }
 
@@ -74,7 +105,7 @@ impl Ray {
     }
 
     /// Origin with 24, direction with 28 fractional bits.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn from_bits([ox, oy, oz]: [i32; 3], [dx, dy, dz]: [i32; 3]) -> Self {
         Self { x: Axis::new(ox, dx), y: Axis::new(oy, dy), z: Axis::new(oz, dz) }
     }

@@ -9,9 +9,11 @@ use embedded_graphics_core::geometry::Size;
 
 use super::Camera;
 use super::environment::Environment;
+use super::halves::Cone;
 use super::height_field::{HeightField, Statistics};
 use super::material::{Light, Material};
-use super::ray::Ray;
+use super::outline::Outline;
+use super::ray::{Footprint, Ray};
 use super::sampling::{Filter, Pattern, Sampling};
 use crate::Error;
 use crate::num::{Unit, Vec3, Wide, reciprocal_sqrt};
@@ -57,7 +59,10 @@ pub struct RayCaster<'a, const STACK: usize = 16> {
     right: [i64; 3],
     down: [i64; 3],
     /// Width of a sample's cone a unit of `t`.
-    footprint: Unit,
+    footprint: Footprint,
+    /// The same for one sample.
+    cone: Cone,
+    outline: Outline,
 }
 
 impl<'a, const STACK: usize> RayCaster<'a, STACK> {
@@ -93,6 +98,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
         // 2 k / rows with 30 fractional bits
         let footprint =
             (i64::from(camera.tangent) << 3).checked_div(rows).unwrap_or(0).min(i64::from(i32::MAX));
+        let footprint = Footprint::new(Unit::from_bits(footprint as i32));
         let light = Light::new(Vec3::new((-1).into(), (-2).into(), 3.into()))?;
         Ok(Self {
             surface,
@@ -105,7 +111,9 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
             corner,
             right,
             down,
-            footprint: Unit::from_bits(footprint as i32),
+            footprint,
+            cone: surface.cone(footprint),
+            outline: Outline::new(surface.extent(), &camera, size.width, size.height),
         })
     }
 
@@ -140,6 +148,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     /// [`Error::OutOfRange`] for more than 8 samples a side, or none, or a filter outside its ranges.
     pub fn with_sampling(mut self, sampling: Sampling, filter: Filter) -> Result<Self, Error> {
         self.pattern = Pattern::new(sampling, filter)?;
+        self.cone = self.surface.cone(self.footprint.part(self.pattern.parts_a_side()));
         Ok(self)
     }
 
@@ -151,7 +160,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
                 for (dx, dy, _) in self.pattern.samples(x, y) {
                     let direction = self.offset(self.direction(x, y), dx, dy);
                     let ray = Ray::from_bits(self.eye(), direction);
-                    let _ = self.surface.intersect_counted(&ray, self.sample_footprint(), &mut statistics);
+                    let _ = self.surface.intersect_counted(&ray, self.cone.footprint, &mut statistics);
                 }
             }
         }
@@ -161,15 +170,11 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     /// The leaf that the ray through the centre of a pixel meets.
     pub fn hit(&self, x: u32, y: u32) -> Option<super::Hit> {
         let ray = Ray::from_bits(self.eye(), self.direction(x, y).map(narrow));
-        self.surface.intersect(&ray, self.sample_footprint())
+        self.surface.intersect(&ray, self.cone.footprint)
     }
 
     fn eye(&self) -> [i32; 3] {
         [self.camera.eye.x, self.camera.eye.y, self.camera.eye.z].map(|c| c.to_bits())
-    }
-
-    fn sample_footprint(&self) -> Unit {
-        Unit::from_bits(self.footprint.to_bits().checked_div(self.pattern.parts_a_side() as i32).unwrap_or(0))
     }
 
     /// The direction through the centre of pixel `(x, y)`, 44 fractional bits.
@@ -195,17 +200,19 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
 
     /// The tone of one ray.
     #[inline]
-    fn tone(&self, direction: [i32; 3]) -> Unit {
-        let ray = Ray::from_bits(self.eye(), direction);
-        let hit = self.surface.intersect(&ray, self.sample_footprint());
+    fn tone(&self, direction: [i32; 3], visible: bool) -> Unit {
+        let leaf = if visible {
+            self.surface.leaf(&Ray::from_bits(self.eye(), direction), &self.cone)
+        } else {
+            None
+        };
         // |d| < 4 in each component: the squares stay below 2^62
         let square: i64 = direction.iter().map(|d| i64::from(*d) * i64::from(*d)).sum();
         let d = unit(direction, square as u64);
-        match hit {
+        match leaf {
             None => self.environment.tone(d),
-            Some(hit) => {
-                let n = hit.normal();
-                let bits = [n.x, n.y, n.z].map(|c| c.to_bits());
+            Some(leaf) => {
+                let bits = leaf.normal();
                 // |n| <= 64 in x and y
                 let square: i64 = bits.iter().map(|c| i64::from(*c) * i64::from(*c)).sum();
                 self.material.tone(unit(bits, square as u64), d, &self.light, &self.environment)
@@ -214,12 +221,17 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     }
 
     #[inline]
-    fn pixel(&self, x: u32, y: u32, direction: [i64; 3]) -> Tone {
-        let mut sum = 0_i64;
-        for (dx, dy, weight) in self.pattern.samples(x, y) {
-            sum += i64::from(self.tone(self.offset(direction, dx, dy)).to_bits()) * i64::from(weight);
-        }
-        let tone = (sum >> 30).clamp(0, 1 << 30);
+    fn pixel(&self, x: u32, y: u32, direction: [i64; 3], visible: bool) -> Tone {
+        let tone = if self.pattern.is_centre() {
+            i64::from(self.tone(direction.map(narrow), visible).to_bits())
+        } else {
+            let mut sum = 0_i64;
+            for (dx, dy, weight) in self.pattern.samples(x, y) {
+                sum += i64::from(self.tone(self.offset(direction, dx, dy), visible).to_bits())
+                    * i64::from(weight);
+            }
+            (sum >> 30).clamp(0, 1 << 30)
+        };
         Tone(((tone * 65535 + (1 << 29)) >> 30) as u16)
     }
 }
@@ -244,6 +256,8 @@ pub struct Row<'a, 'b, const STACK: usize> {
     y: u32,
     x: Range<u32>,
     direction: [i64; 3],
+    /// The columns in which the surface can be seen.
+    visible: Range<u32>,
 }
 
 impl<'a, const STACK: usize> Field for RayCaster<'a, STACK> {
@@ -258,7 +272,13 @@ impl<'a, const STACK: usize> Field for RayCaster<'a, STACK> {
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> Row<'a, '_, STACK> {
-        Row { caster: self, y, direction: self.direction(x.start, y), x }
+        Row {
+            caster: self,
+            y,
+            direction: self.direction(x.start, y),
+            x,
+            visible: self.outline.columns(y, self.size.width),
+        }
     }
 }
 
@@ -268,7 +288,7 @@ impl<const STACK: usize> Iterator for Row<'_, '_, STACK> {
     #[inline]
     fn next(&mut self) -> Option<Tone> {
         let x = self.x.next()?;
-        let tone = self.caster.pixel(x, self.y, self.direction);
+        let tone = self.caster.pixel(x, self.y, self.direction, self.visible.contains(&x));
         for (c, r) in self.direction.iter_mut().zip(self.caster.right) {
             *c += r;
         }

@@ -92,6 +92,12 @@ impl Pattern {
         self.parts.len() as u32
     }
 
+    /// Whether the only sample is the pixel's centre.
+    #[inline]
+    pub(crate) fn is_centre(&self) -> bool {
+        self.parts.len() == 1 && self.seed.is_none()
+    }
+
     /// The samples of pixel `(x, y)`: offsets from its centre in pixels (24 fractional bits, y downwards) and weights (30 bits).
     #[inline]
     pub(crate) fn samples(&self, x: u32, y: u32) -> impl Iterator<Item = (i32, i32, i32)> + '_ {

@@ -3,7 +3,8 @@
 #![no_main]
 
 use attractor_cortex_m::{entry, semihosting};
-use panic_never as _;
+
+attractor_cortex_m::never_panics!();
 
 #[entry]
 fn main() -> ! {

@@ -6,7 +6,8 @@ use core::hint::black_box as bb;
 
 use attractor::num;
 use attractor_cortex_m::{entry, semihosting};
-use panic_never as _;
+
+attractor_cortex_m::never_panics!();
 
 #[entry]
 fn main() -> ! {

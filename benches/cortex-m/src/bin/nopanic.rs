@@ -7,16 +7,190 @@
 
 use core::hint::black_box as bb;
 
-use attractor::num;
-use attractor_cortex_m::{entry, semihosting};
-use panic_never as _;
+use attractor::draw::{
+    BigEndian, ColoredDots, CourseUnit, Cycled, Dots, Grey, LsbPages, Packing, Picture, RowCursor, Stroke,
+    gradients,
+};
+use attractor::escape::{Complex, Julia, Mandelbrot, Precision, View};
+use attractor::fif::{Cell, Factor, Fif, Knot, Pyramid, Surface};
+use attractor::ifs::{Ifs, catalogue};
+use attractor::num::{self, Angle, Real, Scaling, Unit, Vec3, Wide};
+use attractor::picture::{Bounds2, Field, Point2, Window};
+use attractor::trace::{
+    Camera, Environment, Filter, HeightField, Light, Material, Ray, RayCaster, Sampling, Statistics,
+};
+use attractor::{Error, draw};
+use attractor_cortex_m::{Wire, entry, semihosting};
+use embedded_graphics::image::{GetPixel, Image};
+use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565};
+use embedded_graphics::prelude::*;
+
+attractor_cortex_m::never_panics!();
 
 #[entry]
 fn main() -> ! {
     numbers();
+    // what is refused is refused: only panics count
+    let _ = bb(functions());
+    let _ = bb(systems());
+    let _ = bb(escape());
+    let _ = bb(rays());
+    let _ = bb(drawing());
     #[cfg(feature = "deliberate-panic")]
     bb([1, 2, 3][bb(0_usize)]);
     semihosting::process::exit(0)
+}
+
+fn functions() -> Result<(), Error> {
+    let zero = bb(Wide::ZERO);
+    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+    let f = Fif::<4, 2>::interpolating(bb(&knots[..]), bb(&[Scaling::from_bits(1 << 30); 2][..]))?;
+    let xs = knots.map(|knot| knot.x);
+    bb(Fif::<2, 2>::with_polynomials(bb(&xs), bb(&[Scaling::ZERO; 2]), bb(&[&xs[..], &xs[..]]))?);
+    bb((f.at(zero), f.at_wide(zero), f.error_bound(), f.at_by_composition(zero, bb(Real::DELTA))));
+    bb((f.maps(), f.degree(), f.domain(), f.range(), f.max_scaling(), f.knots().last()));
+    bb(f.composite(bb([0_usize, 1])).vertical_scaling());
+    bb(f.derivative::<4>())?;
+    let integral = bb(f.integral::<4>(zero))?;
+    if let Some(dyadic) = f.dyadic() {
+        bb((dyadic.at(bb(Angle::ZERO)), dyadic.error_bound()));
+    }
+    bb(f.graph(bb(10)).last());
+    bb(f.chaos_game(rng()).take(bb(10)).last());
+    let mut memory = [Cell::ZERO; Pyramid::cells(2, 4)];
+    let pyramid = Pyramid::new(&integral, bb(4), &mut memory)?;
+    bb((
+        pyramid.root(),
+        pyramid.depth(),
+        pyramid.branching(),
+        pyramid.level(bb(2)),
+        pyramid.bounds(zero, zero),
+    ));
+    let factor = Factor::<4, 4>::from_slope(&f, zero)?;
+    bb(Factor::<4, 4>::new(&integral))?;
+    let surface = Surface::new(&factor, &factor);
+    bb((surface.height(zero, zero), surface.partials(zero, zero), surface.normal(zero, zero)));
+    bb(surface.mean_normal((zero, bb(Wide::ONE)), (zero, bb(Wide::ONE))));
+    Ok(())
+}
+
+fn rng() -> attractor::rand_xoshiro::Xoshiro128PlusPlus {
+    use attractor::rand_xoshiro::rand_core::SeedableRng;
+    SeedableRng::seed_from_u64(bb(1))
+}
+
+fn systems() -> Result<(), Error> {
+    let Some(attractor) = catalogue::find(bb("barnsley-fern")) else { return Ok(()) };
+    let ifs = attractor.ifs::<{ catalogue::LARGEST }>()?;
+    bb(Ifs::<4>::proportional_to_determinant(bb(attractor.maps)))?;
+    bb((ifs.bounds(), ifs.contraction_factor(), ifs.invariant_disc(), ifs.deviation()));
+    bb((ifs.maps(), ifs.probabilities()));
+    bb(ifs.seeded_chaos_game(bb(1)).take(bb(10)).last());
+    bb(ifs.chaos_game(rng()).with_maps().take(bb(10)).last());
+    let (Some(a), Some(b)) = (attractor.maps.first(), attractor.maps.last()) else { return Ok(()) };
+    let (a, b) = (bb(*a), bb(*b));
+    bb((
+        a.apply(point(0)),
+        a.after(&b),
+        a.determinant(),
+        a.is_contraction(),
+        a.contraction_factor(),
+        a.fixed_point(),
+    ));
+    Ok(())
+}
+
+fn escape() -> Result<(), Error> {
+    let c = Complex::new(bb(Wide::ZERO), bb(Wide::ZERO));
+    bb(View::home(bb(Wire::<Rgb565>::SIZE)))?;
+    let view = View::new(c, bb(Wide::ONE), bb(Wire::<Rgb565>::SIZE))?;
+    bb((view.point(bb(0), bb(0)), view.pitch(), view.width(), view.centre()));
+    let set = Mandelbrot::new(view, bb(100))?;
+    bb((set.dwell_at(c), set.row(bb(0), bb(0)..bb(100)).last(), set.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
+    bb(set.with_precision(bb(Precision::Fine29)).dwell_at(c));
+    let julia = Julia::new(view, c, bb(100))?;
+    bb((
+        julia.dwell_at(c),
+        julia.row(bb(0), bb(0)..bb(100)).last(),
+        julia.row(bb(1), bb(0)..bb(100)).nth(bb(5)),
+    ));
+    Ok(())
+}
+
+fn rays() -> Result<(), Error> {
+    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+    let f = Fif::<2, 1>::interpolating(bb(&knots[..]), bb(&[Scaling::from_bits(1 << 30); 2][..]))?;
+    let mut memory = [Cell::ZERO; Pyramid::cells(2, 4)];
+    let pyramid = Pyramid::new(&f, bb(4), &mut memory)?;
+    let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid)?;
+    bb((surface.depth(), surface.heights()));
+    let v = Vec3::new(bb(Real::ONE), bb(Real::ONE), bb(Real::ONE));
+    if let Some(hit) = surface.intersect(&Ray::new(v, v), bb(Unit::ZERO)) {
+        bb(hit.normal());
+    }
+    bb(surface.intersect_counted(&Ray::new(v, v), bb(Unit::ZERO), &mut Statistics::default()));
+    let camera = Camera::new(v, bb(v), bb(v), bb(Real::ONE))?;
+    let caster = RayCaster::new(surface, camera, bb(Wire::<Rgb565>::SIZE))?
+        .with_material(bb(Material::PHONG))?
+        .with_light(Light::new(v)?)
+        .with_environment(bb(Environment::SKY))?
+        .with_sampling(bb(Sampling::Centre), bb(Filter::Box))?;
+    bb((caster.row(bb(0), bb(0)..bb(100)).last(), caster.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
+    bb((caster.hit(bb(0), bb(0)), caster.statistics()));
+    Ok(())
+}
+
+fn point(bits: i32) -> Point2 {
+    Point2::new(bb(Real::from_bits(bits)), bb(Real::from_bits(bits)))
+}
+
+/// Every way to draw one field, a path and points, on three kinds of display.
+fn drawing() -> Result<(), Error> {
+    on::<BinaryColor>()?;
+    on::<Gray4>()?;
+    on::<Rgb565>()?;
+    let view = View::home(Wire::<BinaryColor>::SIZE)?;
+    let picture = Picture::<_, _, BinaryColor>::new(Mandelbrot::new(view, bb(10))?, Grey);
+    let mut buffer = [0; 256];
+    if let Some((_, strip)) = picture.lsb_pages(&mut buffer)?.next_strip() {
+        bb(strip);
+    }
+    if let Some((_, strip)) = picture.msb_rows(&mut buffer)?.next_strip() {
+        bb(strip);
+    }
+    bb(picture.pack::<LsbPages>(bb(0), &mut buffer))?;
+    let picture =
+        Picture::<_, _, Rgb565>::new(Mandelbrot::new(view, bb(10))?, Cycled::new(gradients::FIRE, bb(16)));
+    let mut buffer = [0; 480];
+    if let Some((_, strip)) = picture.big_endian(&mut buffer)?.next_strip() {
+        bb(strip);
+    }
+    bb(picture.pack::<BigEndian>(bb(0), &mut buffer))?;
+    bb(<BigEndian as Packing<Rgb565>>::length(bb(10)));
+    Ok(())
+}
+
+fn on<C: draw::Ink + From<BinaryColor>>() -> Result<(), Error> {
+    let mut display = Wire::<C>::new();
+    let white = C::from(BinaryColor::On);
+    let view = View::home(bb(Wire::<C>::SIZE))?;
+    let picture = Picture::<_, _, C>::new(Mandelbrot::new(view, bb(10))?, CourseUnit);
+    let Ok(()) = Image::new(&picture, bb(Point::zero())).draw(&mut display);
+    let Ok(()) = picture.draw_row(&mut display, bb(3));
+    bb(picture.pixel(bb(Point::zero())));
+    let mut cursor = RowCursor::new();
+    let Ok(more) = cursor.draw_next(&picture, &mut display);
+    bb((more, cursor.row()));
+    let bounds = Bounds2 { min: point(0), max: point(1 << 24) };
+    bb(Window::stretch(bounds, bb(Wire::<C>::SIZE)))?;
+    let window = Window::fit(bounds, bb(Wire::<C>::SIZE))?;
+    let points = (0..bb(10)).map(point);
+    let Ok(_) = Dots::new(points.clone(), window, white).at(bb(Point::zero())).draw(&mut display);
+    let coloured = points.clone().map(|p| (p, bb(1_u32)));
+    let Ok(_) = ColoredDots::<_, _, C>::new(coloured, window, gradients::DUSK).draw(&mut display);
+    let path = points.map(attractor::picture::Step::LineTo);
+    let Ok(_) = Stroke::new(path, window, white).at(bb(Point::zero())).draw(&mut display);
+    Ok(())
 }
 
 fn numbers() {

@@ -1,7 +1,6 @@
 //! Draws every scene of the table and prints a line of JSON for each.
 //!
-//! Arguments: `frames` streams the pixels of each scene to a file `NAME-WIDTHxHEIGHT.raw`; any other argument is the name of the only
-//! scene to draw.
+//! The argument `frames` streams the pixels of each scene to a file `NAME-WIDTHxHEIGHT.raw`.
 #![no_std]
 #![no_main]
 
@@ -15,18 +14,9 @@ attractor_cortex_m::report_panics!();
 fn main() -> ! {
     let mut board = Board::new();
     let mut stream = false;
-    let mut only = [None; scenes::ALL.len()];
-    arguments(|i, argument| match (i, argument) {
-        (0, _) => {}
-        (_, "frames") => stream = true,
-        _ => {
-            for (chosen, scene) in only.iter_mut().zip(scenes::ALL) {
-                *chosen = Some(chosen.unwrap_or(false) || scene.name == argument);
-            }
-        }
-    });
-    for (scene, chosen) in scenes::ALL.iter().zip(only) {
-        if chosen == Some(false) || (cfg!(small) && !scene.small) {
+    arguments(|i, argument| stream |= i > 0 && argument == "frames");
+    for scene in scenes::ALL {
+        if cfg!(small) && !scene.small {
             continue;
         }
         let (width, height) = (scene.size.width, scene.size.height);
