@@ -153,6 +153,6 @@ pub(crate) fn explain(error: &clap::Error) -> ExitCode {
         .filter(|l| !l.starts_with("For more information"))
         .collect();
     let line = lines.join("; ");
-    eprintln!("attractor: {}", line.strip_prefix("error: ").unwrap_or(&line).replace(":; ", ": "));
+    crate::fail::say(&line.strip_prefix("error: ").unwrap_or(&line).replace(":; ", ": "));
     ExitCode::from(2)
 }

@@ -54,7 +54,11 @@ pub(crate) fn run(args: &Dump) -> Result<(), Fail> {
         let bytes = with_depth!(look.color, drawn, scene, look, &progress)?;
         bar.set_position(start + 1000);
         output::write(path, &bytes)?;
-        bar.suspend(|| writeln!(out, "{}", path.display()))?;
+        match bar.suspend(|| writeln!(out, "{}", path.display())).map_err(Fail::from) {
+            // the files are wanted all the same
+            Ok(()) | Err(Fail::ClosedPipe) => {}
+            Err(fail) => return Err(fail),
+        }
     }
     bar.finish_and_clear();
     Ok(())

@@ -1,7 +1,7 @@
 //! Why the command gives up: a message of one line, or nobody listening.
 
 use std::fmt::Display;
-use std::io;
+use std::io::{self, Write as _};
 
 /// What ends a command early.
 #[derive(Debug)]
@@ -30,4 +30,9 @@ impl From<io::Error> for Fail {
             Self::new(format_args!("standard output: {error}"))
         }
     }
+}
+
+/// Says it on standard error; if nobody listens there either, so be it.
+pub(crate) fn say(message: &str) {
+    let _ = writeln!(io::stderr(), "attractor: {message}");
 }

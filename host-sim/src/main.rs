@@ -40,7 +40,7 @@ fn main() -> ExitCode {
     match done {
         Ok(()) | Err(Fail::ClosedPipe) => ExitCode::SUCCESS,
         Err(Fail::Message(message)) => {
-            eprintln!("attractor: {message}");
+            fail::say(&message);
             ExitCode::from(2)
         }
     }

@@ -146,6 +146,12 @@ fn unknown_keys_and_words_are_refused() {
     refused(CURVE, "knots", "integrate = -1\nknots", &["integrate = -1"]);
     refused(SURFACE, "\"mirror\"", "\"velvet\"", &["velvet", "mirror"]);
     refused(SURFACE, "look_at", "looks_at", &["looks_at"]);
+    refused(
+        SURFACE,
+        "knots = [[0, 0], [1, 1], [2, 0]]\nvertical_scaling = [0.5, 0.5]",
+        "knots = [[0, 0], [1, 1]]\nvertical_scaling = [0.5]",
+        &["f.knots", "[[0, 0], [1, 1]]", "two maps"],
+    );
     refused(JULIA, "kind", "inside = \"red\"\nkind", &["inside", "red", "#rrggbb"]);
     refused(MANDELBROT, "kind", "c = [\"0\", \"0\"]\nkind", &["`c`"]);
     refused(
@@ -192,8 +198,8 @@ fn data_that_cannot_be_read_are_named() {
 fn files_that_are_no_scene_are_refused() {
     refused_text(b"", &["empty"]);
     refused_text(b"\n\n", &["empty"]);
-    refused_text(CURVE[..60].as_bytes(), &[]);
-    refused_text(CURVE[..45].as_bytes(), &[]);
+    refused_text(&CURVE.as_bytes()[..60], &[]);
+    refused_text(&CURVE.as_bytes()[..45], &[]);
     refused_text(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", &["byte 0", "0x89"]);
     refused_text(&[0; 64], &[]);
     refused_text("title = \"no kind\"\n".as_bytes(), &["kind"]);

@@ -141,8 +141,8 @@ fn range(fif: &Fixed) -> Result<(Real, Real), Fail> {
     if max < 0 && -max <= quarter {
         max = Real::ZERO;
     }
-    if max <= min {
-        // a constant
+    if max.saturating_sub(min) < Real::DELTA * 16 {
+        // a constant, whose bounds are rounded outward
         (min, max) = (min.saturating_sub(Real::ONE), max.saturating_add(Real::ONE));
     }
     Ok((min, max))

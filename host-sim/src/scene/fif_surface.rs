@@ -91,6 +91,13 @@ impl FifSurface {
             let towards = vector(source, direction, "light.direction")?;
             Light::new(towards).map_err(|error| source.fail(direction.span(), "light.direction", error))
         });
+        for (key, function) in [("f.knots", &file.f), ("g.knots", &file.g)] {
+            let knots = &function.get_ref().knots;
+            if knots.get_ref().len() == 2 {
+                let reason = "a surface is cut into ever smaller parts: it takes two maps at least, that is three knots";
+                return Err(source.fail(knots.span(), key, reason));
+            }
+        }
         let samples = match file.samples {
             Some(samples) if !(1..=8).contains(samples.get_ref()) => {
                 return Err(source.fail(samples.span(), "samples", "allowed is 1 to 8 a side"));
