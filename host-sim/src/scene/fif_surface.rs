@@ -209,7 +209,8 @@ impl FifSurface {
             for i in 0..side {
                 let x = abscissa(x0, x1, i, side);
                 let (u, v) = (x.to_num(), y.to_num());
-                let [nx, ny, nz] = exactly.normal(u, v);
+                // no negative zeros
+                let [nx, ny, nz] = exactly.normal(u, v).map(|n| n + 0.0);
                 let n = surface.normal(x, y);
                 write!(out, "{},{},{},", exact(x), exact(y), exact(surface.height(x, y)))?;
                 write!(out, "{},{},{},", exact(n.x), exact(n.y), exact(n.z))?;
