@@ -1,2 +1,47 @@
-//! The `attractor` command.
-fn main() {}
+//! The `attractor` command: fractals of the fixed-point kernel as PNG files, as CSV, or in a window.
+//!
+//! Bad input is one line on standard error and exit code 2; a reader that closes the pipe is no error.
+
+mod accuracy;
+mod builtin;
+mod canvas;
+mod cli;
+mod color;
+mod dump;
+mod fail;
+mod list;
+mod number;
+mod output;
+mod palette;
+mod sample;
+mod scene;
+mod source;
+mod window;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use cli::{Cli, Command};
+use fail::Fail;
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return cli::explain(&error),
+    };
+    let done = match &cli.command {
+        None | Some(Command::List) => list::run(),
+        Some(Command::Dump(args)) => dump::run(args),
+        Some(Command::Sample(args)) => sample::run(args),
+        Some(Command::Accuracy(args)) => accuracy::run(args),
+        Some(Command::Window(args)) => window::run(args),
+    };
+    match done {
+        Ok(()) | Err(Fail::ClosedPipe) => ExitCode::SUCCESS,
+        Err(Fail::Message(message)) => {
+            fail::say(&message);
+            ExitCode::from(2)
+        }
+    }
+}

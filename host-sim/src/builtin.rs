@@ -1,0 +1,61 @@
+//! The built-in scenes: TOML files that are compiled in.
+
+/// Embeds the files of `scenes/`, in the order in which they are listed.
+macro_rules! scenes {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../scenes/", $name, ".toml")))),*]
+    };
+}
+
+/// Name and text of every built-in scene.
+pub(crate) const SCENES: &[(&str, &str)] = scenes![
+    "figure-1-f",
+    "figure-1-g",
+    "figure-2",
+    "figure-3-f",
+    "figure-3-g",
+    "figure-6-ff",
+    "figure-6-gg",
+    "figure-6-ff-diffuse",
+    "figure-6-gg-phong",
+    "sunspots",
+    "sierpinski",
+    "fern",
+    "dragon",
+    "heighway-dragon",
+    "koch-curve",
+    "levy-c-curve",
+    "maple-leaf",
+    "pentigree",
+    "sierpinski-carpet",
+    "spiral",
+    "terdragon",
+    "tree",
+    "mandelbrot",
+    "seahorse-valley",
+    "julia",
+    "dendrite",
+];
+
+/// The text of a built-in scene.
+pub(crate) fn find(name: &str) -> Option<&'static str> {
+    SCENES.iter().find(|(n, _)| *n == name).map(|(_, text)| *text)
+}
+
+/// The built-in scene whose name is nearest to a misspelt one.
+pub(crate) fn nearest(name: &str) -> &'static str {
+    let distance = |known: &str| {
+        // a part of a name is nearer than its length says
+        let part = known.contains(name) || known.split('-').any(|word| word == name);
+        strsim::damerau_levenshtein(name, known).saturating_sub(if part { 100 } else { 0 })
+    };
+    SCENES.iter().map(|(known, _)| *known).min_by_key(|known| distance(known)).unwrap_or("")
+}
+
+/// The text of a built-in data file.
+pub(crate) fn data(file: &str) -> Option<&'static str> {
+    match file {
+        "../data/sunspots-yearly.csv" => Some(include_str!("../data/sunspots-yearly.csv")),
+        _ => None,
+    }
+}

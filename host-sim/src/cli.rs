@@ -1,0 +1,158 @@
+//! The command line.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use attractor::picture::MAX_SIDE;
+use clap::{Args, Parser, Subcommand};
+use embedded_graphics::geometry::Size;
+
+use crate::color::ColorDepth;
+
+/// The most points of a sample or of a chaos game.
+pub(crate) const MAX_POINTS: u32 = 1 << 24;
+/// The most pixels of a file.
+pub(crate) const MAX_PIXELS: u64 = 1 << 26;
+
+/// Fractals for small displays, in fixed point.
+///
+/// Shows on this machine, bit for bit, what a microcontroller shows on its display. Without a command: what there is.
+#[derive(Debug, Parser)]
+#[command(name = "attractor", version, after_help = EXAMPLES)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+const EXAMPLES: &str = "Examples:
+  attractor dump                                the gallery: every built-in scene as out/NAME.png
+  attractor dump fern mandelbrot -o pictures    two of them
+  attractor dump my-scene.toml -o my-scene.png --size 128x64 --color mono --scale 4
+  attractor sample figure-1-f --points 1000 > f.csv
+  attractor accuracy";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Say what there is: scenes, kinds of scene files, commands
+    List,
+    /// Write scenes as PNG files, as the display would show them
+    Dump(Dump),
+    /// Write the numbers of a scene as CSV, with the f64 reference beside the fixed-point values
+    Sample(Sample),
+    /// Measure the kernels against the f64 reference, beside the bounds that they promise
+    Accuracy(Accuracy),
+    /// Show scenes in a window, row by row as they are computed (feature `window`)
+    Window(Window),
+}
+
+/// What every picture needs.
+#[derive(Debug, Args)]
+pub(crate) struct Look {
+    /// Size of the display in pixels
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
+    pub(crate) size: Size,
+    /// Colour of the display
+    #[arg(long, value_name = "DEPTH", default_value = "rgb565")]
+    pub(crate) color: ColorDepth,
+    /// Side of a pixel of the display in pixels of the file or the window
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(crate) scale: u32,
+    /// Seed of the chaos game and of jittered samples
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  attractor dump                          the gallery, into out/
+  attractor dump --all -o gallery --size 128x64 --color mono
+  attractor dump fern -o fern.png --scale 2
+  attractor dump path/to/scene.toml       a scene file: `attractor list` names its kinds and keys
+
+Each file written is named on standard output. A file is complete or not there at all.")]
+pub(crate) struct Dump {
+    /// Names of built-in scenes, or paths of TOML files; none means all built-in ones
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// All built-in scenes, besides those named
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// A file ending in .png for one scene, else a directory, made if it is not there [default: out]
+    #[arg(short, long, value_name = "FILE.png|DIR")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) look: Look,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Columns:
+  fif-curve            x,fixed,reference,error at x_i = x_0 + i (x_N - x_0) / (N - 1)
+  fif-surface          x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference on a grid of about N points
+  ifs                  x,y of N points of the chaos game
+  mandelbrot, julia    re,im,dwell,reference for every pixel of --size
+
+Fixed-point numbers are printed exactly, those of the reference with the digits that give the same f64 back.
+An abscissa is a multiple of 2^-48 and an f64.")]
+pub(crate) struct Sample {
+    /// Name of a built-in scene, or path of a TOML file
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: String,
+    /// How many points; mandelbrot and julia take --size instead
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 1000,
+          value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_POINTS)))]
+    pub(crate) points: u32,
+    /// Size of the picture whose pixels are listed
+    #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
+    pub(crate) size: Size,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Accuracy {
+    /// As CSV with all digits instead of a table
+    #[arg(long)]
+    pub(crate) csv: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Keys: left/up the scene before, right/down the next one, Esc closes.
+Needs: apt install libsdl2-dev; cargo run --release -p attractor-sim --features window -- window SCENE")]
+pub(crate) struct Window {
+    /// Name of a built-in scene, or path of a TOML file
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: String,
+    #[command(flatten)]
+    pub(crate) look: Look,
+}
+
+/// `WxH`, each side from 1 to [`MAX_SIDE`].
+fn parse_size(text: &str) -> Result<Size, String> {
+    let (width, height) = text.split_once('x').ok_or("a size is WxH, for example 240x240")?;
+    let side = |name: &str, text: &str| match text.parse::<u64>() {
+        Ok(side) if (1..=u64::from(MAX_SIDE)).contains(&side) => Ok(side as u32),
+        Ok(side) => Err(format!("{name} is {side}, allowed is 1 to {MAX_SIDE}")),
+        Err(_) => Err(format!("{name} is `{text}`, a number from 1 to {MAX_SIDE} is needed")),
+    };
+    let size = Size::new(side("width", width)?, side("height", height)?);
+    if u64::from(size.width) * u64::from(size.height) > MAX_PIXELS {
+        return Err(format!("more than {MAX_PIXELS} pixels"));
+    }
+    Ok(size)
+}
+
+/// Prints help where it was asked for; turns every other complaint of the parser into one line and exit code 2.
+pub(crate) fn explain(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        // help or version; nobody listening is no error
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.render().to_string();
+    let lines = text.lines().map(str::trim).filter(|l| !l.is_empty());
+    let lines: Vec<&str> = lines
+        .take_while(|l| !l.starts_with("Usage:"))
+        .filter(|l| !l.starts_with("For more information"))
+        .collect();
+    let line = lines.join("; ");
+    crate::fail::say(&line.strip_prefix("error: ").unwrap_or(&line).replace(":; ", ": "));
+    ExitCode::from(2)
+}

@@ -1,0 +1,43 @@
+//! `attractor list`: scenes, kinds of scene files, commands.
+
+use std::io::Write as _;
+
+use crate::builtin;
+use crate::fail::Fail;
+use crate::scene;
+
+const KINDS: &str = "\
+Kinds of scene files (TOML); keys in brackets may be left out, every kind has [title]
+  fif-curve    knots = [[x, y], ...], vertical_scaling = [a, ...], [polynomials], [integrate = times], [contractions = [map, ...]], [palette];
+               [data] csv, x, y, [y_unit] instead of knots, the scalings then fitted
+  fif-surface  [f] and [g] as above, height f(x) g(y); [camera] eye, look_at, [up], [field_of_view]; [light] direction;
+               [material = \"diffuse\" | \"phong\" | \"mirror\"], [environment = \"gradient\" | \"checkerboard\" | \"plain\"],
+               [gradient] zenith, horizon, nadir; [checkerboard] bright, dark, horizon, scale, fade; [samples], [depth], [palette]
+  ifs          maps = [[a, b, c, d, e, f, p], ...], [points], [shading = \"maps\" | \"density\" | \"plain\"], [palette]
+  mandelbrot   [centre = [\"re\", \"im\"]], [width = \"3.0\"], [max_dwell = 100], [palette], [lift], [cycle], [inside = \"#rrggbb\"],
+               [grey] palette, lift, cycle, inside: the colours on displays without colour
+  julia        c = [\"re\", \"im\"], and as mandelbrot
+Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
+";
+
+const COMMANDS: &str = "\
+Commands
+  attractor dump [SCENE...] [-o FILE.png|DIR] [--size WxH] [--color rgb565|rgb888|gray8|gray4|gray2|mono] [--scale N]
+  attractor sample SCENE --points N       the numbers as CSV, fixed point beside the f64 reference
+  attractor accuracy [--csv]              errors measured beside the bounds promised
+  attractor window SCENE                  in a window (feature `window`)
+  attractor help COMMAND                  all options, with examples
+";
+
+/// Prints all of it.
+pub(crate) fn run() -> Result<(), Fail> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "attractor: fractals for small displays, in fixed point\n\nScenes")?;
+    let width = builtin::SCENES.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    for (name, _) in builtin::SCENES {
+        let scene = scene::load(name)?;
+        writeln!(out, "  {name:width$}  {:11}  {}", scene.kind(), scene.title)?;
+    }
+    write!(out, "\n{KINDS}\n{COMMANDS}")?;
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! What Mandelbrot and Julia scenes share: the view, the limit, the colours, the CSV.
+
+use std::io::Write;
+
+use attractor::escape::{Complex, MAX_DWELL, View};
+use attractor::num::Wide;
+use attractor::picture::MAX_SIDE;
+use embedded_graphics::geometry::Size;
+use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::number::exact;
+use crate::palette::{Colors, Named, color};
+use crate::source::{Num, Source};
+
+/// Keys of both kinds, as their files give them.
+#[derive(Debug)]
+pub(super) struct Keys<'a> {
+    pub(super) centre: Option<&'a Spanned<[Num; 2]>>,
+    pub(super) width: Option<&'a Num>,
+    pub(super) max_dwell: Option<&'a Spanned<i64>>,
+    pub(super) palette: Option<Named>,
+    pub(super) lift: bool,
+    pub(super) cycle: Option<&'a Spanned<i64>>,
+    pub(super) inside: Option<&'a Spanned<String>>,
+    pub(super) grey: Option<&'a Grey>,
+}
+
+/// The table `[grey]`: the colours on displays without colour.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Grey {
+    palette: Option<Named>,
+    #[serde(default)]
+    lift: bool,
+    cycle: Option<Spanned<i64>>,
+    inside: Option<Spanned<String>>,
+}
+
+/// What is seen, and how.
+#[derive(Debug)]
+pub(super) struct Escape {
+    /// What messages call the scene.
+    file: String,
+    centre: Complex<Wide>,
+    /// None: as wide as the height given here needs, at least.
+    width: Option<Wide>,
+    home: (Wide, Wide),
+    pub(super) max_dwell: u32,
+    colors: Colors,
+    /// On displays without colour.
+    grey: Colors,
+}
+
+impl Escape {
+    /// `home` is what a scene without a width shows at least: the middle's real part, width and height.
+    pub(super) fn load(source: &Source, keys: &Keys<'_>, home: [Wide; 3]) -> Result<Self, Fail> {
+        let [middle, home_width, home_height] = home;
+        let centre = match keys.centre {
+            Some(centre) => {
+                let [re, im] = source.pair(centre.get_ref(), "centre")?;
+                Complex::new(re, im)
+            }
+            None => Complex::new(middle, Wide::ZERO),
+        };
+        let width = keys.width.map(|width| source.fixed::<Wide>(width, "width")).transpose()?;
+        let max_dwell = count(source, "max_dwell", keys.max_dwell, MAX_DWELL)?.unwrap_or(100);
+        let colors = Colors {
+            named: keys.palette.unwrap_or(Named::CourseUnit),
+            lift: keys.lift,
+            cycle: count(source, "cycle", keys.cycle, MAX_DWELL)?,
+            inside: keys.inside.map_or(Ok(Rgb888::BLACK), |text| color(source, "inside", text))?,
+        };
+        let grey = match keys.grey {
+            None => colors,
+            Some(grey) => Colors {
+                named: grey.palette.unwrap_or(Named::Grey),
+                lift: grey.lift,
+                cycle: count(source, "grey.cycle", grey.cycle.as_ref(), MAX_DWELL)?,
+                inside: grey
+                    .inside
+                    .as_ref()
+                    .map_or(Ok(Rgb888::BLACK), |text| color(source, "grey.inside", text))?,
+            },
+        };
+        let scene = Self {
+            file: source.name.clone(),
+            centre,
+            width,
+            home: (home_width, home_height),
+            max_dwell,
+            colors,
+            grey,
+        };
+        if let Some(width) = keys.width {
+            // the coarsest grid there is: what it refuses, every size refuses
+            View::new(centre, scene.width.unwrap_or_default(), Size::new(1, 1))
+                .map_err(|error| source.fail(width.span(), "width", error))?;
+        }
+        Ok(scene)
+    }
+
+    /// The palette on a display of colour `C`.
+    pub(super) fn colors<C: Depth>(&self) -> Colors {
+        if C::GREY_BITS.is_some() { self.grey } else { self.colors }
+    }
+
+    /// The view on a display of this size.
+    pub(super) fn view(&self, size: Size) -> Result<View, Fail> {
+        let width = self.width.unwrap_or_else(|| {
+            // as much as shows the home width and the home height
+            let (width, height) = self.home;
+            let scaled =
+                i128::from(height.to_bits()) * i128::from(size.width) / i128::from(size.height.max(1));
+            width.max(Wide::from_bits(scaled.min(i128::from(i64::MAX)) as i64))
+        });
+        View::new(self.centre, width, size).map_err(|error| {
+            Fail::new(format_args!(
+                "{}: width = {} on {} x {} pixels: {error}",
+                self.file,
+                exact(width),
+                size.width,
+                size.height
+            ))
+        })
+    }
+}
+
+fn count(source: &Source, key: &str, given: Option<&Spanned<i64>>, most: u32) -> Result<Option<u32>, Fail> {
+    let Some(given) = given else { return Ok(None) };
+    match u32::try_from(*given.get_ref()) {
+        Ok(n) if (1..=most).contains(&n) => Ok(Some(n)),
+        _ => Err(source.fail(given.span(), key, format!("allowed is 1 to {most}"))),
+    }
+}
+
+/// `re,im,dwell,reference` for every pixel of a view, row by row.
+pub(super) fn sample(
+    view: &View,
+    dwell: impl Fn(Complex<Wide>) -> u32,
+    reference: impl Fn(f64, f64) -> u32,
+    out: &mut dyn Write,
+) -> Result<(), Fail> {
+    debug_assert!(view.size().width <= MAX_SIDE);
+    writeln!(out, "re,im,dwell,reference")?;
+    for row in 0..view.size().height {
+        for column in 0..view.size().width {
+            let p = view.point(column, row);
+            let (re, im) = (p.re.to_num(), p.im.to_num());
+            writeln!(out, "{},{},{},{}", exact(p.re), exact(p.im), dwell(p), reference(re, im))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,252 @@
+//! `kind = "fif-surface"`: the height field `f(x) g(y)` under a ray caster, figure 6.
+
+use std::convert::Infallible;
+use std::io::Write;
+
+use attractor::fif::{Cell, Factor, Pyramid, Surface};
+use attractor::num::{Real, Vec3};
+use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
+use attractor_reference as reference;
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::environment::{Around, Board, Sky, Surroundings};
+use super::fif_curve::abscissa;
+use super::function::{DEGREE, Description, Function, MAPS, depth_for};
+use super::{Request, Watch, draw_field};
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::number::exact;
+use crate::palette::{Colors, Named};
+use crate::source::{Num, Source};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "kind")]
+    _kind: String,
+    #[serde(rename = "title")]
+    _title: Option<String>,
+    f: Spanned<Description>,
+    g: Spanned<Description>,
+    camera: Spanned<Eye>,
+    light: Option<Spanned<Lamp>>,
+    material: Option<Surfaced>,
+    environment: Option<Around>,
+    gradient: Option<Spanned<Sky>>,
+    checkerboard: Option<Spanned<Board>>,
+    samples: Option<Spanned<u8>>,
+    depth: Option<Spanned<u32>>,
+    palette: Option<Named>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Eye {
+    eye: Spanned<[Num; 3]>,
+    look_at: Spanned<[Num; 3]>,
+    up: Option<Spanned<[Num; 3]>>,
+    field_of_view: Option<Num>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Lamp {
+    direction: Spanned<[Num; 3]>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Surfaced {
+    Diffuse,
+    Phong,
+    Mirror,
+}
+
+/// A surface ready to be drawn.
+#[derive(Debug)]
+pub(super) struct FifSurface {
+    /// What messages call the scene.
+    file: String,
+    f: Function,
+    g: Function,
+    camera: Camera,
+    light: Option<Light>,
+    material: Material,
+    environment: Environment,
+    samples: u8,
+    depth: Option<u32>,
+    palette: Named,
+}
+
+impl FifSurface {
+    pub(super) fn load(source: &Source) -> Result<Self, Fail> {
+        let file: File = source.parse()?;
+        let (gradient, checkerboard) = (file.gradient, file.checkerboard);
+        let environment = Surroundings { named: file.environment, gradient, checkerboard };
+        let light = file.light.map(|light| {
+            let direction = &light.get_ref().direction;
+            let towards = vector(source, direction, "light.direction")?;
+            Light::new(towards).map_err(|error| source.fail(direction.span(), "light.direction", error))
+        });
+        for (key, function) in [("f.knots", &file.f), ("g.knots", &file.g)] {
+            let knots = &function.get_ref().knots;
+            if knots.get_ref().len() == 2 {
+                let reason = "a surface is cut into ever smaller parts: it takes two maps at least, that is three knots";
+                return Err(source.fail(knots.span(), key, reason));
+            }
+        }
+        let samples = match file.samples {
+            Some(samples) if !(1..=8).contains(samples.get_ref()) => {
+                return Err(source.fail(samples.span(), "samples", "allowed is 1 to 8 a side"));
+            }
+            samples => samples.map_or(1, Spanned::into_inner),
+        };
+        let scene = Self {
+            file: source.name.clone(),
+            f: file.f.get_ref().compile(source, "f.")?,
+            g: file.g.get_ref().compile(source, "g.")?,
+            camera: camera(source, &file.camera)?,
+            light: light.transpose()?,
+            material: match file.material.unwrap_or(Surfaced::Diffuse) {
+                Surfaced::Diffuse => Material::DIFFUSE,
+                Surfaced::Phong => Material::PHONG,
+                Surfaced::Mirror => Material::Mirror,
+            },
+            environment: environment.compile(source)?,
+            samples,
+            depth: file.depth.as_ref().map(|depth| *depth.get_ref()),
+            palette: file.palette.unwrap_or(Named::Dusk),
+        };
+        if let Some(depth) = file.depth {
+            let most = depth_for(scene.maps(), u32::MAX);
+            if !(1..=most).contains(depth.get_ref()) {
+                return Err(source.fail(depth.span(), "depth", format!("allowed is 1 to {most}")));
+            }
+        }
+        // ranges of the surface are checked now, not in the middle of a picture
+        scene.with_surface(1, |_| Ok(()))?;
+        Ok(scene)
+    }
+
+    fn maps(&self) -> usize {
+        self.f.fixed.maps().max(self.g.fixed.maps())
+    }
+
+    /// Builds the pyramids down to cells finer than a pixel.
+    fn with_surface<T>(
+        &self,
+        side: u32,
+        use_it: impl FnOnce(HeightField<'_>) -> Result<T, Fail>,
+    ) -> Result<T, Fail> {
+        let fewest = self.f.fixed.maps().min(self.g.fixed.maps());
+        let wanted = self.depth.unwrap_or_else(|| depth_for(fewest, side));
+        let depth = wanted.min(depth_for(self.maps(), u32::MAX));
+        let fail = |error: attractor::Error| Fail::new(format_args!("{}: surface: {error}", self.file));
+        let cells = |maps: usize| vec![Cell::ZERO; Pyramid::cells(maps, depth)];
+        let (mut a, mut b) = (cells(self.f.fixed.maps()), cells(self.g.fixed.maps()));
+        let x = Pyramid::new(&self.f.fixed, depth, &mut a).map_err(fail)?;
+        let y = Pyramid::new(&self.g.fixed, depth, &mut b).map_err(fail)?;
+        use_it(HeightField::new(&x, &y).map_err(fail)?)
+    }
+
+    fn caster<'a>(
+        &self,
+        surface: HeightField<'a>,
+        size: Size,
+        seed: u64,
+    ) -> Result<RayCaster<'a>, attractor::Error> {
+        let sampling = match self.samples {
+            1 => Sampling::Centre,
+            n => Sampling::Jittered { n, seed: seed as u32 },
+        };
+        let mut caster = RayCaster::new(surface, self.camera, size)?
+            .with_material(self.material)?
+            .with_environment(self.environment)?
+            .with_sampling(sampling, Filter::Box)?;
+        if let Some(light) = self.light {
+            caster = caster.with_light(light);
+        }
+        Ok(caster)
+    }
+
+    pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
+    where
+        D: DrawTarget<Error = Infallible>,
+        D::Color: Depth,
+    {
+        self.with_surface(request.size.width.max(request.size.height), |surface| {
+            let caster = self
+                .caster(surface, request.size, request.seed)
+                .map_err(|error| Fail::new(format_args!("{}: camera: {error}", self.file)))?;
+            draw_field(&caster, Colors::plain(self.palette), target, watch);
+            Ok(())
+        })
+    }
+
+    /// Height and normal on a square grid of about `points` points, corners included.
+    pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+        let factor = |function: &Function, key: &str| {
+            Factor::<MAPS, DEGREE>::new(&function.fixed)
+                .map(Box::new)
+                .map_err(|error| Fail::new(format_args!("{}: [{key}]: {error}", self.file)))
+        };
+        let (f, g) = (factor(&self.f, "f")?, factor(&self.g, "g")?);
+        let profile = |function: &Function, key: &str| {
+            reference::Factor::new(function.reference.clone())
+                .map_err(|error| Fail::new(format_args!("{}: [{key}]: {error}", self.file)))
+        };
+        let exactly = reference::Surface { x: profile(&self.f, "f")?, y: profile(&self.g, "g")? };
+        let surface = Surface::new(&f, &g);
+        writeln!(out, "x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference")?;
+        let root = points.isqrt();
+        let side = if root * root < points { root + 1 } else { root };
+        let ((x0, x1), (y0, y1)) = (self.f.fixed.domain(), self.g.fixed.domain());
+        for j in 0..side {
+            let y = abscissa(y0, y1, j, side);
+            for i in 0..side {
+                let x = abscissa(x0, x1, i, side);
+                let (u, v) = (x.to_num(), y.to_num());
+                // no negative zeros
+                let [nx, ny, nz] = exactly.normal(u, v).map(|n| n + 0.0);
+                let n = surface.normal(x, y);
+                write!(out, "{},{},{},", exact(x), exact(y), exact(surface.height(x, y)))?;
+                write!(out, "{},{},{},", exact(n.x), exact(n.y), exact(n.z))?;
+                writeln!(out, "{:?},{nx:?},{ny:?},{nz:?}", exactly.height(u, v))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn vector(source: &Source, value: &Spanned<[Num; 3]>, key: &str) -> Result<Vec3, Fail> {
+    let [x, y, z] = source.triple::<Real>(value.get_ref(), key)?;
+    Ok(Vec3::new(x, y, z))
+}
+
+fn camera(source: &Source, given: &Spanned<Eye>) -> Result<Camera, Fail> {
+    let eye = given.get_ref();
+    let up = match &eye.up {
+        Some(up) => vector(source, up, "camera.up")?,
+        None => Vec3::new(Real::ZERO, Real::ZERO, Real::ONE),
+    };
+    let field_of_view = match &eye.field_of_view {
+        Some(angle) => source.fixed(angle, "camera.field_of_view")?,
+        None => Real::from_num(40),
+    };
+    let (from, to) =
+        (vector(source, &eye.eye, "camera.eye")?, vector(source, &eye.look_at, "camera.look_at")?);
+    Camera::new(from, to, up, field_of_view).map_err(|error| match (&error, &eye.field_of_view) {
+        (attractor::Error::OutOfRange { what: "field of view", .. }, Some(angle)) => {
+            source.fail(angle.span(), "camera.field_of_view", error)
+        }
+        (attractor::Error::Degenerate { what: "up" | "angle between view and up" }, _)
+            if eye.up.is_some() =>
+        {
+            source.fail(eye.up.as_ref().map_or(0..0, Spanned::span), "camera.up", error)
+        }
+        _ => source.fail(eye.eye.span(), "camera.eye", error),
+    })
+}

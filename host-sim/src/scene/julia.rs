@@ -1,0 +1,90 @@
+//! `kind = "julia"`: the dwell of every pixel's own orbit, one constant for all.
+
+use std::convert::Infallible;
+use std::io::Write;
+
+use attractor::escape::{Complex, Julia, View};
+use attractor::num::Wide;
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::escape::{self, Escape, Grey, Keys};
+use super::{Request, Watch, draw_field};
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::palette::Named;
+use crate::source::{Num, Source};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "kind")]
+    _kind: String,
+    #[serde(rename = "title")]
+    _title: Option<String>,
+    c: Spanned<[Num; 2]>,
+    centre: Option<Spanned<[Num; 2]>>,
+    width: Option<Num>,
+    max_dwell: Option<Spanned<i64>>,
+    palette: Option<Named>,
+    #[serde(default)]
+    lift: bool,
+    cycle: Option<Spanned<i64>>,
+    inside: Option<Spanned<String>>,
+    grey: Option<Grey>,
+}
+
+/// A view of a filled-in Julia set ready to be drawn.
+#[derive(Debug)]
+pub(super) struct JuliaScene {
+    escape: Escape,
+    c: Complex<Wide>,
+    /// The same in `f64`, for the reference.
+    float: (f64, f64),
+}
+
+impl JuliaScene {
+    pub(super) fn load(source: &Source) -> Result<Self, Fail> {
+        const HOME: [Wide; 3] = [Wide::ZERO, Wide::lit("3.2"), Wide::lit("2.5")];
+        let file: File = source.parse()?;
+        let keys = Keys {
+            centre: file.centre.as_ref(),
+            width: file.width.as_ref(),
+            max_dwell: file.max_dwell.as_ref(),
+            palette: file.palette,
+            lift: file.lift,
+            cycle: file.cycle.as_ref(),
+            inside: file.inside.as_ref(),
+            grey: file.grey.as_ref(),
+        };
+        let [re, im] = source.pair(file.c.get_ref(), "c")?;
+        let c = Complex::new(re, im);
+        // the kernel says which constants it takes
+        let view = View::home(Size::new(1, 1)).map_err(Fail::new)?;
+        Julia::new(view, c, 1).map_err(|error| source.fail(file.c.span(), "c", error))?;
+        let float = (re.to_num(), im.to_num());
+        Ok(Self { escape: Escape::load(source, &keys, HOME)?, c, float })
+    }
+
+    fn picture(&self, request: &Request) -> Result<Julia, Fail> {
+        Julia::new(self.escape.view(request.size)?, self.c, self.escape.max_dwell).map_err(Fail::new)
+    }
+
+    pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
+    where
+        D: DrawTarget<Error = Infallible>,
+        D::Color: Depth,
+    {
+        draw_field(self.picture(request)?, self.escape.colors::<D::Color>(), target, watch);
+        Ok(())
+    }
+
+    pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+        let picture = self.picture(request)?;
+        let reference =
+            |re, im| attractor_reference::julia_dwell((re, im), self.float, self.escape.max_dwell);
+        escape::sample(picture.view(), |s| picture.dwell_at(s).count, reference, out)
+    }
+}

@@ -1,0 +1,77 @@
+//! `kind = "mandelbrot"`: the dwell of every pixel's orbit of 0.
+
+use std::convert::Infallible;
+use std::io::Write;
+
+use attractor::escape::Mandelbrot;
+use attractor::num::Wide;
+use embedded_graphics::draw_target::DrawTarget;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::escape::{self, Escape, Grey, Keys};
+use super::{Request, Watch, draw_field};
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::palette::Named;
+use crate::source::{Num, Source};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "kind")]
+    _kind: String,
+    #[serde(rename = "title")]
+    _title: Option<String>,
+    centre: Option<Spanned<[Num; 2]>>,
+    width: Option<Num>,
+    max_dwell: Option<Spanned<i64>>,
+    palette: Option<Named>,
+    #[serde(default)]
+    lift: bool,
+    cycle: Option<Spanned<i64>>,
+    inside: Option<Spanned<String>>,
+    grey: Option<Grey>,
+}
+
+/// A view of the set ready to be drawn.
+#[derive(Debug)]
+pub(super) struct MandelbrotScene(Escape);
+
+impl MandelbrotScene {
+    pub(super) fn load(source: &Source) -> Result<Self, Fail> {
+        /// The whole set, as core's `View::home`.
+        const HOME: [Wide; 3] = [Wide::lit("-0.75"), Wide::lit("3"), Wide::lit("2.5")];
+        let file: File = source.parse()?;
+        let keys = Keys {
+            centre: file.centre.as_ref(),
+            width: file.width.as_ref(),
+            max_dwell: file.max_dwell.as_ref(),
+            palette: file.palette,
+            lift: file.lift,
+            cycle: file.cycle.as_ref(),
+            inside: file.inside.as_ref(),
+            grey: file.grey.as_ref(),
+        };
+        Ok(Self(Escape::load(source, &keys, HOME)?))
+    }
+
+    fn picture(&self, request: &Request) -> Result<Mandelbrot, Fail> {
+        Mandelbrot::new(self.0.view(request.size)?, self.0.max_dwell).map_err(Fail::new)
+    }
+
+    pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
+    where
+        D: DrawTarget<Error = Infallible>,
+        D::Color: Depth,
+    {
+        draw_field(self.picture(request)?, self.0.colors::<D::Color>(), target, watch);
+        Ok(())
+    }
+
+    pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+        let picture = self.picture(request)?;
+        let reference = |re, im| attractor_reference::dwell((re, im), self.0.max_dwell);
+        escape::sample(picture.view(), |c| picture.dwell_at(c).count, reference, out)
+    }
+}

@@ -1,0 +1,167 @@
+//! Scenes: what a name or a TOML file describes, compiled and ready to be drawn or sampled.
+
+mod chart;
+mod data;
+mod density;
+mod environment;
+mod escape;
+mod fif_curve;
+mod fif_surface;
+mod function;
+mod ifs;
+mod julia;
+mod mandelbrot;
+mod nested;
+
+use std::convert::Infallible;
+use std::io::Write;
+use std::path::Path;
+
+use attractor::draw::{Palette, Picture, RowCursor};
+use attractor::picture::Field;
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::HashMap;
+use toml::Spanned;
+
+use crate::builtin;
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::source::Source;
+
+/// What a picture or a sample is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Request {
+    pub(crate) size: Size,
+    pub(crate) seed: u64,
+}
+
+/// Called after each portion with the target, the portions done and those in all; `false` stops the drawing.
+pub(crate) type Watch<'a, D> = &'a mut dyn FnMut(&mut D, u32, u32) -> bool;
+
+/// A scene of any kind.
+#[derive(Debug)]
+pub(crate) struct Scene {
+    /// What its file is called: the name, or the stem of the path.
+    pub(crate) name: String,
+    /// One line for people.
+    pub(crate) title: String,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    FifCurve(fif_curve::FifCurve),
+    FifSurface(fif_surface::FifSurface),
+    Ifs(ifs::IfsScene),
+    Mandelbrot(mandelbrot::MandelbrotScene),
+    Julia(julia::JuliaScene),
+}
+
+/// The only key that is read before the kind is known.
+#[derive(Deserialize)]
+struct Head {
+    kind: Spanned<String>,
+    title: Option<Spanned<String>>,
+    #[serde(flatten)]
+    _rest: HashMap<String, IgnoredAny>,
+}
+
+/// The built-in scene of this name, or the scene in the file at this path.
+pub(crate) fn load(scene: &str) -> Result<Scene, Fail> {
+    if let Some(text) = builtin::find(scene) {
+        return compile(scene.to_owned(), &Source::built_in(scene, text));
+    }
+    let path = Path::new(scene);
+    let looks_like_a_path = path.components().count() > 1 || path.extension().is_some() || path.exists();
+    if !looks_like_a_path {
+        let nearest = builtin::nearest(scene);
+        return Err(Fail::new(format_args!(
+            "SCENE = {scene}: no such scene is built in and no such file is there; did you mean {nearest}? (`attractor list` names all)"
+        )));
+    }
+    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    compile(name, &Source::read(path)?)
+}
+
+fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
+    let head: Head = source.parse()?;
+    let kind = match head.kind.get_ref().as_str() {
+        "fif-curve" => Kind::FifCurve(fif_curve::FifCurve::load(source)?),
+        "fif-surface" => Kind::FifSurface(fif_surface::FifSurface::load(source)?),
+        "ifs" => Kind::Ifs(ifs::IfsScene::load(source)?),
+        "mandelbrot" => Kind::Mandelbrot(mandelbrot::MandelbrotScene::load(source)?),
+        "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
+        _ => {
+            let reason = "allowed is fif-curve, fif-surface, ifs, mandelbrot or julia";
+            return Err(source.fail(head.kind.span(), "kind", reason));
+        }
+    };
+    let title = head.title.map_or_else(|| name.clone(), Spanned::into_inner);
+    Ok(Scene { name, title, kind })
+}
+
+impl Scene {
+    /// Its kind, as its file says it.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self.kind {
+            Kind::FifCurve(_) => "fif-curve",
+            Kind::FifSurface(_) => "fif-surface",
+            Kind::Ifs(_) => "ifs",
+            Kind::Mandelbrot(_) => "mandelbrot",
+            Kind::Julia(_) => "julia",
+        }
+    }
+
+    /// Draws on all of `request.size`, from the target's origin on.
+    pub(crate) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
+    where
+        D: DrawTarget<Error = Infallible>,
+        D::Color: Depth,
+    {
+        match &self.kind {
+            Kind::FifCurve(scene) => scene.draw(request, target, watch),
+            Kind::FifSurface(scene) => scene.draw(request, target, watch),
+            Kind::Ifs(scene) => scene.draw(request, target, watch),
+            Kind::Mandelbrot(scene) => scene.draw(request, target, watch),
+            Kind::Julia(scene) => scene.draw(request, target, watch),
+        }
+    }
+
+    /// Writes the numbers as CSV.
+    pub(crate) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+        match &self.kind {
+            Kind::FifCurve(scene) => scene.sample(points, out),
+            Kind::FifSurface(scene) => scene.sample(points, out),
+            Kind::Ifs(scene) => scene.sample(request, points, out),
+            Kind::Mandelbrot(scene) => scene.sample(request, out),
+            Kind::Julia(scene) => scene.sample(request, out),
+        }
+    }
+}
+
+/// Draws a field row by row; whether it was finished.
+fn draw_field<F, P, D>(field: F, palette: P, target: &mut D, watch: Watch<'_, D>) -> bool
+where
+    F: Field,
+    P: Palette<F::Value>,
+    D: DrawTarget<Error = Infallible>,
+    D::Color: Depth,
+{
+    let rows = field.size().height;
+    let picture = Picture::<F, P, D::Color>::new(field, palette);
+    let mut cursor = RowCursor::new();
+    loop {
+        match cursor.draw_next(&picture, target) {
+            Ok(true) => {
+                if !watch(target, cursor.row(), rows) {
+                    return false;
+                }
+            }
+            Ok(false) => return true,
+            Err(impossible) => match impossible {},
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! `attractor accuracy` prints the table of promises.
+
+mod common;
+
+use std::path::Path;
+
+use common::good;
+
+#[test]
+fn the_table_has_its_columns_in_both_forms() {
+    let csv = good(Path::new("."), &["accuracy", "--csv"]);
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("kernel,format,inputs,max_error,rms,bound"));
+    let rows = lines.count();
+    assert!(rows > 0);
+    let table = good(Path::new("."), &["accuracy"]);
+    assert_eq!(table.lines().count(), rows + 1);
+    assert!(table.starts_with("kernel"));
+}

@@ -1,0 +1,146 @@
+//! `attractor sample`: headers, counts, exact numbers, and how far they are from the reference.
+
+mod common;
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use common::good;
+
+fn sample(args: &[&str]) -> (String, Vec<Vec<f64>>) {
+    let args: Vec<&str> = ["sample"].iter().chain(args).copied().collect();
+    let text = good(Path::new("."), &args);
+    let mut lines = text.lines();
+    let header = lines.next().unwrap().to_owned();
+    let columns = header.split(',').count();
+    let row = |line: &str| -> Vec<f64> {
+        let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(row.len(), columns, "{line}");
+        row
+    };
+    (header, lines.map(row).collect())
+}
+
+#[test]
+fn a_curve_is_sampled_from_its_first_knot_to_its_last() {
+    let (header, rows) = sample(&["figure-1-g", "--points", "257"]);
+    assert_eq!(header, "x,fixed,reference,error");
+    assert_eq!(rows.len(), 257);
+    // (1 / (1 - 0.85) + 1) 2^-24 on the dyadic partition
+    let bound = (1.0 / 0.15 + 1.0) / f64::from(1 << 24);
+    for (i, row) in rows.iter().enumerate() {
+        assert_eq!(row[0], i as f64 / 128.0);
+        assert_eq!(row[3], row[1] - row[2]);
+        assert!(row[3].abs() <= bound, "{row:?}");
+    }
+    assert_eq!((rows[0][1], rows[128][1], rows[256][1]), (0.0, 1.0, 0.0));
+}
+
+#[test]
+fn integrals_pass_through_the_points_of_figure_3() {
+    for (scene, middle, end) in [("figure-3-f", 1.0, 2.0), ("figure-3-g", 37.0 / 40.0, 1.0)] {
+        let (_, rows) = sample(&[scene, "--points", "3"]);
+        for (row, exact) in rows.iter().zip([0.0, middle, end]) {
+            assert!((row[1] - exact).abs() < 1e-7 && (row[2] - exact).abs() < 1e-12, "{scene} {row:?}");
+        }
+    }
+}
+
+#[test]
+fn sunspots_pass_through_all_309_numbers() {
+    let (_, rows) = sample(&["sunspots", "--points", "309"]);
+    let data = include_str!("../data/sunspots-yearly.csv");
+    for (row, line) in rows.iter().zip(data.lines().skip(1)) {
+        let (year, spots) = line.split_once(',').unwrap();
+        assert_eq!(row[0], year.parse::<f64>().unwrap());
+        assert!((row[1] * 100.0 - spots.parse::<f64>().unwrap()).abs() < 1e-5, "{line}: {row:?}");
+    }
+    assert_eq!(rows.len(), 309);
+    // between the knots it is no broken line
+    let (_, rows) = sample(&["sunspots", "--points", "617"]);
+    let bent = rows.windows(3).step_by(2).filter(|w| (w[1][1] - (w[0][1] + w[2][1]) / 2.0).abs() > 1e-4);
+    assert!(bent.count() > 100);
+}
+
+#[test]
+fn a_surface_is_sampled_on_a_grid_with_its_exact_normals() {
+    let (header, rows) = sample(&["figure-6-gg", "--points", "100"]);
+    assert_eq!(header, "x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference");
+    assert_eq!(rows.len(), 100);
+    let mut slopes = 0;
+    for row in &rows {
+        assert!((row[2] - row[6]).abs() < 1e-6, "{row:?}");
+        assert!((3..6).all(|k| (row[k] - row[k + 4]).abs() < 1.0 / f64::from(1 << 18)), "{row:?}");
+        assert_eq!((row[5], row[9]), (1.0, 1.0));
+        slopes += usize::from(row[3] != 0.0 && row[4] != 0.0);
+    }
+    assert!(slopes > 50);
+    assert_eq!(sample(&["figure-6-ff", "--points", "101"]).1.len(), 121);
+}
+
+#[test]
+fn the_gasket_keeps_its_middle_free() {
+    let (header, rows) = sample(&["sierpinski", "--points", "5000"]);
+    assert_eq!((header.as_str(), rows.len()), ("x,y", 5000));
+    for p in &rows {
+        let (x, y) = (p[0], p[1]);
+        assert!(
+            (-1e-6..=1.000001).contains(&x) && y >= -1e-6 && y / 2.0 <= x + 1e-6 && y / 2.0 <= 1.0 - x + 1e-6
+        );
+        // the open triangle between the midpoints of the sides
+        assert!(y > 0.5 - 1e-6 || y < 2.0 * (x - 0.5).abs() + 1e-6 || (x - 0.5).abs() > 0.25, "{p:?}");
+    }
+}
+
+#[test]
+fn every_pixel_of_a_dwell_picture_is_listed() {
+    // the dendrite's orbits are chaotic for hundreds of steps: 29 bits and 53 part ways
+    for (scene, limit) in [("mandelbrot", 3), ("julia", 7), ("dendrite", 36)] {
+        let (header, rows) = sample(&[scene, "--size", "60x40"]);
+        assert_eq!((header.as_str(), rows.len()), ("re,im,dwell,reference", 2400));
+        let different = rows.iter().filter(|row| row[2] != row[3]).count();
+        assert!(different <= limit, "{scene}: {different}");
+        assert!(rows.iter().any(|row| row[2] > 3.0));
+        assert!(rows[0][0] < rows[1][0] && rows[0][1] > rows[60][1]);
+    }
+}
+
+#[test]
+fn digits_of_coordinates_are_kept_to_the_last_bit() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("deep.toml");
+    let re = "-0.7436447860";
+    std::fs::write(
+        &file,
+        format!(
+            "kind = \"mandelbrot\"\ncentre = [\"{re}\", \"0.1318252536\"]\nwidth = \"0.0000152587890625\"\n"
+        ),
+    )
+    .unwrap();
+    let text = good(directory.path(), &["sample", "deep.toml", "--size", "3x3"]);
+    let middle = text.lines().nth(5).unwrap();
+    let cell: f64 = middle.split(',').next().unwrap().parse().unwrap();
+    assert!((cell - re.parse::<f64>().unwrap()).abs() < 2.0_f64.powi(-47), "{middle}");
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_attractor"))
+        .args(["sample", "fern", "--points", "200000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+}
+
+#[test]
+fn the_list_names_every_command_and_the_table_has_its_columns() {
+    let list = good(Path::new("."), &["list"]);
+    assert_eq!(list, good(Path::new("."), &[]));
+    for word in ["dump", "sample", "accuracy", "window", "figure-1-f", "mandelbrot", "fif-surface"] {
+        assert!(list.contains(word), "{word}");
+    }
+}
