@@ -118,6 +118,7 @@ fn numbers() -> Vec<Row> {
 }
 
 /// A function of the papers or like them, fixed and exact.
+#[derive(Debug)]
 pub struct Example {
     /// What it is.
     pub name: &'static str,
