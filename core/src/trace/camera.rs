@@ -72,14 +72,19 @@ impl Camera {
         lift: f32,
         field_of_view: f32,
     ) -> Result<Self, Error> {
-        use micromath::F32Ext as _;
+        // by name: where std is linked its methods would be taken instead
+        use micromath::F32Ext;
         let [x, y, z] = look_at;
-        let (level, height) = (distance * lift.cos(), distance * lift.sin());
+        let (level, height) = (distance * F32Ext::cos(lift), distance * F32Ext::sin(lift));
         let real = |v: f32| {
             Real::checked_from_num(v)
                 .ok_or(Error::Degenerate { what: "a number of the orbit that is too large or not one" })
         };
-        let eye = Vec3::new(real(x + level * turn.cos())?, real(y + level * turn.sin())?, real(z + height)?);
+        let eye = Vec3::new(
+            real(x + level * F32Ext::cos(turn))?,
+            real(y + level * F32Ext::sin(turn))?,
+            real(z + height)?,
+        );
         let up = Vec3::new(Real::ZERO, Real::ZERO, Real::ONE);
         Self::new(eye, Vec3::new(real(x)?, real(y)?, real(z)?), up, real(field_of_view)?)
     }
