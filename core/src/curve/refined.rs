@@ -1,0 +1,304 @@
+//! A polyline whose segments are replaced by a generator, again and again: a walk through the tree of copies without recursion.
+//!
+//! A copy that starts at `p` and leads along `d` consists of the copies at `p + d v_i` along `d w_i` (see [`Generator`]). The walk keeps the copies on the way
+//! down in a stack of `DEPTH` entries; each vertex is computed from the copy in which it first appears, so that the error grows with the depth of that copy
+//! and never with the number of segments, and the vertices of order `n` are among those of order `n + 1`, to the last bit.
+//!
+//! Formats: `p` has 56 fractional bits, `d` 26, `v` and `w` 30; so `p + d v` needs no shift and no rounding, and its high word is a [`crate::num::Real`].
+//! Only `d w` is rounded, by half of `2^-26`.
+//! Source: course unit V, section 5.1.2 (`drawKoch`).
+
+use super::generator::{Cell, Generator, hypotenuse, oriented};
+use crate::Error;
+use crate::num::{Real, Wide};
+use crate::picture::{Point2, Step};
+
+/// A segment of the base is shorter than this.
+const LONGEST: u64 = 32;
+
+/// A copy of the whole curve.
+#[derive(Debug, Clone, Copy, Default)]
+struct Copy {
+    /// Where the walk along it begins: 56 fractional bits, and the half unit that rounds the high word.
+    start: [i64; 2],
+    /// To where it ends: 26 fractional bits.
+    vector: [i32; 2],
+    /// The length of that, rounded up: 26 fractional bits.
+    length: u32,
+    /// The next segment.
+    digit: u8,
+    /// Reversed, mirrored: [`super::Orientation`].
+    state: u8,
+}
+
+impl Copy {
+    /// The copy on a segment of the base, shorter than 32.
+    fn on(from: Point2, to: Point2) -> Self {
+        let along = |a: Real, b: Real| i64::from(b.to_bits()) - i64::from(a.to_bits());
+        let (dx, dy) = (along(from.x, to.x), along(from.y, to.y));
+        let start = [from.x, from.y].map(|c| (i64::from(c.to_bits()) << 32) + (1 << 31));
+        let length = hypotenuse(dx, dy).min(LONGEST << 24) as u32;
+        Self {
+            start,
+            vector: [(dx << 2) as i32, (dy << 2) as i32],
+            length: length.saturating_mul(4),
+            ..Self::default()
+        }
+    }
+
+    /// `p + d v`, `v` mirrored if the copy is.
+    #[inline(always)]
+    fn place(&self, [x, y]: [i32; 2]) -> [i64; 2] {
+        let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
+        let ([p, q], [dx, dy]) = (self.start, self.vector);
+        // the constructor proves |p + d v| < 128 for all copies
+        [
+            p.wrapping_add(times(dx, x)).wrapping_add(times(dy, y.wrapping_neg())),
+            q.wrapping_add(times(dx, y)).wrapping_add(times(dy, x)),
+        ]
+    }
+
+    #[inline(always)]
+    fn child(&self, cell: &Cell, length: u32) -> Self {
+        let [x, y] = cell.vector;
+        let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
+        let [dx, dy] = self.vector;
+        let half = 1 << 29;
+        // |w| < 1, so that the vector becomes shorter
+        let vector = [
+            (times(dx, x).wrapping_add(times(dy, y.wrapping_neg())).wrapping_add(half) >> 30) as i32,
+            (times(dx, y).wrapping_add(times(dy, x)).wrapping_add(half) >> 30) as i32,
+        ];
+        Self { start: self.place(cell.start), vector, length, digit: 0, state: self.state ^ cell.orientation }
+    }
+}
+
+#[inline(always)]
+fn times(a: i32, b: i32) -> i64 {
+    i64::from(a) * i64::from(b)
+}
+
+#[inline(always)]
+fn point([x, y]: [i64; 2]) -> Point2 {
+    Point2::new(Real::from_bits((x >> 32) as i32), Real::from_bits((y >> 32) as i32))
+}
+
+/// What comes after the segments of the base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pen {
+    Up,
+    Down,
+    Done,
+}
+
+/// The path of a refined polyline. Size: 32 bytes for each of `DEPTH` orders, and 28 to 48.
+#[derive(Debug, Clone)]
+pub struct Refined<'a, const S: usize, const DEPTH: usize> {
+    generator: &'a Generator<S>,
+    /// What is left of the base, from the point where the current segment ends.
+    base: &'a [Point2],
+    /// Copies on the way down; those up to `level` are in use.
+    stack: [Copy; DEPTH],
+    level: usize,
+    order: usize,
+    /// Copies shorter than this are not refined: 26 fractional bits.
+    shortest: u32,
+    pen: Pen,
+    /// Whether the stack holds a walk.
+    walking: bool,
+}
+
+impl<const S: usize> Generator<S> {
+    /// Each segment of `base` refined `order` times.
+    ///
+    /// Result: `base.len() - 1` curves of `len^order` segments each, joined; a closed base ends with its first point.
+    /// Error: below `2^-22` for the curves of the catalogue on a base of length 1 up to order 12 (`curves.rs`: `every_vertex_is_within_its_bound`).
+    /// Cost: see [`Refined`].
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for a base of fewer than two points, [`Error::Degenerate`] when two neighbours coincide, [`Error::Capacity`] when `order` exceeds `DEPTH`
+    /// or 255, [`Error::OutOfRange`] for a segment of length 32 and above, or a curve that could leave the range of [`Real`].
+    pub fn refined<'a, const DEPTH: usize>(
+        &'a self,
+        base: &'a [Point2],
+        order: u32,
+    ) -> Result<Refined<'a, S, DEPTH>, Error> {
+        let capacity = DEPTH.min(255);
+        match usize::try_from(order) {
+            Ok(levels) if levels <= capacity => Refined::new(self, base, levels, 0),
+            other => Err(Error::Capacity { what: "orders", needed: other.unwrap_or(usize::MAX), capacity }),
+        }
+    }
+
+    /// Each segment of `base` refined until the pieces are shorter than `length`, such as a pixel: each piece as often as it needs.
+    ///
+    /// # Errors
+    /// As [`Generator::refined`]: [`Error::Capacity`] when some piece could need more than `DEPTH` refinements; [`Error::OutOfRange`] for a length of 0 or less.
+    pub fn refined_to<'a, const DEPTH: usize>(
+        &'a self,
+        base: &'a [Point2],
+        length: Real,
+    ) -> Result<Refined<'a, S, DEPTH>, Error> {
+        if length <= Real::ZERO {
+            return Err(Error::OutOfRange {
+                what: "length of a piece",
+                index: 0,
+                value: Wide::from(length),
+                min: Wide::from(Real::DELTA),
+                max: Wide::from(Real::MAX),
+            });
+        }
+        // LONGEST ends the refinement anyhow: 32 with 26 fractional bits is 2^31
+        let shortest = (u64::from(length.to_bits().unsigned_abs()) << 2).min(LONGEST << 26) as u32;
+        // how often the longest piece needs it
+        let factor = u64::from(self.contraction_factor().to_bits().unsigned_abs());
+        let mut longest = longest_segment(base);
+        let mut orders = 0;
+        let capacity = DEPTH.min(255);
+        // as the walk computes it; rounding down lets it end for every factor below 1
+        while longest >= u64::from(shortest) {
+            longest = (longest * factor) >> 30;
+            orders += 1;
+            if orders > 100_000 {
+                break;
+            }
+        }
+        if orders > capacity {
+            return Err(Error::Capacity { what: "orders", needed: orders, capacity });
+        }
+        Refined::new(self, base, orders, shortest)
+    }
+}
+
+/// The longest segment, 26 fractional bits, rounded up as [`Copy::on`] does.
+fn longest_segment(base: &[Point2]) -> u64 {
+    base.iter().zip(base.iter().skip(1)).map(|(a, b)| u64::from(Copy::on(*a, *b).length)).max().unwrap_or(0)
+}
+
+impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
+    fn new(
+        generator: &'a Generator<S>,
+        base: &'a [Point2],
+        order: usize,
+        shortest: u32,
+    ) -> Result<Self, Error> {
+        if base.len() < 2 {
+            return Err(Error::TooFew { what: "points of the base", given: base.len(), at_least: 2 });
+        }
+        let reach = generator.reach(order as u32);
+        for (index, (a, b)) in base.iter().zip(base.iter().skip(1)).enumerate() {
+            let bits = |r: Real| i64::from(r.to_bits());
+            let length = hypotenuse(
+                (bits(b.x) - bits(a.x)).abs().min(1 << 31),
+                (bits(b.y) - bits(a.y)).abs().min(1 << 31),
+            );
+            if length == 0 {
+                return Err(Error::Degenerate { what: "a segment of the base" });
+            }
+            if length >= LONGEST << 24 {
+                return Err(out_of_range("length of the segment", index, length, LONGEST));
+            }
+            // length < 2^29, reach saturates
+            let around = ((u128::from(length) * u128::from(reach)) >> 30) as u64;
+            let far = bits(a.x).unsigned_abs().max(bits(a.y).unsigned_abs());
+            let needed = far.saturating_add(around).saturating_add(1 << 12);
+            if needed >= 128 << 24 {
+                return Err(out_of_range("reach of the curve from the segment", index, needed, 128));
+            }
+        }
+        Ok(Self {
+            generator,
+            base,
+            stack: [Copy::default(); DEPTH],
+            level: 0,
+            order,
+            shortest,
+            pen: Pen::Up,
+            walking: false,
+        })
+    }
+
+    #[inline(always)]
+    fn step(&mut self, p: Point2) -> Step {
+        if self.pen == Pen::Down {
+            Step::LineTo(p)
+        } else {
+            self.pen = Pen::Down;
+            Step::MoveTo(p)
+        }
+    }
+
+    /// The next segment of the base: its own step when it is not refined at all, the last step, or nothing.
+    fn advance(&mut self) -> Advance {
+        match self.base {
+            [from, rest @ ..] if !rest.is_empty() => {
+                let copy = Copy::on(*from, rest.first().copied().unwrap_or(*from));
+                self.base = rest;
+                if self.order == 0 || copy.length < self.shortest {
+                    let show = oriented(self.generator.marker().unwrap_or([0, 0]), 0);
+                    return Advance::Step(self.step(point(copy.place(show))));
+                }
+                self.level = 0;
+                if let Some(root) = self.stack.first_mut() {
+                    *root = copy;
+                    self.walking = true;
+                }
+                Advance::Walk
+            }
+            [last] if self.pen == Pen::Down && self.generator.marker().is_none() => {
+                self.pen = Pen::Done;
+                Advance::Step(Step::LineTo(*last))
+            }
+            _ => Advance::End,
+        }
+    }
+}
+
+enum Advance {
+    Step(Step),
+    Walk,
+    End,
+}
+
+impl<const S: usize, const DEPTH: usize> Iterator for Refined<'_, S, DEPTH> {
+    type Item = Step;
+
+    #[inline]
+    fn next(&mut self) -> Option<Step> {
+        loop {
+            if !self.walking {
+                match self.advance() {
+                    Advance::Step(step) => return Some(step),
+                    Advance::Walk => {}
+                    Advance::End => return None,
+                }
+            }
+            // level < order <= DEPTH while walking
+            let copy = self.stack.get_mut(self.level)?;
+            let digit = copy.digit;
+            if digit >= self.generator.len() as u8 {
+                match self.level.checked_sub(1) {
+                    Some(above) => self.level = above,
+                    None => self.walking = false,
+                }
+                continue;
+            }
+            copy.digit = digit + 1;
+            let copy = *copy;
+            let cell = self.generator.cell(copy.state, digit)?;
+            let length = ((u64::from(copy.length) * u64::from(cell.ratio)) >> 30) as u32;
+            let below = self.level + 1;
+            if below >= self.order || length < self.shortest {
+                return Some(self.step(point(copy.place(cell.show))));
+            }
+            let child = copy.child(cell, length);
+            *self.stack.get_mut(below)? = child;
+            self.level = below;
+        }
+    }
+}
+
+fn out_of_range(what: &'static str, index: usize, bits: u64, limit: u64) -> Error {
+    let wide = |bits: u64| Wide::from_bits(i64::try_from(bits.saturating_mul(1 << 24)).unwrap_or(i64::MAX));
+    Error::OutOfRange { what, index, value: wide(bits), min: Wide::ZERO, max: wide(limit << 24) }
+}
