@@ -10,7 +10,7 @@
 //! by `2^(1 - beta)` a level (M. F. Barnsley et al., "The Science of Fractal Images", 1988, section 1.4.3: midpoint displacement).
 
 use super::displacement::{
-    Displacement, LEVELS, Part, along, checked_offset, checked_spectrum, displaced, perpendicular, product,
+    Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, perpendicular, product, raised,
     undone,
 };
 use super::gaussian::{Deviate, Parameter, RandomFunction};
@@ -46,7 +46,7 @@ impl LineToLine {
         let mut amplitude = u64::from(checked_offset(offset)?) << 30; // 58 fractional bits
         let mut offsets = [0; LEVELS];
         for offset in &mut offsets {
-            *offset = (amplitude >> 30) as i32;
+            *offset = ((amplitude + (1 << 29)) >> 30) as i32;
             // 2^-H with 31 fractional bits
             amplitude = (amplitude >> 31) * u64::from(sqrt(factor << 32));
         }
@@ -63,10 +63,9 @@ impl LineToLine {
         let [first, second] = self.first_offsets();
         let above = (i64::from(first) * i64::from(first)).checked_div(i64::from(second).max(1)).unwrap_or(0);
         let above = above.min(i64::from(i32::MAX)) as i32;
-        let displacement = along(
-            to.x.saturating_sub(from.x),
-            Deviate::from_bits(product(above, self.random.at(at).to_bits())),
-        );
+        let g = product(above, self.random.at(at).to_bits());
+        let span = to.x.saturating_sub(from.x);
+        let displacement = (i64::from(span.to_bits()) * i64::from(g) + (1 << 27)) >> 28;
         let reflected = |a: Real, m: i64| 2 * m - i64::from(a.to_bits());
         let x = reflected(from.x, i64::from(to.x.to_bits()));
         let y = reflected(from.y, i64::from(to.y.to_bits()) - displacement);
@@ -90,10 +89,9 @@ impl Displacement for LineToLine {
     #[inline]
     fn midpoint(&self, part: &Part) -> Point2 {
         let offset = self.offsets.get(part.level as usize).copied().unwrap_or(0);
-        let g = Deviate::from_bits(product(offset, self.random.at(part.middle).to_bits()));
-        let Point2 { x, y } = displaced(part, Deviate::ZERO, Deviate::ZERO);
-        let bits = i64::from(y.to_bits()) + along(part.span, g);
-        Point2::new(x, Real::from_bits(bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32))
+        let g = product(offset, self.random.at(part.middle).to_bits());
+        let (from, to) = (part.from, part.to);
+        Point2::new(raised(from.x, to.x, Real::ZERO, 0), raised(from.y, to.y, part.span, g))
     }
 }
 

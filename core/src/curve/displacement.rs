@@ -49,23 +49,33 @@ pub fn displaced(part: &Part, along: Deviate, across: Deviate) -> Point2 {
     let (g, h) = (i64::from(along.to_bits()), i64::from(across.to_bits()));
     let (dx, dy) = (i64::from(dx.to_bits()), i64::from(dy.to_bits()));
     // |p1 + p2| <= 2^32; each product is at most 2^62, the sum saturates
-    let middle = |a: Real, b: Real| ((i64::from(a.to_bits()) + i64::from(b.to_bits())) << 27) + (1 << 27);
-    let x = middle(from.x, to.x).saturating_add(dx * g).saturating_add(-(dy * h));
-    let y = middle(from.y, to.y).saturating_add(dy * g).saturating_add(dx * h);
-    let real = |sum: i64| Real::from_bits((sum >> 28).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32);
-    Point2::new(real(x), real(y))
+    let x = doubled(from.x, to.x).saturating_add(dx * g).saturating_add(-(dy * h));
+    let y = doubled(from.y, to.y).saturating_add(dy * g).saturating_add(dx * h);
+    Point2::new(rounded(x), rounded(y))
+}
+
+/// The midpoint of two coordinates raised by `g` times a length.
+#[inline]
+pub(super) fn raised(a: Real, b: Real, length: Real, g: i32) -> Real {
+    rounded(doubled(a, b).saturating_add(i64::from(length.to_bits()) * i64::from(g)))
+}
+
+/// `(a + b) / 2` with 52 fractional bits, and the half unit that rounds to 24.
+#[inline]
+fn doubled(a: Real, b: Real) -> i64 {
+    ((i64::from(a.to_bits()) + i64::from(b.to_bits())) << 27) + (1 << 27)
+}
+
+/// Saturated to the format, from 52 fractional bits.
+#[inline]
+fn rounded(sum: i64) -> Real {
+    Real::from_bits((sum >> 28).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
 }
 
 /// The product of two numbers with 28 fractional bits, rounded. For offsets of at most 2 and deviates of at most 3.4 it stays below 8.
 #[inline]
 pub(super) fn product(a: i32, b: i32) -> i32 {
     ((i64::from(a) * i64::from(b) + (1 << 27)) >> 28) as i32
-}
-
-/// `g` times a length, 24 fractional bits.
-#[inline]
-pub(super) fn along(length: Real, g: Deviate) -> i64 {
-    (i64::from(length.to_bits()) * i64::from(g.to_bits()) + (1 << 27)) >> 28
 }
 
 /// An offset with 28 fractional bits.

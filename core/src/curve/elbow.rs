@@ -68,3 +68,26 @@ impl Displacement for Elbow {
         displaced(part, Deviate::ZERO, Deviate::from_bits(t))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_factor_is_constant_first_and_the_deviation_in_the_end() {
+        for beta in [1.0_f64, 1.5, 2.0, 2.5] {
+            let law = Elbow::new(Unit::from_num(0.001), Real::from_num(beta), 1).unwrap();
+            let sigma: std::vec::Vec<f64> = (0..32).map(|k| law.standard_deviation(k).to_num()).collect();
+            assert!((sigma[1] / sigma[0] - ((3.0 - beta) / 2.0).exp2()).abs() < 1e-3, "{beta}: {sigma:?}");
+            let limit = ((1.0 - beta).exp2() - 0.25).sqrt();
+            assert!(beta > 2.0 || (sigma[31] - limit).abs() < 1e-3, "{beta}: {sigma:?}");
+            let similar = Elbow::self_similar(Real::from_num(beta), 1).unwrap();
+            for k in 0..32 {
+                assert!((similar.standard_deviation(k).to_num::<f64>() - limit).abs() < 1e-7);
+            }
+        }
+        // beta = 3: smaller and smaller, without end
+        let smooth = Elbow::new(Unit::from_num(0.5), Real::from_num(3), 1).unwrap();
+        assert!((1..32).all(|k| smooth.standard_deviation(k) < smooth.standard_deviation(k - 1)));
+    }
+}

@@ -75,7 +75,7 @@ impl<const S: usize> Generator<S> {
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` or 255 segments,
-    /// [`Error::Degenerate`] when the first point is the last or two neighbours coincide, [`Error::NotContractive`] with the first segment that is no shorter
+    /// [`Error::Degenerate`] when the first point is the last (within `2^-38`) or two neighbours coincide, [`Error::NotContractive`] with the first segment that is no shorter
     /// than the one it replaces, [`Error::OutOfRange`] for a vertex outside `-1 < x < 2, -2 < y < 2` in the frame of the segment.
     pub fn polyline(points: &[[Wide; 2]]) -> Result<Self, Error> {
         Self::oriented_polyline(points, &[])
@@ -125,7 +125,8 @@ impl<const S: usize> Generator<S> {
             return Err(Error::Capacity { what: "segments", needed: segments, capacity });
         }
         let whole = vertices.clone().last().unwrap_or_default();
-        if whole == [0, 0] {
+        // what the rounding of sines leaves of a closed word
+        if whole.iter().all(|w| w.unsigned_abs() < 1 << 10) {
             return Err(Error::Degenerate { what: "the segment that the generator replaces" });
         }
         let mut generator = Self { cells: [[Cell::EMPTY; S]; 2], len: segments as u8, marker: None };

@@ -71,7 +71,7 @@ pub fn length(order: u32) -> Option<Fraction> {
     Some(Fraction { numerator: 4_u64.checked_pow(order)?, denominator: 3_u64.checked_pow(order)? })
 }
 
-/// The perimeter of the snowflake of this order on a triangle of side 1, `3 (4/3)^n`; none from order 31 on. Exact.
+/// The perimeter of the snowflake of this order on a triangle of side 1, `3 (4/3)^n`; none from order 32 on. Exact.
 pub fn snowflake_perimeter(order: u32) -> Option<Fraction> {
     let Fraction { numerator, denominator } = length(order)?;
     Some(Fraction { numerator: numerator.checked_mul(3)?, denominator })

@@ -302,3 +302,44 @@ fn out_of_range(what: &'static str, index: usize, bits: u64, limit: u64) -> Erro
     let wide = |bits: u64| Wide::from_bits(i64::try_from(bits.saturating_mul(1 << 24)).unwrap_or(i64::MAX));
     Error::OutOfRange { what, index, value: wide(bits), min: Wide::ZERO, max: wide(limit << 24) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::koch;
+
+    #[test]
+    fn order_0_is_the_base_and_order_1_the_generator() {
+        let refined = |order| -> std::vec::Vec<Step> {
+            koch::GENERATOR.refined::<4>(&koch::SEGMENT, order).unwrap().collect()
+        };
+        let [a, b] = koch::SEGMENT;
+        assert_eq!(refined(0), [Step::MoveTo(a), Step::LineTo(b)]);
+        let third =
+            |x: i32, y: f64| Point2::new(Real::from_num(f64::from(x) / 6.0 + 1e-9), Real::from_num(y));
+        let top = Point2::new(Real::from_num(0.5), Real::from_num(3.0_f64.sqrt() / 6.0 + 3e-8));
+        let expected = [a, third(2, 0.0), top, third(4, 0.0), b];
+        let points: std::vec::Vec<Point2> = refined(1)
+            .into_iter()
+            .map(|s| match s {
+                Step::MoveTo(p) | Step::LineTo(p) => p,
+            })
+            .collect();
+        for (got, want) in points.iter().zip(expected) {
+            assert!(got.x.abs_diff(want.x) <= 1e-7 && got.y.abs_diff(want.y) <= 1e-7, "{got:?} {want:?}");
+        }
+        assert_eq!(points.len(), 5);
+    }
+
+    #[test]
+    fn a_finished_curve_stays_finished() {
+        let mut curve = koch::GENERATOR.refined::<3>(&koch::SEGMENT, 3).unwrap();
+        assert_eq!(curve.by_ref().count(), 65);
+        assert!((0..10).all(|_| curve.next().is_none()));
+    }
+
+    #[test]
+    fn order_12_of_the_koch_curve_takes_at_most_600_bytes() {
+        assert!(size_of::<Refined<'_, 4, 12>>() <= 600, "{}", size_of::<Refined<'_, 4, 12>>());
+    }
+}

@@ -200,3 +200,46 @@ impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVEL
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::displaced;
+    use crate::curve::{Deviate, koch};
+
+    /// A law of one's own: always to the left by a quarter of the length.
+    struct Left;
+
+    impl Displacement for Left {
+        fn midpoint(&self, part: &Part) -> Point2 {
+            displaced(part, Deviate::ZERO, Deviate::from_num(0.25))
+        }
+    }
+
+    #[test]
+    fn a_law_of_your_own_needs_one_function() {
+        let quarter = Stop::Parameter(Parameter::from_num(0.25));
+        let points: std::vec::Vec<Step> =
+            Subdivision::<_, 2>::new(&Left, &koch::SEGMENT, quarter).unwrap().collect();
+        let at = |x: f64, y: f64| Point2::new(Real::from_num(x), Real::from_num(y));
+        let expected = [at(0.0, 0.0), at(0.1875, 0.25), at(0.5, 0.25), at(0.8125, 0.25), at(1.0, 0.0)];
+        assert!(points.iter().skip(1).eq(&expected.map(Step::LineTo)[1..]));
+        assert_eq!(points.first(), Some(&Step::MoveTo(expected[0])));
+    }
+
+    #[test]
+    fn the_parameter_follows_the_pen() {
+        let eighth = Stop::Parameter(Parameter::from_num(0.125));
+        let mut curve = Subdivision::<_, 3>::new(&Left, &koch::SEGMENT, eighth).unwrap();
+        for k in 0..=8 {
+            assert!(curve.next().is_some());
+            assert_eq!(curve.parameter(), Parameter::from_num(0.125) * k);
+        }
+        assert!(curve.next().is_none() && curve.next().is_none());
+    }
+
+    #[test]
+    fn sixteen_levels_take_at_most_400_bytes() {
+        assert!(size_of::<Subdivision<'_, Left, 16>>() <= 400, "{}", size_of::<Subdivision<'_, Left, 16>>());
+    }
+}

@@ -7,10 +7,13 @@ mod bounds;
 mod calculus;
 mod camera;
 mod compose;
+pub mod copier;
 mod double_double;
 mod fif;
 mod height_field;
+pub mod koch;
 mod polynomial;
+pub mod random_curve;
 mod vector;
 
 pub use bounds::{Bounds, Cell};
