@@ -75,7 +75,7 @@ pub const ICELAND: [Point2; COUNT] = {
     while i < COUNT {
         let [latitude, longitude] = OUTLINE[i % OUTLINE.len()];
         // cos 65 degrees = 0.422618
-        let x = ((185 - longitude as i64) * 422_618 << 24) / 10_000_000;
+        let x = (((185 - longitude as i64) * 422_618) << 24) / 10_000_000;
         let y = ((latitude as i64 - 650) << 24) / 10;
         points[i] = Point2::new(Real::from_bits(x as i32), Real::from_bits(y as i32));
         i += 1;
