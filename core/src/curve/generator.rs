@@ -213,12 +213,12 @@ impl<const S: usize> Generator<S> {
         self.cells.iter().take(1).flatten().take(self.len()).map(|cell| cell.ratio)
     }
 
-    /// The segment at a place of the walk in a state; the digit is below [`Generator::len`].
+    /// The segments in the order of a walk in a state.
     #[inline(always)]
-    pub(super) fn cell(&self, state: u8, digit: u8) -> Option<&Cell> {
+    pub(super) fn cells(&self, state: u8) -> &[Cell] {
         let [forward, backward] = &self.cells;
         let cells = if state & 1 == 0 { forward } else { backward };
-        cells.get(usize::from(digit))
+        cells.get(..self.len()).unwrap_or_default()
     }
 
     pub(super) const fn marker(&self) -> Option<[i32; 2]> {

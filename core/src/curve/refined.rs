@@ -83,7 +83,7 @@ fn point([x, y]: [i64; 2]) -> Point2 {
     Point2::new(Real::from_bits((x >> 32) as i32), Real::from_bits((y >> 32) as i32))
 }
 
-/// What comes after the segments of the base.
+/// What the pen does next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Pen {
     Up,
@@ -91,21 +91,24 @@ enum Pen {
     Done,
 }
 
-/// The path of a refined polyline. Size: 32 bytes for each of `DEPTH` orders, and 28 to 48.
+/// The path of a refined polyline. Size: 32 bytes for each of `DEPTH` orders, and 80 to 128.
 #[derive(Debug, Clone)]
 pub struct Refined<'a, const S: usize, const DEPTH: usize> {
     generator: &'a Generator<S>,
+    /// The copy whose segments are drawn as they are, and those that are left of them.
+    drawn: Copy,
+    run: core::slice::Iter<'a, Cell>,
     /// What is left of the base, from the point where the current segment ends.
     base: &'a [Point2],
-    /// Copies on the way down; those up to `level` are in use.
+    /// Copies on the way down to it, some of whose segments are refined further; the first `waiting` are in use.
     stack: [Copy; DEPTH],
-    level: usize,
+    waiting: usize,
     order: usize,
     /// Copies shorter than this are not refined: 26 fractional bits.
     shortest: u32,
+    /// The length of the longest segment of the generator.
+    longest_ratio: u32,
     pen: Pen,
-    /// Whether the stack holds a walk.
-    walking: bool,
 }
 
 impl<const S: usize> Generator<S> {
@@ -113,7 +116,7 @@ impl<const S: usize> Generator<S> {
     ///
     /// Result: `base.len() - 1` curves of `len^order` segments each, joined; a closed base ends with its first point.
     /// Error: below `2^-22` for the curves of the catalogue on a base of length 1 up to order 12 (`curves.rs`: `every_vertex_is_within_its_bound`).
-    /// Cost: see [`Refined`].
+    /// Cost: COST
     ///
     /// # Errors
     /// [`Error::TooFew`] for a base of fewer than two points, [`Error::Degenerate`] when two neighbours coincide, [`Error::Capacity`] when `order` exceeds `DEPTH`
@@ -209,55 +212,87 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
         Ok(Self {
             generator,
             base,
+            drawn: Copy::default(),
+            run: [].iter(),
             stack: [Copy::default(); DEPTH],
-            level: 0,
+            waiting: 0,
             order,
             shortest,
+            longest_ratio: generator.contraction_factor().to_bits().unsigned_abs(),
             pen: Pen::Up,
-            walking: false,
         })
     }
 
-    #[inline(always)]
-    fn step(&mut self, p: Point2) -> Step {
+    fn step(&mut self, p: [i64; 2]) -> Step {
         if self.pen == Pen::Down {
-            Step::LineTo(p)
+            Step::LineTo(point(p))
         } else {
             self.pen = Pen::Down;
-            Step::MoveTo(p)
+            Step::MoveTo(point(p))
         }
     }
 
-    /// The next segment of the base: its own step when it is not refined at all, the last step, or nothing.
-    fn advance(&mut self) -> Advance {
-        match self.base {
-            [from, rest @ ..] if !rest.is_empty() => {
-                let copy = Copy::on(*from, rest.first().copied().unwrap_or(*from));
-                self.base = rest;
-                if self.order == 0 || copy.length < self.shortest {
-                    let show = oriented(self.generator.marker().unwrap_or([0, 0]), 0);
-                    return Advance::Step(self.step(point(copy.place(show))));
+    /// Goes down into a copy with `waiting` copies above it. The step is that of its first segment when none of its segments is refined further.
+    #[inline]
+    fn enter(&mut self, copy: Copy) -> Option<Step> {
+        if self.waiting + 1 >= self.order || scaled(copy.length, self.longest_ratio) < self.shortest {
+            self.drawn = copy;
+            self.run = self.generator.cells(copy.state).iter();
+            let first = self.run.next()?;
+            return Some(self.step(copy.place(first.show)));
+        }
+        // waiting + 1 < order <= DEPTH
+        *self.stack.get_mut(self.waiting)? = copy;
+        self.waiting += 1;
+        None
+    }
+
+    /// The next step when the run is over.
+    fn next_run(&mut self) -> Option<Step> {
+        loop {
+            let Some(top) = self.waiting.checked_sub(1) else {
+                match self.base {
+                    [from, rest @ ..] if !rest.is_empty() => {
+                        let copy = Copy::on(*from, rest.first().copied().unwrap_or(*from));
+                        self.base = rest;
+                        if self.order == 0 || copy.length < self.shortest {
+                            let show = oriented(self.generator.marker().unwrap_or([0, 0]), 0);
+                            return Some(self.step(copy.place(show)));
+                        }
+                        if let Some(step) = self.enter(copy) {
+                            return Some(step);
+                        }
+                        continue;
+                    }
+                    [last] if self.pen == Pen::Down && self.generator.marker().is_none() => {
+                        self.pen = Pen::Done;
+                        return Some(Step::LineTo(*last));
+                    }
+                    _ => return None,
                 }
-                self.level = 0;
-                if let Some(root) = self.stack.first_mut() {
-                    *root = copy;
-                    self.walking = true;
-                }
-                Advance::Walk
+            };
+            let copy = self.stack.get_mut(top)?;
+            let Some(cell) = self.generator.cells(copy.state).get(usize::from(copy.digit)) else {
+                self.waiting = top;
+                continue;
+            };
+            copy.digit += 1;
+            let length = scaled(copy.length, cell.ratio);
+            if length < self.shortest {
+                let place = copy.place(cell.show);
+                return Some(self.step(place));
             }
-            [last] if self.pen == Pen::Down && self.generator.marker().is_none() => {
-                self.pen = Pen::Done;
-                Advance::Step(Step::LineTo(*last))
+            let child = copy.child(cell, length);
+            if let Some(step) = self.enter(child) {
+                return Some(step);
             }
-            _ => Advance::End,
         }
     }
 }
 
-enum Advance {
-    Step(Step),
-    Walk,
-    End,
+#[inline(always)]
+fn scaled(length: u32, ratio: u32) -> u32 {
+    ((u64::from(length) * u64::from(ratio)) >> 30) as u32
 }
 
 impl<const S: usize, const DEPTH: usize> Iterator for Refined<'_, S, DEPTH> {
@@ -265,35 +300,10 @@ impl<const S: usize, const DEPTH: usize> Iterator for Refined<'_, S, DEPTH> {
 
     #[inline]
     fn next(&mut self) -> Option<Step> {
-        loop {
-            if !self.walking {
-                match self.advance() {
-                    Advance::Step(step) => return Some(step),
-                    Advance::Walk => {}
-                    Advance::End => return None,
-                }
-            }
-            // level < order <= DEPTH while walking
-            let copy = self.stack.get_mut(self.level)?;
-            let digit = copy.digit;
-            if digit >= self.generator.len() as u8 {
-                match self.level.checked_sub(1) {
-                    Some(above) => self.level = above,
-                    None => self.walking = false,
-                }
-                continue;
-            }
-            copy.digit = digit + 1;
-            let copy = *copy;
-            let cell = self.generator.cell(copy.state, digit)?;
-            let length = ((u64::from(copy.length) * u64::from(cell.ratio)) >> 30) as u32;
-            let below = self.level + 1;
-            if below >= self.order || length < self.shortest {
-                return Some(self.step(point(copy.place(cell.show))));
-            }
-            let child = copy.child(cell, length);
-            *self.stack.get_mut(below)? = child;
-            self.level = below;
+        match self.run.next() {
+            // the first segment of a run is drawn when it is entered
+            Some(cell) => Some(Step::LineTo(point(self.drawn.place(cell.show)))),
+            None => self.next_run(),
         }
     }
 }
