@@ -58,7 +58,7 @@ impl Cell {
     const EMPTY: Self = Self { start: [0; 2], vector: [0; 2], show: [0; 2], ratio: 0, orientation: 0 };
 }
 
-/// A generator of at most `S <= 255` segments. Size: 64 bytes a segment, and 28.
+/// A generator of at most `S <= 127` segments. Size: 64 bytes a segment, and 28.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Generator<const S: usize> {
     /// The segments in the order of a walk from start to end, and of a walk from end to start.
@@ -74,7 +74,7 @@ impl<const S: usize> Generator<S> {
     /// Domain: points as a scene says them. Error: half a unit in the last place of each vertex after division by the segment, `2^-31`.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` or 255 segments,
+    /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` or 127 segments,
     /// [`Error::Degenerate`] when the first point is the last (within `2^-38`) or two neighbours coincide, [`Error::NotContractive`] with the first segment that is no shorter
     /// than the one it replaces, [`Error::OutOfRange`] for a vertex outside `-1 < x < 2, -2 < y < 2` in the frame of the segment.
     pub fn polyline(points: &[[Wide; 2]]) -> Result<Self, Error> {
@@ -117,7 +117,7 @@ impl<const S: usize> Generator<S> {
         vertices: impl Iterator<Item = [i64; 2]> + Clone,
         orientations: impl Iterator<Item = Orientation>,
     ) -> Result<Self, Error> {
-        let capacity = S.min(255);
+        let capacity = S.min(127);
         if segments < 2 {
             return Err(Error::TooFew { what: "vertices", given: segments + 1, at_least: 3 });
         }
@@ -199,7 +199,7 @@ impl<const S: usize> Generator<S> {
     /// assert!(koch::GENERATOR.lengthening().abs_diff(attractor::num::Wide::from_num(4) / 3) < 1e-8);
     /// ```
     pub fn lengthening(&self) -> Wide {
-        // at most 255 segments shorter than 1
+        // at most 127 segments shorter than 1
         Wide::from_bits(self.ratios().map(|r| i64::from(r) << 18).sum())
     }
 
@@ -213,12 +213,18 @@ impl<const S: usize> Generator<S> {
         self.cells.iter().take(1).flatten().take(self.len()).map(|cell| cell.ratio)
     }
 
-    /// The segments in the order of a walk in a state.
+    /// Where the segments of a walk in a state begin and end among [`Generator::cells`].
     #[inline(always)]
-    pub(super) fn cells(&self, state: u8) -> &[Cell] {
-        let [forward, backward] = &self.cells;
-        let cells = if state & 1 == 0 { forward } else { backward };
-        cells.get(..self.len()).unwrap_or_default()
+    pub(super) const fn range(&self, state: u8) -> (u8, u8) {
+        // 2 S cells at most: the capacity is 127
+        let first = if state & 1 == 0 { 0 } else { S as u8 };
+        (first, first.wrapping_add(self.len))
+    }
+
+    /// All segments, of both walks.
+    #[inline(always)]
+    pub(super) const fn cells(&self) -> &[Cell] {
+        self.cells.as_flattened()
     }
 
     pub(super) const fn marker(&self) -> Option<[i32; 2]> {

@@ -25,24 +25,31 @@ struct Copy {
     vector: [i32; 2],
     /// The length of that, rounded up: 26 fractional bits.
     length: u32,
-    /// The next segment.
-    digit: u8,
+    /// Its next segment and the one after its last, in [`Generator::cells`].
+    next: u8,
+    end: u8,
     /// Reversed, mirrored: [`super::Orientation`].
     state: u8,
+    /// How often the segment of the base was refined to get here.
+    level: u8,
 }
 
 impl Copy {
     /// The copy on a segment of the base, shorter than 32.
-    fn on(from: Point2, to: Point2) -> Self {
+    fn on<const S: usize>(from: Point2, to: Point2, generator: &Generator<S>) -> Self {
         let along = |a: Real, b: Real| i64::from(b.to_bits()) - i64::from(a.to_bits());
         let (dx, dy) = (along(from.x, to.x), along(from.y, to.y));
         let start = [from.x, from.y].map(|c| (i64::from(c.to_bits()) << 32) + (1 << 31));
         let length = hypotenuse(dx, dy).min(LONGEST << 24) as u32;
+        let (next, end) = generator.range(0);
         Self {
             start,
             vector: [(dx << 2) as i32, (dy << 2) as i32],
             length: length.saturating_mul(4),
-            ..Self::default()
+            next,
+            end,
+            state: 0,
+            level: 0,
         }
     }
 
@@ -59,7 +66,7 @@ impl Copy {
     }
 
     #[inline(always)]
-    fn child(&self, cell: &Cell, length: u32) -> Self {
+    fn child<const S: usize>(&self, cell: &Cell, length: u32, generator: &Generator<S>) -> Self {
         let [x, y] = cell.vector;
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
         let [dx, dy] = self.vector;
@@ -69,7 +76,17 @@ impl Copy {
             (times(dx, x).wrapping_add(times(dy, y.wrapping_neg())).wrapping_add(half) >> 30) as i32,
             (times(dx, y).wrapping_add(times(dy, x)).wrapping_add(half) >> 30) as i32,
         ];
-        Self { start: self.place(cell.start), vector, length, digit: 0, state: self.state ^ cell.orientation }
+        let state = self.state ^ cell.orientation;
+        let (next, end) = generator.range(state);
+        Self {
+            start: self.place(cell.start),
+            vector,
+            length,
+            next,
+            end,
+            state,
+            level: self.level.wrapping_add(1),
+        }
     }
 }
 
@@ -103,7 +120,7 @@ pub struct Refined<'a, const S: usize, const DEPTH: usize> {
     /// Copies on the way down to it, some of whose segments are refined further; the first `waiting` are in use.
     stack: [Copy; DEPTH],
     waiting: usize,
-    order: usize,
+    order: u8,
     /// Copies shorter than this are not refined: 26 fractional bits.
     shortest: u32,
     /// The length of the longest segment of the generator.
@@ -155,7 +172,12 @@ impl<const S: usize> Generator<S> {
         let shortest = (u64::from(length.to_bits().unsigned_abs()) << 2).min(LONGEST << 26) as u32;
         // how often the longest piece needs it
         let factor = u64::from(self.contraction_factor().to_bits().unsigned_abs());
-        let mut longest = longest_segment(base);
+        let mut longest = base
+            .iter()
+            .zip(base.iter().skip(1))
+            .map(|(a, b)| u64::from(Copy::on(*a, *b, self).length))
+            .max()
+            .unwrap_or(0);
         let mut orders = 0;
         let capacity = DEPTH.min(255);
         // as the walk computes it; rounding down lets it end for every factor below 1
@@ -171,11 +193,6 @@ impl<const S: usize> Generator<S> {
         }
         Refined::new(self, base, orders, shortest)
     }
-}
-
-/// The longest segment, 26 fractional bits, rounded up as [`Copy::on`] does.
-fn longest_segment(base: &[Point2]) -> u64 {
-    base.iter().zip(base.iter().skip(1)).map(|(a, b)| u64::from(Copy::on(*a, *b).length)).max().unwrap_or(0)
 }
 
 impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
@@ -216,7 +233,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
             run: [].iter(),
             stack: [Copy::default(); DEPTH],
             waiting: 0,
-            order,
+            order: order as u8,
             shortest,
             longest_ratio: generator.contraction_factor().to_bits().unsigned_abs(),
             pen: Pen::Up,
@@ -232,60 +249,57 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
         }
     }
 
-    /// Goes down into a copy with `waiting` copies above it. The step is that of its first segment when none of its segments is refined further.
-    #[inline]
-    fn enter(&mut self, copy: Copy) -> Option<Step> {
-        if self.waiting + 1 >= self.order || scaled(copy.length, self.longest_ratio) < self.shortest {
-            self.drawn = copy;
-            self.run = self.generator.cells(copy.state).iter();
-            let first = self.run.next()?;
-            return Some(self.step(copy.place(first.show)));
-        }
-        // waiting + 1 < order <= DEPTH
-        *self.stack.get_mut(self.waiting)? = copy;
-        self.waiting += 1;
-        None
-    }
-
-    /// The next step when the run is over.
+    /// The next step when the run is over. Apart, so that the loop over a run keeps its registers.
+    #[inline(never)]
     fn next_run(&mut self) -> Option<Step> {
         loop {
-            let Some(top) = self.waiting.checked_sub(1) else {
-                match self.base {
+            let child;
+            if let Some(top) = self.waiting.checked_sub(1) {
+                let copy = self.stack.get_mut(top)?;
+                let cell = self.generator.cells().get(usize::from(copy.next))?;
+                copy.next += 1;
+                // after its last segment nothing waits for it
+                if copy.next >= copy.end {
+                    self.waiting = top;
+                }
+                let mut length = 0;
+                if self.shortest > 0 {
+                    length = scaled(copy.length, cell.ratio);
+                    if length < self.shortest {
+                        let place = copy.place(cell.show);
+                        return Some(self.step(place));
+                    }
+                }
+                child = copy.child(cell, length, self.generator);
+            } else {
+                child = match self.base {
                     [from, rest @ ..] if !rest.is_empty() => {
-                        let copy = Copy::on(*from, rest.first().copied().unwrap_or(*from));
                         self.base = rest;
-                        if self.order == 0 || copy.length < self.shortest {
-                            let show = oriented(self.generator.marker().unwrap_or([0, 0]), 0);
-                            return Some(self.step(copy.place(show)));
-                        }
-                        if let Some(step) = self.enter(copy) {
-                            return Some(step);
-                        }
-                        continue;
+                        Copy::on(*from, rest.first().copied().unwrap_or(*from), self.generator)
                     }
                     [last] if self.pen == Pen::Down && self.generator.marker().is_none() => {
                         self.pen = Pen::Done;
                         return Some(Step::LineTo(*last));
                     }
                     _ => return None,
+                };
+                if self.order == 0 || child.length < self.shortest {
+                    let show = oriented(self.generator.marker().unwrap_or([0, 0]), 0);
+                    return Some(self.step(child.place(show)));
                 }
-            };
-            let copy = self.stack.get_mut(top)?;
-            let Some(cell) = self.generator.cells(copy.state).get(usize::from(copy.digit)) else {
-                self.waiting = top;
-                continue;
-            };
-            copy.digit += 1;
-            let length = scaled(copy.length, cell.ratio);
-            if length < self.shortest {
-                let place = copy.place(cell.show);
-                return Some(self.step(place));
             }
-            let child = copy.child(cell, length);
-            if let Some(step) = self.enter(child) {
-                return Some(step);
+            if child.level + 1 >= self.order
+                || (self.shortest > 0 && scaled(child.length, self.longest_ratio) < self.shortest)
+            {
+                let cells = self.generator.cells().get(usize::from(child.next)..usize::from(child.end))?;
+                let (first, rest) = cells.split_first()?;
+                self.run = rest.iter();
+                self.drawn = child;
+                return Some(self.step(child.place(first.show)));
             }
+            // those that wait have different levels below `order`, at most DEPTH
+            *self.stack.get_mut(self.waiting)? = child;
+            self.waiting += 1;
         }
     }
 }
