@@ -221,6 +221,14 @@ impl<const S: usize> Generator<S> {
         (first, first.wrapping_add(self.len))
     }
 
+    /// The segments in the order of a walk in a state.
+    #[inline(always)]
+    pub(super) fn walk(&self, state: u8) -> &[Cell] {
+        let [forward, backward] = &self.cells;
+        let cells = if state & 1 == 0 { forward } else { backward };
+        cells.get(..self.len()).unwrap_or_default()
+    }
+
     /// All segments, of both walks.
     #[inline(always)]
     pub(super) const fn cells(&self) -> &[Cell] {
@@ -265,6 +273,12 @@ impl<const S: usize> Generator<S> {
 }
 
 impl Cell {
+    /// `show` seen from the start.
+    pub(super) const fn show_from_start(&self) -> [i32; 2] {
+        let ([x, y], [u, v]) = (self.start, self.show);
+        [u.wrapping_sub(x), v.wrapping_sub(y)]
+    }
+
     fn between(start: [i32; 2], end: [i32; 2], orientation: Orientation) -> Result<Self, Error> {
         let ([x, y], [u, v]) = (start.map(i64::from), end.map(i64::from));
         let (dx, dy) = (u - x, v - y);

@@ -19,7 +19,7 @@ const LONGEST: u64 = 32;
 /// A copy of the whole curve.
 #[derive(Debug, Clone, Copy, Default)]
 struct Copy {
-    /// Where the walk along it begins: 56 fractional bits, and the half unit that rounds the high word.
+    /// Where its next segment begins: 56 fractional bits, and the half unit that rounds the high word.
     start: [i64; 2],
     /// To where it ends: 26 fractional bits.
     vector: [i32; 2],
@@ -30,13 +30,41 @@ struct Copy {
     end: u8,
     /// Reversed, mirrored: [`super::Orientation`].
     state: u8,
-    /// How often the segment of the base was refined to get here.
-    level: u8,
+    /// How often it is refined.
+    orders: u8,
+}
+
+/// A copy whose segments are drawn as they are.
+#[derive(Debug, Clone, Copy, Default)]
+struct Drawn {
+    /// As in [`Copy`], of its first segment.
+    start: [i64; 2],
+    vector: [i32; 2],
+    state: u8,
+}
+
+impl Drawn {
+    /// `p + d v`, `v` mirrored if the copy is.
+    #[inline(always)]
+    fn place(&self, [x, y]: [i32; 2]) -> [i64; 2] {
+        let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
+        let ([p, q], [dx, dy]) = (self.start, self.vector);
+        // the constructor proves |p + d v| < 128 for all copies
+        [
+            p.wrapping_add(times(dx, x)).wrapping_add(times(dy, y.wrapping_neg())),
+            q.wrapping_add(times(dx, y)).wrapping_add(times(dy, x)),
+        ]
+    }
 }
 
 impl Copy {
+    #[inline(always)]
+    const fn drawn(&self) -> Drawn {
+        Drawn { start: self.start, vector: self.vector, state: self.state }
+    }
+
     /// The copy on a segment of the base, shorter than 32.
-    fn on<const S: usize>(from: Point2, to: Point2, generator: &Generator<S>) -> Self {
+    fn on<const S: usize>(from: Point2, to: Point2, orders: u8, generator: &Generator<S>) -> Self {
         let along = |a: Real, b: Real| i64::from(b.to_bits()) - i64::from(a.to_bits());
         let (dx, dy) = (along(from.x, to.x), along(from.y, to.y));
         let start = [from.x, from.y].map(|c| (i64::from(c.to_bits()) << 32) + (1 << 31));
@@ -49,44 +77,25 @@ impl Copy {
             next,
             end,
             state: 0,
-            level: 0,
+            orders,
         }
     }
 
-    /// `p + d v`, `v` mirrored if the copy is.
+    /// The copy on its next segment, `cell`. `start` moves on to the one after: `v_{i+1} = v_i + w_i`, so that nothing is rounded.
     #[inline(always)]
-    fn place(&self, [x, y]: [i32; 2]) -> [i64; 2] {
-        let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
-        let ([p, q], [dx, dy]) = (self.start, self.vector);
-        // the constructor proves |p + d v| < 128 for all copies
-        [
-            p.wrapping_add(times(dx, x)).wrapping_add(times(dy, y.wrapping_neg())),
-            q.wrapping_add(times(dx, y)).wrapping_add(times(dy, x)),
-        ]
-    }
-
-    #[inline(always)]
-    fn child<const S: usize>(&self, cell: &Cell, length: u32, generator: &Generator<S>) -> Self {
+    fn descend<const S: usize>(&mut self, cell: &Cell, length: u32, generator: &Generator<S>) -> Self {
         let [x, y] = cell.vector;
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
-        let [dx, dy] = self.vector;
-        let half = 1 << 29;
+        let ([p, q], [dx, dy]) = (self.start, self.vector);
+        let u = times(dx, x).wrapping_add(times(dy, y.wrapping_neg()));
+        let v = times(dx, y).wrapping_add(times(dy, x));
+        self.start = [p.wrapping_add(u), q.wrapping_add(v)];
         // |w| < 1, so that the vector becomes shorter
-        let vector = [
-            (times(dx, x).wrapping_add(times(dy, y.wrapping_neg())).wrapping_add(half) >> 30) as i32,
-            (times(dx, y).wrapping_add(times(dy, x)).wrapping_add(half) >> 30) as i32,
-        ];
+        let rounded = |bits: i64| (bits.wrapping_add(1 << 29) >> 30) as i32;
         let state = self.state ^ cell.orientation;
         let (next, end) = generator.range(state);
-        Self {
-            start: self.place(cell.start),
-            vector,
-            length,
-            next,
-            end,
-            state,
-            level: self.level.wrapping_add(1),
-        }
+        let orders = self.orders.wrapping_sub(1);
+        Self { start: [p, q], vector: [rounded(u), rounded(v)], length, next, end, state, orders }
     }
 }
 
@@ -113,7 +122,7 @@ enum Pen {
 pub struct Refined<'a, const S: usize, const DEPTH: usize> {
     generator: &'a Generator<S>,
     /// The copy whose segments are drawn as they are, and those that are left of them.
-    drawn: Copy,
+    drawn: Drawn,
     run: core::slice::Iter<'a, Cell>,
     /// What is left of the base, from the point where the current segment ends.
     base: &'a [Point2],
@@ -175,7 +184,7 @@ impl<const S: usize> Generator<S> {
         let mut longest = base
             .iter()
             .zip(base.iter().skip(1))
-            .map(|(a, b)| u64::from(Copy::on(*a, *b, self).length))
+            .map(|(a, b)| u64::from(Copy::on(*a, *b, 0, self).length))
             .max()
             .unwrap_or(0);
         let mut orders = 0;
@@ -229,7 +238,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
         Ok(Self {
             generator,
             base,
-            drawn: Copy::default(),
+            drawn: Drawn::default(),
             run: [].iter(),
             stack: [Copy::default(); DEPTH],
             waiting: 0,
@@ -252,6 +261,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
     /// The next step when the run is over. Apart, so that the loop over a run keeps its registers.
     #[inline(never)]
     fn next_run(&mut self) -> Option<Step> {
+        let adaptive = self.shortest > 0;
         loop {
             let child;
             if let Some(top) = self.waiting.checked_sub(1) {
@@ -263,19 +273,20 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
                     self.waiting = top;
                 }
                 let mut length = 0;
-                if self.shortest > 0 {
+                if adaptive {
                     length = scaled(copy.length, cell.ratio);
                     if length < self.shortest {
-                        let place = copy.place(cell.show);
+                        let place = copy.drawn().place(cell.show_from_start());
+                        copy.descend(cell, 0, self.generator);
                         return Some(self.step(place));
                     }
                 }
-                child = copy.child(cell, length, self.generator);
+                child = copy.descend(cell, length, self.generator);
             } else {
                 child = match self.base {
                     [from, rest @ ..] if !rest.is_empty() => {
                         self.base = rest;
-                        Copy::on(*from, rest.first().copied().unwrap_or(*from), self.generator)
+                        Copy::on(*from, rest.first().copied().unwrap_or(*from), self.order, self.generator)
                     }
                     [last] if self.pen == Pen::Down && self.generator.marker().is_none() => {
                         self.pen = Pen::Done;
@@ -285,17 +296,16 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
                 };
                 if self.order == 0 || child.length < self.shortest {
                     let show = oriented(self.generator.marker().unwrap_or([0, 0]), 0);
-                    return Some(self.step(child.place(show)));
+                    return Some(self.step(child.drawn().place(show)));
                 }
             }
-            if child.level + 1 >= self.order
-                || (self.shortest > 0 && scaled(child.length, self.longest_ratio) < self.shortest)
-            {
-                let cells = self.generator.cells().get(usize::from(child.next)..usize::from(child.end))?;
+            if child.orders <= 1 || (adaptive && scaled(child.length, self.longest_ratio) < self.shortest) {
+                let cells = self.generator.walk(child.state);
                 let (first, rest) = cells.split_first()?;
                 self.run = rest.iter();
-                self.drawn = child;
-                return Some(self.step(child.place(first.show)));
+                self.drawn = child.drawn();
+                let place = self.drawn.place(first.show);
+                return Some(self.step(place));
             }
             // those that wait have different levels below `order`, at most DEPTH
             *self.stack.get_mut(self.waiting)? = child;
