@@ -374,9 +374,7 @@ const HASH_OF_SEED_1: u64 = 0xfe75_a9b9_2b40_6690;
 #[test]
 fn a_curve_continues_so_that_its_end_becomes_a_midpoint() {
     let (a, b) = (point(-1.0, 0.5), point(0.25, 1.0));
-    let stop = Stop::Parameter(Parameter::from_num(1.0));
     let at = Parameter::ONE;
-    let _ = stop;
     for seed in 0..50 {
         let g = f64_of(RandomFunction::new(seed))(1.0);
         let g2 = f64_of(RandomFunction::new(seed).independent())(1.0);
@@ -531,6 +529,8 @@ fn a_spectrum_falls_as_asked() {
     }
 }
 
+/// The formula takes every subdivision for the average one. Counted boxes grow by 1.43 to 1.46 a halving where the curve is resolved: printed, not asserted.
+///
 /// Carpenter: "if its length increases by an average ratio of 1.3 each time it is subdivided then its similarity ratio is 1.3", D = 1.61.
 #[test]
 fn a_similarity_ratio_of_1_3_gives_dimension_1_61() {
@@ -547,7 +547,7 @@ fn a_similarity_ratio_of_1_3_gives_dimension_1_61() {
             let coarse: Vec<_> = fine.iter().step_by(1 << (levels - level)).copied().collect();
             *sum += reference::length(&coarse) / 64.0;
         }
-        // the compass: how often a step of 2^-k fits
+        // boxes of side 2^-k that a vertex lies in
         for (k, sum) in log_count.iter_mut().enumerate() {
             let size = (-(k as f64) - 1.0).exp2();
             let boxes: std::collections::HashSet<_> =

@@ -29,7 +29,7 @@ struct End {
     level: u32,
 }
 
-/// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size: 12 bytes a level, and 100 to 136.
+/// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size on a 32-bit machine: 12 bytes a level, and 96.
 #[derive(Debug, Clone)]
 pub struct Subdivision<'a, D, const LEVELS: usize> {
     law: &'a D,
@@ -49,15 +49,18 @@ pub struct Subdivision<'a, D, const LEVELS: usize> {
     norm: u32,
     /// The square of a length.
     square: u64,
-    /// The piece of the curve that is wanted.
+    /// The piece of the curve that is wanted, if not all of it.
     piece: [i64; 2],
+    partial: bool,
     drawing: bool,
 }
 
 impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     /// The curve through `knots` that `law` describes; closed when the last knot is the first.
     ///
-    /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision: see the laws.
+    /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision, with the
+    /// point that it yields: 207 Cortex-M4 instructions for an elbow that stops by parameter, 247 by length; 220 for one variable and 289 for two by norm;
+    /// 197 for a function.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for a limit of 0 or less, [`Error::Capacity`] when the parameter asks for more than
@@ -84,6 +87,7 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
             norm: 0,
             square: 0,
             piece: [i64::MIN, i64::MAX],
+            partial: false,
             drawing: false,
         };
         match stop {
@@ -108,6 +112,7 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     /// Only the piece between two parameters: the parts that lie in it at least partly. The points are those of the whole curve.
     pub const fn between(mut self, first: Parameter, last: Parameter) -> Self {
         self.piece = [first.to_bits(), last.to_bits()];
+        self.partial = true;
         self
     }
 
@@ -167,15 +172,18 @@ impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVEL
                 continue;
             };
             // level <= 31
-            let width = (1_i64 << 32) >> (end.level & 31);
-            let until = self.at.wrapping_add(width);
-            let [first, last] = self.piece;
-            if until <= first {
-                self.advance(end, until);
-                continue;
-            }
-            if self.at >= last {
-                return None;
+            let half = (1_u32 << 31) >> (end.level & 31);
+            let middle = self.at.wrapping_add(i64::from(half));
+            let until = middle.wrapping_add(i64::from(half));
+            if self.partial {
+                let [first, last] = self.piece;
+                if until <= first {
+                    self.advance(end, until);
+                    continue;
+                }
+                if self.at >= last {
+                    return None;
+                }
             }
             if self.is_short(&end) {
                 if !self.drawing {
@@ -188,7 +196,7 @@ impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVEL
             let part = Part {
                 from: self.from,
                 to: end.point,
-                middle: Parameter::from_bits(self.at.wrapping_add(width >> 1)),
+                middle: Parameter::from_bits(middle),
                 level: end.level,
                 span: self.span,
             };
