@@ -10,6 +10,7 @@
 //! | [picture] | the three kinds of picture, windows onto the plane |
 //! | [fif] | fractal interpolation functions: evaluation, calculus, bounds, tensor-product surfaces |
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
+//! | [curve] | curves by refinement: Koch, Hilbert and their relatives; random curves: elbows, Carpenter's subdivision |
 //! | [escape] | dwell of the Mandelbrot set and of filled Julia sets |
 //! | [trace] | a scanline ray caster for height fields |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
@@ -35,6 +36,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod curve;
 pub mod draw;
 mod error;
 pub mod escape;

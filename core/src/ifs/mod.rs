@@ -2,7 +2,7 @@
 //!
 //! An iterated function system is a set of contractions `w_1 .. w_n` of the plane. It has exactly one attractor, the compact set with
 //! `A = w_1(A) u .. u w_n(A)` (J. E. Hutchinson, "Fractals and self similarity", 1981). The chaos game draws it: apply a map chosen at random,
-//! show the point, repeat (M. F. Barnsley, "Fractals Everywhere", 1988, chapter 3).
+//! show the point, repeat (M. F. Barnsley, "Fractals Everywhere", 1988, chapter 3). The copier draws its iterates: all images of a shape.
 //!
 //! ```
 //! use attractor::ifs::{Affine, Ifs, catalogue};
@@ -28,10 +28,12 @@ mod affine;
 mod bounds;
 pub mod catalogue;
 mod chaos;
+mod copier;
 mod disc;
 mod system;
 
 pub use affine::Affine;
 pub use chaos::{ChaosGame, WithMaps};
+pub use copier::{CopiedPath, CopiedPoints, Copier};
 pub use disc::Disc;
 pub use system::{Ifs, MAX_MAPS};

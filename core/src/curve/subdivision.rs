@@ -1,0 +1,253 @@
+//! A random curve through knots: each part between two knots is halved until it is short, depth first with a bounded stack.
+//!
+//! The knots have the parameters 0, 1, 2 ..; the point in the middle of a part depends on that part alone. So any piece of a curve, at any resolution, consists of
+//! exactly the points that the whole has there.
+//! Source: course unit V, section 5.6.1 (`fract`); L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
+
+use super::displacement::{Displacement, LEVELS as MAX_LEVELS, Part};
+use super::gaussian::Parameter;
+use crate::Error;
+use crate::num::{Real, Wide};
+use crate::picture::{Point2, Step};
+
+/// When a part is short enough to be drawn as a straight line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Stop {
+    /// When the parameter grows by no more than this along it: all parts are halved equally often.
+    Parameter(Parameter),
+    /// When `|x_1 - x_2| + |y_1 - y_2|`, which Carpenter calls the infinity norm, is less than this, or it has been halved as often as there are levels.
+    Norm(Real),
+    /// When the distance of its ends is less than this, or it has been halved as often as there are levels.
+    Length(Real),
+}
+
+/// Where a part ends, and how often it has been halved.
+#[derive(Debug, Clone, Copy, Default)]
+struct End {
+    point: Point2,
+    level: u32,
+}
+
+/// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size on a 32-bit machine: 12 bytes a level, and 96.
+#[derive(Debug, Clone)]
+pub struct Subdivision<'a, D, const LEVELS: usize> {
+    law: &'a D,
+    /// Knots that are not reached yet.
+    knots: &'a [Point2],
+    /// The last point.
+    from: Point2,
+    /// Its parameter.
+    at: i64,
+    /// The ends of the parts that begin where the one before ends; the last of them is next.
+    ends: [End; LEVELS],
+    waiting: usize,
+    /// The end of the part at hand, if there is one.
+    end: Option<End>,
+    span: Real,
+    levels: u32,
+    norm: u32,
+    /// The square of a length.
+    square: u64,
+    /// The piece of the curve that is wanted, if not all of it.
+    piece: [i64; 2],
+    partial: bool,
+    drawing: bool,
+}
+
+impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
+    /// The curve through `knots` that `law` describes; closed when the last knot is the first.
+    ///
+    /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision, with the
+    /// point that it yields: 207 Cortex-M4 instructions for an elbow that stops by parameter, 247 by length; 220 for one variable and 289 for two by norm;
+    /// 197 for a function.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for a limit of 0 or less, [`Error::Capacity`] when the parameter asks for more than
+    /// `LEVELS` or 31 halvings; what the law says against the knots.
+    pub fn new(law: &'a D, knots: &'a [Point2], stop: Stop) -> Result<Self, Error> {
+        let Some((first, rest)) = knots.split_first() else {
+            return Err(Error::TooFew { what: "knots", given: 0, at_least: 2 });
+        };
+        if rest.is_empty() {
+            return Err(Error::TooFew { what: "knots", given: 1, at_least: 2 });
+        }
+        law.check(knots)?;
+        let capacity = LEVELS.min(MAX_LEVELS - 1);
+        let mut curve = Self {
+            law,
+            knots: rest,
+            from: *first,
+            at: 0,
+            ends: [End::default(); LEVELS],
+            waiting: 0,
+            end: None,
+            span: Real::ZERO,
+            levels: capacity as u32,
+            norm: 0,
+            square: 0,
+            piece: [i64::MIN, i64::MAX],
+            partial: false,
+            drawing: false,
+        };
+        match stop {
+            Stop::Parameter(e) => {
+                let bits = positive("parameter step", e.to_bits(), Wide::saturating_from_num(e))?;
+                // the least k with 2^-k <= e
+                let levels = (1_u64 << 32).div_ceil(bits).next_power_of_two().trailing_zeros();
+                if levels > curve.levels {
+                    return Err(Error::Capacity { what: "levels", needed: levels as usize, capacity });
+                }
+                curve.levels = levels;
+            }
+            Stop::Norm(e) => curve.norm = positive("norm", e.to_bits().into(), e.into())? as u32,
+            Stop::Length(e) => {
+                let length = positive("length", e.to_bits().into(), e.into())?;
+                curve.square = length * length;
+            }
+        }
+        Ok(curve)
+    }
+
+    /// Only the piece between two parameters: the parts that lie in it at least partly. The points are those of the whole curve.
+    pub const fn between(mut self, first: Parameter, last: Parameter) -> Self {
+        self.piece = [first.to_bits(), last.to_bits()];
+        self.partial = true;
+        self
+    }
+
+    /// The parameter of the last point.
+    pub const fn parameter(&self) -> Parameter {
+        Parameter::from_bits(self.at)
+    }
+
+    #[inline]
+    fn is_short(&self, end: &End) -> bool {
+        if end.level >= self.levels {
+            return true;
+        }
+        let (from, to) = (self.from, end.point);
+        let (dx, dy) = (from.x.to_bits().abs_diff(to.x.to_bits()), from.y.to_bits().abs_diff(to.y.to_bits()));
+        if self.square > 0 {
+            // the sum of two squares of 32 bits may need 65
+            u64::from(dx).pow(2).saturating_add(u64::from(dy).pow(2)) < self.square
+        } else {
+            dx.saturating_add(dy) < self.norm
+        }
+    }
+
+    /// The part at hand is done with.
+    #[inline]
+    fn advance(&mut self, end: End, at: i64) {
+        self.from = end.point;
+        self.at = at;
+        self.end = match self.waiting.checked_sub(1) {
+            Some(index) => {
+                self.waiting = index;
+                self.ends.get(index).copied()
+            }
+            None => None,
+        };
+    }
+}
+
+fn positive(what: &'static str, bits: i64, value: Wide) -> Result<u64, Error> {
+    if bits <= 0 {
+        return Err(Error::OutOfRange { what, index: 0, value, min: Wide::DELTA, max: Wide::MAX });
+    }
+    Ok(bits.unsigned_abs())
+}
+
+impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVELS> {
+    type Item = Step;
+
+    #[inline]
+    fn next(&mut self) -> Option<Step> {
+        loop {
+            let Some(end) = self.end else {
+                let (knot, rest) = self.knots.split_first()?;
+                self.knots = rest;
+                self.span = knot.x.saturating_sub(self.from.x);
+                self.end = Some(End { point: *knot, level: 0 });
+                continue;
+            };
+            // level <= 31
+            let half = (1_u32 << 31) >> (end.level & 31);
+            let middle = self.at.wrapping_add(i64::from(half));
+            let until = middle.wrapping_add(i64::from(half));
+            if self.partial {
+                let [first, last] = self.piece;
+                if until <= first {
+                    self.advance(end, until);
+                    continue;
+                }
+                if self.at >= last {
+                    return None;
+                }
+            }
+            if self.is_short(&end) {
+                if !self.drawing {
+                    self.drawing = true;
+                    return Some(Step::MoveTo(self.from));
+                }
+                self.advance(end, until);
+                return Some(Step::LineTo(end.point));
+            }
+            let part = Part {
+                from: self.from,
+                to: end.point,
+                middle: Parameter::from_bits(middle),
+                level: end.level,
+                span: self.span,
+            };
+            let level = end.level + 1;
+            // each waiting end has a level of its own, 1 to `levels` <= LEVELS
+            *self.ends.get_mut(self.waiting)? = End { point: end.point, level };
+            self.waiting += 1;
+            self.end = Some(End { point: self.law.midpoint(&part), level });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::displaced;
+    use crate::curve::{Deviate, koch};
+
+    /// A law of one's own: always to the left by a quarter of the length.
+    struct Left;
+
+    impl Displacement for Left {
+        fn midpoint(&self, part: &Part) -> Point2 {
+            displaced(part, Deviate::ZERO, Deviate::from_num(0.25))
+        }
+    }
+
+    #[test]
+    fn a_law_of_your_own_needs_one_function() {
+        let quarter = Stop::Parameter(Parameter::from_num(0.25));
+        let points: std::vec::Vec<Step> =
+            Subdivision::<_, 2>::new(&Left, &koch::SEGMENT, quarter).unwrap().collect();
+        let at = |x: f64, y: f64| Point2::new(Real::from_num(x), Real::from_num(y));
+        let expected = [at(0.0, 0.0), at(0.1875, 0.25), at(0.5, 0.25), at(0.8125, 0.25), at(1.0, 0.0)];
+        assert!(points.iter().skip(1).eq(&expected.map(Step::LineTo)[1..]));
+        assert_eq!(points.first(), Some(&Step::MoveTo(expected[0])));
+    }
+
+    #[test]
+    fn the_parameter_follows_the_pen() {
+        let eighth = Stop::Parameter(Parameter::from_num(0.125));
+        let mut curve = Subdivision::<_, 3>::new(&Left, &koch::SEGMENT, eighth).unwrap();
+        for k in 0..=8 {
+            assert!(curve.next().is_some());
+            assert_eq!(curve.parameter(), Parameter::from_num(0.125) * k);
+        }
+        assert!(curve.next().is_none() && curve.next().is_none());
+    }
+
+    #[test]
+    fn sixteen_levels_take_at_most_400_bytes() {
+        assert!(size_of::<Subdivision<'_, Left, 16>>() <= 400, "{}", size_of::<Subdivision<'_, Left, 16>>());
+    }
+}
