@@ -8,6 +8,7 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::dwell::Word;
+use super::julia_set::checked_constant;
 use super::precision::Precision;
 use super::view::{Line, View, narrow};
 use super::{Complex, Dwell, checked_max};
@@ -43,13 +44,8 @@ impl Julia {
     /// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits; the larger part of `c` is reported),
     /// [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above [`MAX_DWELL`](super::MAX_DWELL).
     pub fn new(view: View, c: Complex<Wide>, max_dwell: u32) -> Result<Self, Error> {
-        const TWO: Wide = Wide::lit("2");
         let max = checked_max(max_dwell)?;
-        let Some(constant) = narrow(c) else {
-            let value = if c.re.unsigned_abs() > c.im.unsigned_abs() { c.re } else { c.im };
-            let what = "part of the constant c, |c| <= 2";
-            return Err(Error::OutOfRange { what, index: 0, value, min: -TWO, max: TWO });
-        };
+        let constant = checked_constant(c)?;
         Ok(Self { view, c, constant, max, precision: Precision::of(view.pitch(), max) })
     }
 

@@ -3,6 +3,7 @@
 //! A [`View`] says which point of the plane each pixel shows; [`Mandelbrot`] and [`Julia`] are [`Field`](crate::picture::Field)s whose
 //! value is a [`Dwell`]. Orbits run in 32-bit words with 29 fractional bits; a view finer than that is refused.
 
+mod backward;
 mod complex;
 mod count;
 mod dwell;
@@ -10,13 +11,17 @@ mod dwell;
 mod exact;
 mod interior;
 mod julia;
+mod julia_set;
 mod mandelbrot;
 mod precision;
+mod square_root;
 mod view;
 
+pub use backward::{BackwardIteration, MAX_DEPTH, PrunedIteration};
 pub use complex::Complex;
 pub use count::{Dwell, MAX_DWELL};
 pub use julia::{Julia, JuliaRow};
+pub use julia_set::{Connectedness, FixedPoint, JuliaSet, SimpleCase, Stability};
 pub use mandelbrot::{Mandelbrot, MandelbrotRow};
 pub use precision::Precision;
 pub use view::View;

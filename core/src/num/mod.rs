@@ -20,6 +20,7 @@ mod wide;
 pub use exponential::exp_minus;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
 pub use random::Alias;
+pub(crate) use root::root_and_reciprocal;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;

@@ -90,6 +90,21 @@ pub fn sqrt(v: u64) -> u32 {
     root as u32
 }
 
+/// `sqrt(v)` within 1 unit, with `1/sqrt(v)` as `mantissa / 2^shift` (see [`reciprocal_sqrt`]): half the cost of [`sqrt`].
+///
+/// Domain: `0 < v < 2^63` (0 counts as 1).
+#[inline]
+pub(crate) fn root_and_reciprocal(v: u64) -> (u32, u32, u32) {
+    let (m, half) = normal(v);
+    let y = reciprocal_sqrt_of(m);
+    let root = ((u64::from(m) * u64::from(y)) >> ((61 - half) & 63)) as u32;
+    // one Newton step with the remainder, as in `sqrt`; half of the last unit makes it the nearest
+    let rest = v.wrapping_sub(u64::from(root).wrapping_mul(u64::from(root))) as i64;
+    let half_unit = 1 << 30;
+    let correction = ((rest >> half).wrapping_mul(i64::from(y >> 1)).wrapping_add(half_unit)) >> 31;
+    (root.wrapping_add(correction as u32), y, 31 + half)
+}
+
 /// `v` as `m 4^half`, `m` with 30 fractional bits in `[1, 4)`, truncated.
 #[inline]
 fn normal(v: u64) -> (u32, u32) {
