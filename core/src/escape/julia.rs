@@ -8,6 +8,7 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::dwell::Word;
+use super::escape_time::Orbit;
 use super::julia_set::checked_constant;
 use super::precision::Precision;
 use super::view::{Line, View, narrow};
@@ -53,6 +54,18 @@ impl Julia {
     #[must_use]
     pub const fn with_precision(self, precision: Precision) -> Self {
         Self { precision, ..self }
+    }
+
+    pub(super) fn orbit_of(&self, c: Complex<Wide>) -> Option<Orbit> {
+        narrow(c).map(|z| Orbit { z, c: self.constant, by_constant: false })
+    }
+
+    pub(super) const fn constant_of(&self, _: Complex<Wide>) -> Complex<Wide> {
+        self.c
+    }
+
+    pub(super) fn through(self, view: View) -> Self {
+        Self { view, ..self }
     }
 
     /// The view.

@@ -4,26 +4,36 @@
 //! value is a [`Dwell`]. Orbits run in 32-bit words with 29 fractional bits; a view finer than that is refused.
 
 mod backward;
+mod block;
 mod complex;
 mod count;
+mod distance;
 mod dwell;
+mod escape_time;
 #[cfg(test)]
 mod exact;
 mod interior;
 mod julia;
 mod julia_set;
 mod mandelbrot;
+mod period;
 mod precision;
+mod row;
+mod smooth;
 mod square_root;
 mod view;
 
 pub use backward::{BackwardIteration, MAX_DEPTH, PrunedIteration};
 pub use complex::Complex;
 pub use count::{Dwell, MAX_DWELL};
+pub use distance::{Distance, DistanceRow};
+pub use escape_time::{EscapeTime, Orbit};
 pub use julia::{Julia, JuliaRow};
 pub use julia_set::{Connectedness, FixedPoint, JuliaSet, SimpleCase, Stability};
 pub use mandelbrot::{Mandelbrot, MandelbrotRow};
+pub use period::{Interior, InteriorRow, MAX_PERIOD, Period};
 pub use precision::Precision;
+pub use smooth::{FractionalDwell, Smooth, SmoothRow};
 pub use view::View;
 
 use count::checked_max;

@@ -10,6 +10,7 @@
 //! Ranges are checked in constructors; after that no operation of a kernel can wrap visibly.
 
 mod exponential;
+mod logarithm;
 mod polynomial;
 mod random;
 mod root;
@@ -18,6 +19,7 @@ mod vector;
 mod wide;
 
 pub use exponential::exp_minus;
+pub use logarithm::log2;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
 pub use random::Alias;
 pub(crate) use root::root_and_reciprocal;
