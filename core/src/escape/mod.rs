@@ -22,6 +22,7 @@ mod row;
 mod smooth;
 mod square_root;
 mod view;
+mod wide_dwell;
 
 pub use backward::{BackwardIteration, MAX_DEPTH, PrunedIteration};
 pub use complex::Complex;

@@ -1,0 +1,233 @@
+//! Dwell in 64-bit and 128-bit words, for pixels that 32 bits do not tell apart.
+//!
+//! Source and meaning: [`super::dwell`]. Format: Q4.60 and Q4.124, `[-8, 8)`. A step from `|z| <= 2` with `|c| <= 2` stays below 6: nothing wraps.
+//! `x^2`, `y^2` and `(x + y)^2 = x^2 + y^2 + 2 x y` need no signs and three squares: `re = x^2 - y^2 + c`, `im = (x + y)^2 - (x^2 + y^2) + c`.
+//! Squares are rounded down: an error below 1 unit in the real and 2 units in the imaginary part.
+
+/// A real word of an orbit.
+pub(super) trait WideWord: Copy + PartialEq {
+    /// The sum, which is known to fit.
+    fn plus(self, other: Self) -> Self;
+    /// The difference, which is known to fit.
+    fn minus(self, other: Self) -> Self;
+    /// The square, for `|self| < 4`.
+    fn square(self) -> Self;
+    /// The highest 32 bits: 28 of them fractional.
+    fn top(self) -> i32;
+    /// Whether `x^2 + y^2 > 4`, exactly.
+    fn is_beyond(x: Self, y: Self) -> bool;
+}
+
+/// `|z|^2` from which on the exact test decides, with 24 fractional bits: `4 - 2^-6`. The tops lose less than `2^-24`.
+const NEAR: u32 = (4 << 24) - (1 << 18);
+
+/// The dwell of the orbit that starts at `z`.
+///
+/// Domain: `|c| <= 2` unless `|z| > 2`. Result: iterations, `0..=max`. A point that comes back ends the loop, as in 32 bits.
+#[inline(never)]
+pub(super) fn dwell<W: WideWord>(z: (W, W), c: (W, W), max: u32) -> u32 {
+    let (mut x, mut y) = z;
+    let mut saved = z;
+    let mut left = max;
+    let mut window = 16_u32;
+    while left > 0 {
+        let block = window.min(left);
+        let mut unfinished = block;
+        while unfinished > 0 {
+            let (tx, ty) = (x.top(), y.top());
+            // |z| < 8 sqrt 2: below 2^31 as unsigned words
+            let norm = high(tx).wrapping_add(high(ty));
+            if norm >= NEAR && W::is_beyond(x, y) {
+                return max - left + (block - unfinished);
+            }
+            let (xx, yy, ss) = (x.square(), y.square(), x.plus(y).square());
+            x = xx.minus(yy).plus(c.0);
+            y = ss.minus(xx.plus(yy)).plus(c.1);
+            unfinished -= 1;
+            if unfinished & 7 == 0 && x == saved.0 && y == saved.1 {
+                return max;
+            }
+        }
+        left -= block;
+        saved = (x, y);
+        window = window.saturating_mul(2);
+    }
+    max
+}
+
+#[inline(always)]
+fn high(v: i32) -> u32 {
+    ((i64::from(v) * i64::from(v)) >> 32) as u32
+}
+
+/// The full product of two words and two more words: it just fits 64 bits (`UMAAL`).
+#[inline(always)]
+fn multiply_add(a: u32, b: u32, c: u32, d: u32) -> (u32, u32) {
+    let sum = u64::from(a) * u64::from(b) + u64::from(c) + u64::from(d);
+    (sum as u32, (sum >> 32) as u32)
+}
+
+impl WideWord for i64 {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
+    }
+
+    #[inline(always)]
+    fn square(self) -> Self {
+        let v = self.unsigned_abs();
+        let (low, high) = (v as u32, (v >> 32) as u32);
+        let (_, carry) = multiply_add(low, low, 0, 0);
+        let (word, cross) = multiply_add(low, high, carry, 0);
+        let (word1, carry) = multiply_add(low, high, word, 0);
+        let (word2, word3) = multiply_add(high, high, cross, carry);
+        // 120 fractional bits to 60
+        let low = (word2 << 4) | (word1 >> 28);
+        let high = (word3 << 4) | (word2 >> 28);
+        ((u64::from(high) << 32) | u64::from(low)) as i64
+    }
+
+    #[inline(always)]
+    fn top(self) -> i32 {
+        (self >> 32) as i32
+    }
+
+    #[cold]
+    fn is_beyond(x: Self, y: Self) -> bool {
+        // at most 2^126 each
+        let square = |v: i64| u128::from(v.unsigned_abs()) * u128::from(v.unsigned_abs());
+        square(x) + square(y) > 1 << 122
+    }
+}
+
+impl WideWord for i128 {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
+    }
+
+    #[inline(always)]
+    fn square(self) -> Self {
+        let v = self.unsigned_abs();
+        let [a, b, c, d] = [v as u32, (v >> 32) as u32, (v >> 64) as u32, (v >> 96) as u32];
+        // products of different words, without the lowest (a b, which reaches the result by a carry only)
+        let (w2, k) = multiply_add(a, c, 0, 0);
+        let (w3, k) = multiply_add(a, d, k, 0);
+        let (w3, l) = multiply_add(b, c, w3, 0);
+        let (w4, k) = multiply_add(b, d, k, l);
+        let (w5, w6) = multiply_add(c, d, k, 0);
+        // twice, and the squares of the words: b b at words 2 and 3, c c at 4 and 5, d d at 6 and 7
+        let word = |low: u32, high: u32| (high << 1) | (low >> 31);
+        let twice = [w2 << 1, word(w2, w3), word(w3, w4), word(w4, w5), word(w5, w6), w6 >> 31];
+        let (_, k) = multiply_add(b, b, twice[0], 0);
+        let (s3, k) = add(twice[1], k);
+        let (s4, k2) = multiply_add(c, c, twice[2], k);
+        let (s5, k) = add(twice[3], k2);
+        let (s6, s7) = multiply_add(d, d, twice[4], k);
+        let s7 = s7.wrapping_add(twice[5]);
+        let shifted = |low: u32, high: u32| u128::from((high << 4) | (low >> 28));
+        (shifted(s3, s4) | (shifted(s4, s5) << 32) | (shifted(s5, s6) << 64) | (shifted(s6, s7) << 96))
+            as i128
+    }
+
+    #[inline(always)]
+    fn top(self) -> i32 {
+        (self >> 96) as i32
+    }
+
+    #[cold]
+    fn is_beyond(x: Self, y: Self) -> bool {
+        // 248 fractional bits in two words of 128, as in `view`: the low half decides ties only
+        let square = |v: i128| {
+            let v = v.unsigned_abs();
+            let (low, high) = (v & u128::from(u64::MAX), v >> 64);
+            let cross = low * high; // below 2^127
+            let (sum, carry) = (low * low).overflowing_add(cross << 65);
+            (high * high + (cross >> 63) + u128::from(carry), sum)
+        };
+        let ((high_x, low_x), (high_y, low_y)) = (square(x), square(y));
+        let (low, carry) = low_x.overflowing_add(low_y);
+        let high = high_x + high_y + u128::from(carry);
+        high > 1 << 122 || (high == 1 << 122 && low > 0)
+    }
+}
+
+#[inline(always)]
+fn add(a: u32, b: u32) -> (u32, u32) {
+    let sum = u64::from(a) + u64::from(b);
+    (sum as u32, (sum >> 32) as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::escape::Complex;
+    use crate::escape::exact::dwell_248;
+    use crate::num::{Limbs, Wide};
+
+    #[test]
+    fn squares_are_rounded_down_by_less_than_a_unit() {
+        let mut word = 1_u64;
+        for k in 0..200_000 {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            let v = (word as i64) >> (1 + k % 61);
+            let exact = (i128::from(v) * i128::from(v)) >> 60;
+            assert_eq!(i128::from(v.square()), exact);
+            // 128 bits: against limbs, which round a product towards 0 with a column less
+            let wide = (i128::from(v) << 62) ^ (i128::from(word) << 20);
+            let limbs = Limbs::<4>::from_limbs([0, 32, 64, 96].map(|s| (wide >> s) as u32));
+            let off = wide.square() - limbs.times(&limbs).top128();
+            assert!((-1..=1).contains(&off), "{wide}: {off}");
+            // an exact square
+            let half = i128::from(v) << 62;
+            assert_eq!(half.square(), i128::from(v) * i128::from(v), "{v}");
+        }
+    }
+
+    #[test]
+    fn the_circle_is_exact() {
+        let two = 2_i64 << 60;
+        assert!(!i64::is_beyond(two, 0) && i64::is_beyond(two, 1) && i64::is_beyond(-two - 1, 0));
+        assert!(!i64::is_beyond(0, -two) && !i64::is_beyond(two - 1, 1 << 30));
+        let two = 2_i128 << 124;
+        assert!(!i128::is_beyond(two, 0) && i128::is_beyond(two, 1) && i128::is_beyond(-two - 1, 0));
+        assert!(!i128::is_beyond(0, -two) && i128::is_beyond(-two * 3, two * 3));
+        for k in [0_i128, 1, 1 << 30, 1 << 61, 1 << 62, (1 << 63) - 1, 1 << 63] {
+            // (2 - 2^-k..)
+            assert!(!i128::is_beyond(two - 1, k), "{k}");
+        }
+    }
+
+    #[test]
+    fn wide_dwell_agrees_with_248_bits() {
+        let (mut pixels, mut differ) = (0, [0, 0]);
+        for i in -40..40_i64 {
+            for j in 0..30_i64 {
+                let c = Complex::new(Wide::from_bits((i << 43) - (1 << 47)), Wide::from_bits(j << 43));
+                let (re, im) = (c.re.to_bits(), c.im.to_bits());
+                let exact = dwell_248(c, 700);
+                let narrow = (re << 12, im << 12);
+                let wide = (i128::from(re) << 76, i128::from(im) << 76);
+                if exact == 0 {
+                    continue;
+                }
+                pixels += 1;
+                differ[0] += u32::from(dwell(narrow, narrow, 700) != exact);
+                differ[1] += u32::from(dwell(wide, wide, 700) != exact);
+            }
+        }
+        std::println!("wide dwell: {differ:?} of {pixels}");
+        assert!(pixels > 1500 && differ[0] <= 1 && differ[1] == 0, "{differ:?} of {pixels}");
+    }
+}
