@@ -1,12 +1,15 @@
 //! Escape-time pictures: the dwell of the Mandelbrot set and of filled-in Julia sets.
 //!
 //! A [`View`] says which point of the plane each pixel shows; [`Mandelbrot`] and [`Julia`] are [`Field`](crate::picture::Field)s whose
-//! value is a [`Dwell`]. Orbits run in 32-bit words with 29 fractional bits; a view finer than that is refused.
+//! value is a [`Dwell`]. Orbits run in 32-bit words with 29 fractional bits; a view finer than that is refused;
+//! [`DeepView`] and [`DeepMandelbrot`] go on from there, with 64 bits, 128 bits, and perturbation.
 
 mod backward;
 mod block;
 mod complex;
 mod count;
+mod deep_mandelbrot;
+mod deep_view;
 mod distance;
 mod dwell;
 mod escape_time;
@@ -17,6 +20,7 @@ mod julia;
 mod julia_set;
 mod mandelbrot;
 mod period;
+mod perturbation;
 mod precision;
 mod row;
 mod smooth;
@@ -27,12 +31,15 @@ mod wide_dwell;
 pub use backward::{BackwardIteration, MAX_DEPTH, PrunedIteration};
 pub use complex::Complex;
 pub use count::{Dwell, MAX_DWELL};
+pub use deep_mandelbrot::{Arithmetic, DeepMandelbrot, DeepRow};
+pub use deep_view::DeepView;
 pub use distance::{Distance, DistanceRow};
 pub use escape_time::{EscapeTime, Orbit};
 pub use julia::{Julia, JuliaRow};
 pub use julia_set::{Connectedness, FixedPoint, JuliaSet, SimpleCase, Stability};
 pub use mandelbrot::{Mandelbrot, MandelbrotRow};
 pub use period::{Interior, InteriorRow, MAX_PERIOD, Period};
+pub use perturbation::OrbitPoint;
 pub use precision::Precision;
 pub use smooth::{FractionalDwell, Smooth, SmoothRow};
 pub use view::View;

@@ -10,7 +10,7 @@ pub(super) trait WideWord: Copy + PartialEq {
     fn plus(self, other: Self) -> Self;
     /// The difference, which is known to fit.
     fn minus(self, other: Self) -> Self;
-    /// The square, for `|self| < 4`.
+    /// The square modulo 16, for `|self| < 4`.
     fn square(self) -> Self;
     /// The highest 32 bits: 28 of them fractional.
     fn top(self) -> i32;
@@ -181,7 +181,9 @@ mod tests {
         let mut word = 1_u64;
         for k in 0..200_000 {
             word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            let v = (word as i64) >> (1 + k % 61);
+            // up to 2.8, beyond which the square does not fit
+            let v = ((word as i64) >> (1 + k % 61)).clamp(-(14 << 57), 14 << 57);
+            let v = if v.unsigned_abs() > 11 << 58 { v >> 1 } else { v };
             let exact = (i128::from(v) * i128::from(v)) >> 60;
             assert_eq!(i128::from(v.square()), exact);
             // 128 bits: against limbs, which round a product towards 0 with a column less
@@ -203,10 +205,11 @@ mod tests {
         let two = 2_i128 << 124;
         assert!(!i128::is_beyond(two, 0) && i128::is_beyond(two, 1) && i128::is_beyond(-two - 1, 0));
         assert!(!i128::is_beyond(0, -two) && i128::is_beyond(-two * 3, two * 3));
-        for k in [0_i128, 1, 1 << 30, 1 << 61, 1 << 62, (1 << 63) - 1, 1 << 63] {
-            // (2 - 2^-k..)
+        for k in [0_i128, 1, 1 << 30, 1 << 61, 1 << 62, (1 << 63) - 1] {
             assert!(!i128::is_beyond(two - 1, k), "{k}");
         }
+        // (2 - u)^2 + 4 u = 4 + u^2
+        assert!(i128::is_beyond(two - 1, 1 << 63));
     }
 
     #[test]
