@@ -42,17 +42,17 @@ pub(super) fn square_root(x: i64, y: i64) -> (i32, i32) {
     let square = u64::from(a) * u64::from(a) + u64::from(b) * u64::from(b); // 2^58 to 2^63
     let (modulus, ..) = root_and_reciprocal(square);
     // u with 30 fractional bits: sqrt((m + a) / 2 2^-29) 2^30 = sqrt((m + a) 2^30), between 2^29.5 and 2^31.3
-    let (large, reciprocal, shift) = root_and_reciprocal((u64::from(modulus) + u64::from(a)) << 30);
-    // v = b / (2 u): a quotient, and one correction from its remainder
-    let quotient = (u64::from(b) * u64::from(reciprocal)) >> (shift.wrapping_sub(30) & 63);
+    let (large, reciprocal, places) = root_and_reciprocal((u64::from(modulus) + u64::from(a)) << 30);
+    // v = b / (2 u): a quotient, and one correction from its remainder, which is below 2^38
+    let quotient = (u64::from(b) * u64::from(reciprocal)) >> (32 - (places & 3));
     let rest = (i64::from(b) << 30).wrapping_sub((quotient as i64).wrapping_mul(i64::from(large)));
-    let correction = ((rest >> 16).wrapping_mul(i64::from(reciprocal))) >> (shift.wrapping_sub(16) & 63);
-    let small = (quotient as i64).wrapping_add(correction);
+    let correction = (i64::from((rest >> 8) as i32) * i64::from((reciprocal >> 1) as i32)) >> 32;
+    let small = (quotient as u32).wrapping_add((correction as i32 >> (21 - (places & 3))) as u32);
     // back to 29 fractional bits, to nearest
     let down = half + 1;
     let bias = (1_u32 << down) >> 1;
     let large = (large.wrapping_add(bias) >> down) as i32;
-    let small = ((small as u32).wrapping_add(bias) >> down) as i32;
+    let small = (small.wrapping_add(bias) >> down) as i32;
     let (re, im) = if x >= 0 { (large, small) } else { (small, large) };
     (re, if y < 0 { -im } else { im })
 }

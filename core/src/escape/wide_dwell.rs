@@ -1,17 +1,17 @@
 //! Dwell in 64-bit and 128-bit words, for pixels that 32 bits do not tell apart.
 //!
 //! Source and meaning: [`super::dwell`]. Format: Q4.60 and Q4.124, `[-8, 8)`. A step from `|z| <= 2` with `|c| <= 2` stays below 6: nothing wraps.
-//! `x^2`, `y^2` and `(x + y)^2 = x^2 + y^2 + 2 x y` need no signs and three squares: `re = x^2 - y^2 + c`, `im = (x + y)^2 - (x^2 + y^2) + c`.
-//! Squares are rounded down: an error below 1 unit in the real and 2 units in the imaginary part.
+//!
+//! - 64 bits: `re = (x - y)(x + y) + c`, `im = 2 x y + c`, each product from four signed 32-bit ones. Rounded down: below 1.01 units a part.
+//! - 128 bits: squares need no signs and fewer products: `re = x^2 - y^2 + c`, `im = (x + y)^2 - (x^2 + y^2) + c`. Below 1 unit in the real, 2 in
+//!   the imaginary part.
+//!
+//! Cost in Cortex-M4 instructions, counted with QEMU: 53.9 an iteration in 64 bits, 255.8 in 128.
 
 /// A real word of an orbit.
 pub(super) trait WideWord: Copy + PartialEq {
-    /// The sum, which is known to fit.
-    fn plus(self, other: Self) -> Self;
-    /// The difference, which is known to fit.
-    fn minus(self, other: Self) -> Self;
-    /// The square modulo 16, for `|self| < 4`.
-    fn square(self) -> Self;
+    /// `z^2 + c` for `|z| <= 2`, `|c| <= 2`.
+    fn step(z: (Self, Self), c: (Self, Self)) -> (Self, Self);
     /// The highest 32 bits: 28 of them fractional.
     fn top(self) -> i32;
     /// Whether `x^2 + y^2 > 4`, exactly.
@@ -40,9 +40,7 @@ pub(super) fn dwell<W: WideWord>(z: (W, W), c: (W, W), max: u32) -> u32 {
             if norm >= NEAR && W::is_beyond(x, y) {
                 return max - left + (block - unfinished);
             }
-            let (xx, yy, ss) = (x.square(), y.square(), x.plus(y).square());
-            x = xx.minus(yy).plus(c.0);
-            y = ss.minus(xx.plus(yy)).plus(c.1);
+            (x, y) = W::step((x, y), c);
             unfinished -= 1;
             if unfinished & 7 == 0 && x == saved.0 && y == saved.1 {
                 return max;
@@ -67,29 +65,30 @@ fn multiply_add(a: u32, b: u32, c: u32, d: u32) -> (u32, u32) {
     (sum as u32, (sum >> 32) as u32)
 }
 
+/// Two signed halves, `high 2^32 + low`: four signed products make a product.
+#[inline(always)]
+fn halves(v: i64) -> (i32, i32) {
+    let low = v as i32;
+    (((v >> 32) as i32).wrapping_add(((low as u32) >> 31) as i32), low)
+}
+
+/// `a b / 2^(32 + DOWN)`, rounded down, low by less than another `2^-DOWN` units. Domain: `|a|, |b| < 4`, the product below 4.
+#[inline(always)]
+fn product<const DOWN: u32>(a: i64, b: i64) -> i64 {
+    let ((ah, al), (bh, bl)) = (halves(a), halves(b));
+    // the words in the middle: below 2^63 for factors of at most 2 sqrt 2
+    let middle = ((i64::from(al) * i64::from(bl)) >> 32)
+        .wrapping_add(i64::from(ah) * i64::from(bl))
+        .wrapping_add(i64::from(al) * i64::from(bh));
+    ((i64::from(ah) * i64::from(bh)) << (32 - DOWN)).wrapping_add(middle >> DOWN)
+}
+
 impl WideWord for i64 {
     #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        self.wrapping_add(other)
-    }
-
-    #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        self.wrapping_sub(other)
-    }
-
-    #[inline(always)]
-    fn square(self) -> Self {
-        let v = self.unsigned_abs();
-        let (low, high) = (v as u32, (v >> 32) as u32);
-        let (_, carry) = multiply_add(low, low, 0, 0);
-        let (word, cross) = multiply_add(low, high, carry, 0);
-        let (word1, carry) = multiply_add(low, high, word, 0);
-        let (word2, word3) = multiply_add(high, high, cross, carry);
-        // 120 fractional bits to 60
-        let low = (word2 << 4) | (word1 >> 28);
-        let high = (word3 << 4) | (word2 >> 28);
-        ((u64::from(high) << 32) | u64::from(low)) as i64
+    fn step((x, y): (Self, Self), c: (Self, Self)) -> (Self, Self) {
+        let real = product::<28>(x.wrapping_sub(y), x.wrapping_add(y));
+        let cross = product::<27>(x, y); // 2 x y
+        (real.wrapping_add(c.0), cross.wrapping_add(c.1))
     }
 
     #[inline(always)]
@@ -98,6 +97,7 @@ impl WideWord for i64 {
     }
 
     #[cold]
+    #[inline(never)]
     fn is_beyond(x: Self, y: Self) -> bool {
         // at most 2^126 each
         let square = |v: i64| u128::from(v.unsigned_abs()) * u128::from(v.unsigned_abs());
@@ -105,39 +105,36 @@ impl WideWord for i64 {
     }
 }
 
+/// The square of a Q4.124, modulo 16, rounded down. Domain: `|v| < 4`.
+#[inline(always)]
+fn square(v: i128) -> i128 {
+    let v = v.unsigned_abs();
+    let [a, b, c, d] = [v as u32, (v >> 32) as u32, (v >> 64) as u32, (v >> 96) as u32];
+    // products of different words, without the lowest (a b, which reaches the result by a carry only)
+    let (w2, k) = multiply_add(a, c, 0, 0);
+    let (w3, k) = multiply_add(a, d, k, 0);
+    let (w3, l) = multiply_add(b, c, w3, 0);
+    let (w4, k) = multiply_add(b, d, k, l);
+    let (w5, w6) = multiply_add(c, d, k, 0);
+    // twice, and the squares of the words: b b at words 2 and 3, c c at 4 and 5, d d at 6 and 7
+    let word = |low: u32, high: u32| (high << 1) | (low >> 31);
+    let twice = [w2 << 1, word(w2, w3), word(w3, w4), word(w4, w5), word(w5, w6), w6 >> 31];
+    let (_, k) = multiply_add(b, b, twice[0], 0);
+    let (s3, k) = add(twice[1], k);
+    let (s4, k2) = multiply_add(c, c, twice[2], k);
+    let (s5, k) = add(twice[3], k2);
+    let (s6, s7) = multiply_add(d, d, twice[4], k);
+    let s7 = s7.wrapping_add(twice[5]);
+    let shifted = |low: u32, high: u32| u128::from((high << 4) | (low >> 28));
+    (shifted(s3, s4) | (shifted(s4, s5) << 32) | (shifted(s5, s6) << 64) | (shifted(s6, s7) << 96)) as i128
+}
+
 impl WideWord for i128 {
     #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        self.wrapping_add(other)
-    }
-
-    #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        self.wrapping_sub(other)
-    }
-
-    #[inline(always)]
-    fn square(self) -> Self {
-        let v = self.unsigned_abs();
-        let [a, b, c, d] = [v as u32, (v >> 32) as u32, (v >> 64) as u32, (v >> 96) as u32];
-        // products of different words, without the lowest (a b, which reaches the result by a carry only)
-        let (w2, k) = multiply_add(a, c, 0, 0);
-        let (w3, k) = multiply_add(a, d, k, 0);
-        let (w3, l) = multiply_add(b, c, w3, 0);
-        let (w4, k) = multiply_add(b, d, k, l);
-        let (w5, w6) = multiply_add(c, d, k, 0);
-        // twice, and the squares of the words: b b at words 2 and 3, c c at 4 and 5, d d at 6 and 7
-        let word = |low: u32, high: u32| (high << 1) | (low >> 31);
-        let twice = [w2 << 1, word(w2, w3), word(w3, w4), word(w4, w5), word(w5, w6), w6 >> 31];
-        let (_, k) = multiply_add(b, b, twice[0], 0);
-        let (s3, k) = add(twice[1], k);
-        let (s4, k2) = multiply_add(c, c, twice[2], k);
-        let (s5, k) = add(twice[3], k2);
-        let (s6, s7) = multiply_add(d, d, twice[4], k);
-        let s7 = s7.wrapping_add(twice[5]);
-        let shifted = |low: u32, high: u32| u128::from((high << 4) | (low >> 28));
-        (shifted(s3, s4) | (shifted(s4, s5) << 32) | (shifted(s5, s6) << 64) | (shifted(s6, s7) << 96))
-            as i128
+    fn step((x, y): (Self, Self), c: (Self, Self)) -> (Self, Self) {
+        let (xx, yy, ss) = (square(x), square(y), square(x.wrapping_add(y)));
+        let cross = ss.wrapping_sub(xx.wrapping_add(yy));
+        (xx.wrapping_sub(yy).wrapping_add(c.0), cross.wrapping_add(c.1))
     }
 
     #[inline(always)]
@@ -146,6 +143,7 @@ impl WideWord for i128 {
     }
 
     #[cold]
+    #[inline(never)]
     fn is_beyond(x: Self, y: Self) -> bool {
         // 248 fractional bits in two words of 128, as in `view`: the low half decides ties only
         let square = |v: i128| {
@@ -177,23 +175,30 @@ mod tests {
     use crate::num::{Limbs, Wide};
 
     #[test]
-    fn squares_are_rounded_down_by_less_than_a_unit() {
+    fn products_are_rounded_down_by_a_unit() {
         let mut word = 1_u64;
         for k in 0..200_000 {
             word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             // up to 2.8, beyond which the square does not fit
             let v = ((word as i64) >> (1 + k % 61)).clamp(-(14 << 57), 14 << 57);
             let v = if v.unsigned_abs() > 11 << 58 { v >> 1 } else { v };
-            let exact = (i128::from(v) * i128::from(v)) >> 60;
-            assert_eq!(i128::from(v.square()), exact);
+            let w = (word.rotate_left(29) as i64) >> 3;
+            for (a, b) in [(v, v), (v, w), (-v, w)] {
+                let exact = |down: u32| (i128::from(a) * i128::from(b)) >> down;
+                if exact(60).abs() < 1 << 62 {
+                    let (single, double) = (product::<28>(a, b), product::<27>(a, b));
+                    assert!((0..=1).contains(&(exact(60) - i128::from(single))), "{a} {b}");
+                    assert!((0..=1).contains(&(exact(59) - i128::from(double))), "{a} {b}");
+                }
+            }
             // 128 bits: against limbs, which round a product towards 0 with a column less
             let wide = (i128::from(v) << 62) ^ (i128::from(word) << 20);
             let limbs = Limbs::<4>::from_limbs([0, 32, 64, 96].map(|s| (wide >> s) as u32));
-            let off = wide.square() - limbs.times(&limbs).top128();
+            let off = square(wide) - limbs.times(&limbs).top128();
             assert!((-1..=1).contains(&off), "{wide}: {off}");
             // an exact square
             let half = i128::from(v) << 62;
-            assert_eq!(half.square(), i128::from(v) * i128::from(v), "{v}");
+            assert_eq!(square(half), i128::from(v) * i128::from(v), "{v}");
         }
     }
 
