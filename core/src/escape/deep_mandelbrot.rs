@@ -135,7 +135,8 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
             }
             (None, Arithmetic::Word64) => {
                 let c = self.view.point(column, row);
-                let c = (c.re.top64(), c.im.top64());
+                let nearest = |v: i128| ((v + (1 << 63)) >> 64) as i64;
+                let c = (nearest(c.re.top128()), nearest(c.im.top128()));
                 wide_dwell::dwell(c, c, self.max)
             }
             (None, _) => {
