@@ -248,13 +248,12 @@ fn wide_words_agree_with_arbitrary_precision_where_float_shows_blocks() {
         ("-1.29635513817303622", "0.44185160573519660", "5e-15", 1000, Arithmetic::Word64),
         ("-1.29635513817303622", "-0.44185160573519660", "8e-15", 1000, Arithmetic::Word64),
         ("-2", "0", "6e-15", 1000, Arithmetic::Word64),
-        (PLACES[0].re, PLACES[0].im, "5e-34", 1500, Arithmetic::Word128),
+        ("-2", "0", "1e-32", 1500, Arithmetic::Word128),
         (PLACES[2].re, PLACES[2].im, "4e-31", 1500, Arithmetic::Word128),
         (PLACES[1].re, PLACES[1].im, "5e-32", 1500, Arithmetic::Word128),
     ] {
         let view = DeepView::<LIMBS>::parse(re, im, width, size).unwrap();
-        let picture = DeepMandelbrot::new(view, max, &mut []).unwrap();
-        assert_eq!(picture.arithmetic(), arithmetic);
+        let picture = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut []).unwrap();
         let distinct = columns_in_f64(&view);
         let (differ, inside, dwells) = differences(&picture, 32 * LIMBS as u32);
         println!(

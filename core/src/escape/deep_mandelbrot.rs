@@ -19,20 +19,21 @@ use crate::picture::Field;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Arithmetic {
-    /// Q4.60: the default for a pitch of at least `2^-53`.
+    /// Q4.60: the default for a pitch of at least `2^-52`.
     Word64,
-    /// Q4.124: the default for a pitch of at least `2^-117`.
+    /// Q4.124: the default for a pitch of at least `2^-112`.
     Word128,
     /// One reference orbit, and blocks of 30 bits for the distance of each pixel from it: the default for every deeper view.
     Perturbed,
 }
 
 impl Arithmetic {
-    /// What suits a pitch of `2^exponent` and more: 7 bits behind a pixel.
+    /// What suits a pitch of `2^exponent` and more: 8 and 12 bits behind a pixel. At chaotic places
+    /// that shows all the same: at the spiral `M_{4,1}` 10 of 1600 pixels differ at a pitch of `2^-112`, 15 at `2^-48` in 64 bits.
     pub const fn of(exponent: i32) -> Self {
         match exponent {
-            -53.. => Self::Word64,
-            -117.. => Self::Word128,
+            -52.. => Self::Word64,
+            -112.. => Self::Word128,
             _ => Self::Perturbed,
         }
     }
@@ -227,10 +228,10 @@ mod tests {
             (Arithmetic::of(view.pitch_exponent()), DeepMandelbrot::orbit_points(&view, 700))
         };
         assert_eq!(of("1"), (Arithmetic::Word64, 0));
-        assert_eq!(of("1e-14"), (Arithmetic::Word64, 0));
-        assert_eq!(of("1e-15"), (Arithmetic::Word128, 0));
-        assert_eq!(of("1e-33"), (Arithmetic::Word128, 0));
-        assert_eq!(of("1e-34"), (Arithmetic::Perturbed, 700));
+        assert_eq!(of("2e-14"), (Arithmetic::Word64, 0));
+        assert_eq!(of("1e-14"), (Arithmetic::Word128, 0));
+        assert_eq!(of("2e-32"), (Arithmetic::Word128, 0));
+        assert_eq!(of("1e-32"), (Arithmetic::Perturbed, 700));
     }
 
     #[test]

@@ -17,6 +17,8 @@ pub trait EscapeTime: Field<Value = Dwell> {
     fn orbit(&self, point: Complex<Wide>) -> Option<Orbit>;
     /// The constant of that orbit.
     fn constant_at(&self, point: Complex<Wide>) -> Complex<Wide>;
+    /// Whether conjugate points have the same dwell, to the last bit.
+    fn is_mirrored(&self) -> bool;
     /// The same picture through another view.
     #[must_use]
     fn with_view(self, view: View) -> Self
@@ -42,7 +44,7 @@ impl Orbit {
 }
 
 macro_rules! escape_time {
-    ($($picture:ty)*) => {$(
+    ($($picture:ty, $mirrored:literal;)*) => {$(
         impl EscapeTime for $picture {
             fn view(&self) -> &View {
                 self.view()
@@ -66,6 +68,10 @@ macro_rules! escape_time {
                 self.constant_of(point)
             }
 
+            fn is_mirrored(&self) -> bool {
+                $mirrored
+            }
+
             fn with_view(self, view: View) -> Self {
                 self.through(view)
             }
@@ -73,4 +79,4 @@ macro_rules! escape_time {
     )*};
 }
 
-escape_time! { Mandelbrot Julia }
+escape_time! { Mandelbrot, true; Julia, false; }

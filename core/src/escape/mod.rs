@@ -6,6 +6,7 @@
 
 mod backward;
 mod block;
+mod canvas;
 mod complex;
 mod count;
 mod deep_mandelbrot;
@@ -15,6 +16,7 @@ mod dwell;
 mod escape_time;
 #[cfg(test)]
 mod exact;
+mod filled;
 mod interior;
 mod julia;
 mod julia_set;
@@ -29,12 +31,14 @@ mod view;
 mod wide_dwell;
 
 pub use backward::{BackwardIteration, MAX_DEPTH, PrunedIteration};
+pub use canvas::{Canvas, CanvasRow};
 pub use complex::Complex;
 pub use count::{Dwell, MAX_DWELL};
 pub use deep_mandelbrot::{Arithmetic, DeepMandelbrot, DeepRow};
 pub use deep_view::DeepView;
 pub use distance::{Distance, DistanceRow};
 pub use escape_time::{EscapeTime, Orbit};
+pub use filled::{Filled, FilledRow};
 pub use julia::{Julia, JuliaRow};
 pub use julia_set::{Connectedness, FixedPoint, JuliaSet, SimpleCase, Stability};
 pub use mandelbrot::{Mandelbrot, MandelbrotRow};
@@ -42,6 +46,6 @@ pub use period::{Interior, InteriorRow, MAX_PERIOD, Period};
 pub use perturbation::OrbitPoint;
 pub use precision::Precision;
 pub use smooth::{FractionalDwell, Smooth, SmoothRow};
-pub use view::View;
+pub use view::{MAX_PAN, View};
 
 use count::checked_max;
