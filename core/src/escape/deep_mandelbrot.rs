@@ -14,7 +14,8 @@ use crate::picture::Field;
 
 /// How the orbits of a deep view are computed.
 ///
-/// Cost in Cortex-M4 instructions, an iteration: see [`DeepMandelbrot`].
+/// Cost in Cortex-M4 instructions, counted with QEMU: an iteration 58 in 64 bits, 256 in 128, 157 to 182 by perturbation; a point of a reference orbit in
+/// 12 limbs 7900.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
