@@ -250,7 +250,7 @@ fn wide_words_agree_with_arbitrary_precision_where_float_shows_blocks() {
         ("-2", "0", "6e-15", 1000, Arithmetic::Word64),
         ("-2", "0", "1e-32", 1500, Arithmetic::Word128),
         (PLACES[2].re, PLACES[2].im, "4e-31", 1500, Arithmetic::Word128),
-        (PLACES[1].re, PLACES[1].im, "5e-32", 1500, Arithmetic::Word128),
+        (PLACES[1].re, PLACES[1].im, "1e-30", 1500, Arithmetic::Word128),
     ] {
         let view = DeepView::<LIMBS>::parse(re, im, width, size).unwrap();
         let picture = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut []).unwrap();

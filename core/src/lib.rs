@@ -10,7 +10,7 @@
 //! | [picture] | the three kinds of picture, windows onto the plane |
 //! | [fif] | fractal interpolation functions: evaluation, calculus, bounds, tensor-product surfaces |
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
-//! | [escape] | dwell of the Mandelbrot set and of filled Julia sets |
+//! | [escape] | dwell of the Mandelbrot set and of filled Julia sets, backward iteration, deep zoom |
 //! | [trace] | a scanline ray caster for height fields |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!

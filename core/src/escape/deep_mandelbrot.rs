@@ -22,19 +22,19 @@ use crate::picture::Field;
 pub enum Arithmetic {
     /// Q4.60: the default for a pitch of at least `2^-52`.
     Word64,
-    /// Q4.124: the default for a pitch of at least `2^-112`.
+    /// Q4.124: the default for a pitch of at least `2^-104`.
     Word128,
     /// One reference orbit, and blocks of 30 bits for the distance of each pixel from it: the default for every deeper view.
     Perturbed,
 }
 
 impl Arithmetic {
-    /// What suits a pitch of `2^exponent` and more: 8 and 12 bits behind a pixel. At chaotic places
-    /// that shows all the same: at the spiral `M_{4,1}` 10 of 1600 pixels differ at a pitch of `2^-112`, 15 at `2^-48` in 64 bits.
+    /// What suits a pitch of `2^exponent` and more: 8 and 20 bits behind a pixel (below that perturbation is better and costs less). At chaotic places
+    /// that shows all the same: at the spiral `M_{4,1}` 10 of 1600 pixels differ in 128 bits at a pitch of `2^-112`, 15 in 64 bits at `2^-48`.
     pub const fn of(exponent: i32) -> Self {
         match exponent {
             -52.. => Self::Word64,
-            -112.. => Self::Word128,
+            -104.. => Self::Word128,
             _ => Self::Perturbed,
         }
     }
@@ -231,8 +231,8 @@ mod tests {
         assert_eq!(of("1"), (Arithmetic::Word64, 0));
         assert_eq!(of("2e-14"), (Arithmetic::Word64, 0));
         assert_eq!(of("1e-14"), (Arithmetic::Word128, 0));
-        assert_eq!(of("2e-32"), (Arithmetic::Word128, 0));
-        assert_eq!(of("1e-32"), (Arithmetic::Perturbed, 700));
+        assert_eq!(of("4e-30"), (Arithmetic::Word128, 0));
+        assert_eq!(of("2e-30"), (Arithmetic::Perturbed, 700));
     }
 
     #[test]
