@@ -85,6 +85,13 @@ pub enum Error {
         /// Index of the map.
         map: usize,
     },
+    /// A text that cannot be read.
+    Malformed {
+        /// What it should be.
+        what: &'static str,
+        /// Position of the first byte that does not belong.
+        position: usize,
+    },
     /// A direction or an extent is zero.
     Degenerate {
         /// What is.
@@ -120,6 +127,7 @@ impl fmt::Display for Error {
                 f,
                 "map {map} has a vertical scaling no smaller than its horizontal one: no derivative exists"
             ),
+            Self::Malformed { what, position } => write!(f, "this is no {what}: look at byte {position}"),
             Self::Degenerate { what } => write!(f, "{what} is zero"),
         }
     }

@@ -11,7 +11,7 @@
 //! | [fif] | fractal interpolation functions: evaluation, calculus, bounds, tensor-product surfaces |
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
 //! | [curve] | curves by refinement: Koch, Hilbert and their relatives; random curves: elbows, Carpenter's subdivision |
-//! | [escape] | dwell of the Mandelbrot set and of filled Julia sets |
+//! | [escape] | dwell of the Mandelbrot set and of filled Julia sets, backward iteration, deep zoom |
 //! | [trace] | a scanline ray caster for height fields |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!

@@ -2,7 +2,7 @@
 //!
 //! Format: 16 bits, `0..=65535` for `0..=1`.
 
-use crate::escape::Dwell;
+use crate::escape::{Dwell, FractionalDwell, MAX_PERIOD, Period};
 use crate::num::Real;
 use crate::trace::Tone;
 
@@ -128,6 +128,43 @@ impl Leveled for Dwell {
     #[inline]
     fn is_inside(&self) -> bool {
         Dwell::is_inside(*self)
+    }
+}
+
+/// The level is the share of the limit; the count is the whole part.
+impl Leveled for FractionalDwell {
+    #[inline]
+    fn level(&self) -> Level {
+        // 11 fractional bits and a limit of at most 2^20: the same shift on both sides
+        Level::ratio(self.dwell.to_bits(), self.max.saturating_mul(1 << 11))
+    }
+
+    #[inline]
+    fn count(&self) -> u32 {
+        self.dwell.to_bits() >> 11
+    }
+
+    #[inline]
+    fn is_inside(&self) -> bool {
+        FractionalDwell::is_inside(*self)
+    }
+}
+
+/// The level is the share of the longest period; a point without one is off the scale, and black. Use it with [`Ramp`](crate::draw::Ramp).
+impl Leveled for Period {
+    #[inline]
+    fn level(&self) -> Level {
+        Level::ratio(self.0, MAX_PERIOD)
+    }
+
+    #[inline]
+    fn count(&self) -> u32 {
+        self.0
+    }
+
+    #[inline]
+    fn is_inside(&self) -> bool {
+        self.0 == 0
     }
 }
 

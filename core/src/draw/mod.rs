@@ -45,6 +45,7 @@
 mod clip;
 mod cursor;
 mod cycle;
+mod equalised;
 mod gradient;
 pub mod gradients;
 mod image;
@@ -61,6 +62,7 @@ mod testing;
 
 pub use cursor::RowCursor;
 pub use cycle::{Cycled, Ramp};
+pub use equalised::Equalised;
 pub use gradient::Gradient;
 pub use image::{Colors, Picture};
 pub use ink::{Ink, bayer, dithered, luma};

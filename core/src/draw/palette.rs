@@ -5,7 +5,7 @@
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
-use crate::draw::{Cycled, Gradient, Level, Leveled, Ramp};
+use crate::draw::{Cycled, Equalised, Gradient, Level, Leveled, Ramp};
 
 /// Turns a value into a display-independent colour.
 ///
@@ -72,6 +72,7 @@ by_reference! {
     [V] Grey, V;
     [V, P] Inside<P>, V;
     [V, P] Lifted<P>, V;
+    ['a, V, P] Equalised<'a, P>, V;
     [V, P] Cycled<P>, V;
     [V, const N: usize] Gradient<N>, V;
     [V, const N: usize] Ramp<N>, V;

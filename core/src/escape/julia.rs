@@ -8,6 +8,8 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::dwell::Word;
+use super::escape_time::Orbit;
+use super::julia_set::checked_constant;
 use super::precision::Precision;
 use super::view::{Line, View, narrow};
 use super::{Complex, Dwell, checked_max};
@@ -43,13 +45,8 @@ impl Julia {
     /// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits; the larger part of `c` is reported),
     /// [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above [`MAX_DWELL`](super::MAX_DWELL).
     pub fn new(view: View, c: Complex<Wide>, max_dwell: u32) -> Result<Self, Error> {
-        const TWO: Wide = Wide::lit("2");
         let max = checked_max(max_dwell)?;
-        let Some(constant) = narrow(c) else {
-            let value = if c.re.unsigned_abs() > c.im.unsigned_abs() { c.re } else { c.im };
-            let what = "part of the constant c, |c| <= 2";
-            return Err(Error::OutOfRange { what, index: 0, value, min: -TWO, max: TWO });
-        };
+        let constant = checked_constant(c)?;
         Ok(Self { view, c, constant, max, precision: Precision::of(view.pitch(), max) })
     }
 
@@ -57,6 +54,18 @@ impl Julia {
     #[must_use]
     pub const fn with_precision(self, precision: Precision) -> Self {
         Self { precision, ..self }
+    }
+
+    pub(super) fn orbit_of(&self, c: Complex<Wide>) -> Option<Orbit> {
+        narrow(c).map(|z| Orbit { z, c: self.constant, by_constant: false })
+    }
+
+    pub(super) const fn constant_of(&self, _: Complex<Wide>) -> Complex<Wide> {
+        self.c
+    }
+
+    pub(super) fn through(self, view: View) -> Self {
+        Self { view, ..self }
     }
 
     /// The view.

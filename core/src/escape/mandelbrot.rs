@@ -8,6 +8,7 @@ use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
 
+use super::escape_time::Orbit;
 use super::interior;
 use super::precision::Precision;
 use super::view::{Line, View, narrow};
@@ -49,6 +50,22 @@ impl Mandelbrot {
     #[must_use]
     pub const fn with_precision(self, precision: Precision) -> Self {
         Self { precision, ..self }
+    }
+
+    pub(super) fn orbit_of(&self, c: Complex<Wide>) -> Option<Orbit> {
+        let c = narrow(c)?;
+        // the conjugate, as `dwell_at`
+        let c = (c.0, c.1.wrapping_abs());
+        Some(Orbit { z: c, c, by_constant: true })
+    }
+
+    #[inline(always)]
+    pub(super) const fn constant_of(&self, point: Complex<Wide>) -> Complex<Wide> {
+        point
+    }
+
+    pub(super) fn through(self, view: View) -> Self {
+        Self { view, ..self }
     }
 
     /// The view.

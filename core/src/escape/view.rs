@@ -20,6 +20,9 @@ use crate::picture::checked_size;
 /// Fractional bits that a point loses when it becomes a [`Word`].
 const NARROWED: u32 = Wide::FRAC_NBITS - FRACTION;
 
+/// The most pixels by which [`View::pan`] moves a view.
+pub const MAX_PAN: u32 = (1 << 15) - 1;
+
 /// A rectangle of the complex plane and the square pixels that show it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct View {
@@ -29,6 +32,8 @@ pub struct View {
     /// Half a pitch, `W / (2 cols)`: quotient in units of `2^-48`, and remainder.
     half_pitch: i64,
     rest: i32,
+    /// Pixels by which the view was panned, to the right and up.
+    panned: (i32, i32),
 }
 
 impl View {
@@ -73,7 +78,7 @@ impl View {
                 return Err(Error::OutOfRange { what, index: 0, value, min: Wide::MIN, max: Wide::MAX });
             }
         }
-        Ok(Self { centre, width, size, half_pitch: quotient, rest: rest as i32 })
+        Ok(Self { centre, width, size, half_pitch: quotient, rest: rest as i32, panned: (0, 0) })
     }
 
     /// The whole Mandelbrot set: centre `-3/4`, at least 3 wide and 5/2 high, as large as it fits.
@@ -91,7 +96,7 @@ impl View {
         Self::new(Complex::new(CENTRE, Wide::ZERO), Wide::from_bits(fitting.max(WIDTH)), size)
     }
 
-    /// The point in the middle.
+    /// The point that was in the middle when the view was made.
     pub const fn centre(&self) -> Complex<Wide> {
         self.centre
     }
@@ -104,6 +109,39 @@ impl View {
     /// Width and height in pixels.
     pub const fn size(&self) -> Size {
         self.size
+    }
+
+    /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] when an edge leaves `-32768 .. 32768`, or after more than [`MAX_PAN`] pixels in one direction.
+    pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
+        let panned = (self.panned.0.saturating_add(right), self.panned.1.saturating_add(up));
+        for (what, middle, steps, side) in [
+            ("real part at an edge", self.centre.re, panned.0, self.size.width),
+            ("imaginary part at an edge", self.centre.im, panned.1, self.size.height),
+        ] {
+            let pixels = Wide::saturating_from_num(steps);
+            let most = Wide::from_num(MAX_PAN as i16);
+            if steps.unsigned_abs() > MAX_PAN {
+                let what = "pixels to pan";
+                return Err(Error::OutOfRange { what, index: 0, value: pixels, min: -most, max: most });
+            }
+            // at most 2^14 + 2^16 half pitches of at most 2^63 units
+            let half_pitches = i128::from(2 * steps.unsigned_abs() + side) + 1;
+            let reach = i128::from(middle.to_bits().unsigned_abs())
+                + half_pitches * (i128::from(self.half_pitch) + 1);
+            if reach > i128::from(i64::MAX) {
+                return Err(Error::OutOfRange {
+                    what,
+                    index: 0,
+                    value: Wide::MAX,
+                    min: Wide::MIN,
+                    max: Wide::MAX,
+                });
+            }
+        }
+        Ok(Self { panned, ..*self })
     }
 
     /// The distance of two neighbouring pixels, rounded down.
@@ -128,24 +166,24 @@ impl View {
 
     fn ordinate(&self, row: u32) -> Wide {
         let row = row.min(self.size.height - 1);
-        let (im, rest) = self.offset(self.size.height as i32 - 1 - 2 * row as i32);
+        let (im, rest) = self.offset(self.size.height as i32 - 1 - 2 * row as i32 + 2 * self.panned.1);
         sticky(self.centre.im.to_bits().wrapping_add(im), rest)
     }
 
     fn abscissa(&self, column: u32) -> (i64, i32) {
         let column = column.min(self.size.width);
-        let (re, rest) = self.offset(2 * column as i32 + 1 - self.size.width as i32);
+        let (re, rest) = self.offset(2 * column as i32 + 1 - self.size.width as i32 + 2 * self.panned.0);
         (self.centre.re.to_bits().wrapping_add(re), rest)
     }
 
-    /// `n` half pitches as a quotient, rounded down, and a remainder over `2 cols`. |n| <= 2^14 + 1.
+    /// `n` half pitches as a quotient, rounded down, and a remainder over `2 cols`. |n| <= 2^22.
     fn offset(&self, n: i32) -> (i64, i32) {
-        let divisor = self.divisor();
-        let rest = n * self.rest; // below 2^30
+        let divisor = i64::from(self.divisor());
+        let rest = i64::from(n) * i64::from(self.rest); // below 2^37
         let whole = rest.checked_div_euclid(divisor).unwrap_or(0);
         let rest = rest.checked_rem_euclid(divisor).unwrap_or(0);
         // edges were checked, one pixel beyond may wrap and is never used
-        (self.half_pitch.wrapping_mul(i64::from(n)).wrapping_add(i64::from(whole)), rest)
+        (self.half_pitch.wrapping_mul(i64::from(n)).wrapping_add(whole), rest as i32)
     }
 
     const fn divisor(&self) -> i32 {

@@ -6,10 +6,13 @@
 //! | [`Unit`] | I2F30 | 9e-10 | direction cosines, weights, matrix entries |
 //! | [`Scaling`] | I1F31 | 5e-10 | contraction factors, strictly inside (-1, 1) |
 //! | [`Wide`] | I16F48 | 4e-15 | abscissae and descriptions: what a scene says before it is compiled |
+//! | [`Limbs`] | 4 bits and as many 32-bit limbs as it takes | 2^-(32 n - 4) | coordinates of deep zooms |
 //!
 //! Ranges are checked in constructors; after that no operation of a kernel can wrap visibly.
 
+mod decimal;
 mod exponential;
+mod limbs;
 mod logarithm;
 mod polynomial;
 mod random;
@@ -19,9 +22,11 @@ mod vector;
 mod wide;
 
 pub use exponential::exp_minus;
+pub use limbs::Limbs;
 pub use logarithm::log2;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
 pub use random::Alias;
+pub(crate) use root::root_and_reciprocal;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;

@@ -1,0 +1,145 @@
+//! Complex numbers of any size with a short mantissa: two 32-bit parts that share an exponent.
+//!
+//! `(re + i im) 2^exponent`, the larger part between `2^29` and `2^30` in magnitude: block floating point, as in J. H. Wilkinson, "Rounding Errors
+//! in Algebraic Processes", 1963, section 1.26. A derivative and the distance of two neighbouring orbits have such numbers: 30
+//! bits are plenty, the range is not bounded. Each operation rounds to nearest once, `2^-30` of the larger part.
+
+/// `(re + i im) 2^exponent`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Block {
+    pub(super) re: i32,
+    pub(super) im: i32,
+    pub(super) exponent: i32,
+}
+
+impl Block {
+    /// 0, smaller than everything else.
+    pub(super) const ZERO: Self = Self { re: 0, im: 0, exponent: -(1 << 28) };
+    /// 1.
+    pub(super) const ONE: Self = Self { re: 1 << 29, im: 0, exponent: -29 };
+
+    /// The nearest block. Domain: `|re|, |im| < 2^62`.
+    #[inline]
+    pub(super) fn new(re: i64, im: i64, exponent: i32) -> Self {
+        let magnitude = ((re ^ (re >> 63)) | (im ^ (im >> 63))) as u64;
+        let places = 34 - magnitude.leading_zeros() as i32; // -30 to 33
+        if places > 0 {
+            let half = (1_i64 << (places & 63)) >> 1;
+            let round = |v: i64| (v.wrapping_add(half) >> (places & 63)) as i32;
+            Self { re: round(re), im: round(im), exponent: exponent + places }
+        } else if magnitude == 0 && re | im == 0 {
+            Self::ZERO
+        } else {
+            let up = places.unsigned_abs() & 63;
+            Self { re: (re << up) as i32, im: (im << up) as i32, exponent: exponent + places }
+        }
+    }
+
+    /// The product.
+    #[inline]
+    pub(super) fn times(self, other: Self) -> Self {
+        let (a, b) = (i64::from(self.re), i64::from(self.im));
+        let (x, y) = (i64::from(other.re), i64::from(other.im));
+        // at most 2^30 each: sums of at most 2^61
+        Self::new(a * x - b * y, a * y + b * x, self.exponent + other.exponent)
+    }
+
+    /// The sum. What is more than `2^31` times smaller does not count.
+    #[inline]
+    pub(super) fn plus(self, other: Self) -> Self {
+        let (large, small) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
+        let apart = (large.exponent - small.exponent) as u32;
+        if apart > 31 {
+            return large;
+        }
+        let sum = |a: i32, b: i32| (i64::from(a) << (apart & 31)) + i64::from(b);
+        Self::new(sum(large.re, small.re), sum(large.im, small.im), small.exponent)
+    }
+
+    /// Twice the number.
+    #[inline]
+    pub(super) const fn doubled(self) -> Self {
+        Self { exponent: self.exponent + 1, ..self }
+    }
+
+    /// `|self|^2` as a mantissa, `2^58` to `2^61` (0 for 0), and an exponent.
+    #[inline]
+    pub(super) fn square(self) -> (u64, i32) {
+        let (a, b) = (i64::from(self.re), i64::from(self.im));
+        ((a * a + b * b) as u64, 2 * self.exponent)
+    }
+
+    /// Whether `|self| > 2`.
+    #[inline]
+    pub(super) fn is_beyond_two(self) -> bool {
+        // 2^30 2^exponent is the largest part: below 1 up to an exponent of -31
+        if self.exponent < -29 {
+            return false;
+        }
+        if self.exponent > -27 {
+            return true;
+        }
+        let (mantissa, exponent) = self.square();
+        // 4 = 2^2; the exponent is between -58 and -54
+        mantissa > 1_u64 << ((2 - exponent) & 63)
+    }
+
+    /// Whether `|self| < |other|`.
+    #[inline]
+    pub(super) fn is_less(self, other: Self) -> bool {
+        let apart = self.exponent - other.exponent;
+        // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
+        if !(-1..=1).contains(&apart) {
+            return apart < 0;
+        }
+        let ((a, _), (b, _)) = (self.square(), other.square());
+        if apart >= 0 { a << ((2 * apart as u32) & 3) < b } else { a < b << ((2 * apart.unsigned_abs()) & 3) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(b: Block) -> (f64, f64) {
+        let scale = 2_f64.powi(b.exponent.max(-1000));
+        (f64::from(b.re) * scale, f64::from(b.im) * scale)
+    }
+
+    fn samples() -> impl Iterator<Item = Block> {
+        (0..400_i64).map(|k| {
+            let word = k.wrapping_mul(0x9e37_79b9_7f4a_7c15_u64 as i64);
+            Block::new(word >> (k % 40 + 3), (word << 17) >> (k % 23 + 3), (k % 50) as i32 - 60)
+        })
+    }
+
+    #[test]
+    fn sums_products_and_comparisons_are_those_of_float() {
+        let mut worst = 0.0_f64;
+        for a in samples().chain([Block::ZERO, Block::ONE]) {
+            for b in samples().chain([Block::ZERO, Block::ONE]) {
+                let ((x, y), (u, v)) = (value(a), value(b));
+                let product = (x * u - y * v, x * v + y * u);
+                let sum = (x + u, y + v);
+                for (got, (re, im)) in [(a.times(b), product), (a.plus(b), sum)] {
+                    let size = got.re.unsigned_abs().max(got.im.unsigned_abs());
+                    assert!(size == 0 || (1 << 29..=1 << 30).contains(&size));
+                    let (p, q) = value(got);
+                    let error = (p - re).abs().max((q - im).abs());
+                    let terms = if (re, im) == sum { 0.0 } else { x.hypot(y) * u.hypot(v) };
+                    worst = worst.max(error / re.abs().max(im.abs()).max(terms).max(1e-300));
+                }
+                let (m, n) = (x.hypot(y), u.hypot(v));
+                if (m - n).abs() > 1e-9 * m {
+                    assert_eq!(a.is_less(b), m < n, "{a:?} {b:?}");
+                }
+                if (m - 2.0).abs() > 1e-9 {
+                    assert_eq!(a.is_beyond_two(), m > 2.0, "{a:?}");
+                }
+            }
+        }
+        assert!(worst > 1e-11 && worst < 2_f64.powi(-29), "{worst:e}");
+        assert!(!Block::ONE.doubled().is_beyond_two() && Block::ONE.plus(Block::ONE) == Block::ONE.doubled());
+    }
+}

@@ -1,0 +1,249 @@
+//! A whole picture in a lent buffer: half of a symmetric one is copied, and what stays in sight while panning is moved.
+//!
+//! Conjugate points have conjugate orbits and the same dwell: rows at `y` and `-y` are equal. A view that is panned by whole pixels shows the same points
+//! ([`View::pan`](super::View::pan)), so that neither the mirror nor panning changes a pixel.
+
+use core::ops::Range;
+
+use embedded_graphics_core::geometry::Size;
+
+use super::Dwell;
+use super::escape_time::EscapeTime;
+use crate::Error;
+use crate::picture::Field;
+
+/// An escape-time picture, computed, in a lent buffer of 16 bits a pixel.
+///
+/// ```
+/// use attractor::escape::{Canvas, Mandelbrot, View};
+/// use embedded_graphics_core::geometry::Size;
+/// let mut counts = [0; 24 * 20];
+/// let mut canvas = Canvas::new(Mandelbrot::new(View::home(Size::new(24, 20))?, 100)?, &mut counts)?;
+/// assert_eq!(canvas.computed(), 24 * 10);
+/// canvas.pan(3, 0)?;
+/// assert_eq!(canvas.computed(), 3 * 20);
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Canvas<'a, P> {
+    picture: P,
+    counts: &'a mut [u16],
+    computed: usize,
+}
+
+impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
+    /// Computes the whole picture.
+    ///
+    /// # Errors
+    /// [`Error::BufferLength`] unless there is one count a pixel, [`Error::Capacity`] for more than 65535 iterations.
+    pub fn new(picture: P, counts: &'a mut [u16]) -> Result<Self, Error> {
+        let size = picture.size();
+        let needed = size.width as usize * size.height as usize;
+        if counts.len() != needed {
+            return Err(Error::BufferLength { given: counts.len(), needed });
+        }
+        let (most, max) = (usize::from(u16::MAX), picture.max_dwell() as usize);
+        if max > most {
+            let what = "iterations in 16 bits";
+            return Err(Error::Capacity { what, needed: max, capacity: most });
+        }
+        let mut canvas = Self { picture, counts, computed: 0 };
+        canvas.compute(0..size.height);
+        Ok(canvas)
+    }
+
+    /// The picture.
+    pub const fn picture(&self) -> &P {
+        &self.picture
+    }
+
+    /// How many pixels the last change computed; the others were copied.
+    pub const fn computed(&self) -> usize {
+        self.computed
+    }
+
+    /// Moves the view by whole pixels, to the right and up, and computes what comes into sight.
+    ///
+    /// # Errors
+    /// As [`View::pan`](super::View::pan); the picture is then unchanged.
+    pub fn pan(&mut self, right: i32, up: i32) -> Result<(), Error> {
+        self.picture = self.picture.with_view(self.picture.view().pan(right, up)?);
+        self.computed = 0;
+        let size = self.picture.size();
+        let (width, height) = (size.width as usize, size.height as usize);
+        let (across, down) = (right.unsigned_abs() as usize, up.unsigned_abs() as usize);
+        if across >= width || down >= height {
+            self.compute(0..size.height);
+            return Ok(());
+        }
+        // the picture moves the other way; within the buffer both shifts are one
+        let kept = (height - down) * width;
+        let (from, to) = if up >= 0 { (0, down * width) } else { (down * width, 0) };
+        if from != to {
+            self.counts.copy_within(from..from + kept, to);
+        }
+        let exposed = if up >= 0 { 0..down as u32 } else { (height - down) as u32..size.height };
+        for row in self.counts.chunks_exact_mut(width.max(1)) {
+            if right >= 0 { row.rotate_left(across) } else { row.rotate_right(across) }
+        }
+        let columns = if right >= 0 { size.width - across as u32..size.width } else { 0..across as u32 };
+        for y in (0..size.height).filter(|y| !exposed.contains(y)) {
+            self.compute_row(y, columns.clone());
+        }
+        self.compute(exposed);
+        Ok(())
+    }
+
+    /// Computes whole rows, or copies them from their mirror images, which come before them.
+    fn compute(&mut self, rows: Range<u32>) {
+        let size = self.picture.size();
+        let (width, all) = (size.width as usize, 0..size.width);
+        for y in rows.clone() {
+            match self.mirror_image(y) {
+                // an upper row that has been computed already, or was kept
+                Some(image) if image < y && rows.contains(&image) => {
+                    let from = image as usize * width;
+                    self.counts.copy_within(from..from + width, y as usize * width);
+                }
+                _ => self.compute_row(y, all.clone()),
+            }
+        }
+    }
+
+    fn compute_row(&mut self, y: u32, columns: Range<u32>) {
+        let start = y as usize * self.picture.size().width as usize + columns.start as usize;
+        let slots = self.counts.get_mut(start..start + columns.len()).unwrap_or(&mut []);
+        self.computed += slots.len();
+        for (slot, dwell) in slots.iter_mut().zip(self.picture.row(y, columns)) {
+            *slot = dwell.count as u16;
+        }
+    }
+
+    /// The row at the conjugate points, if the view has it.
+    fn mirror_image(&self, y: u32) -> Option<u32> {
+        if !self.picture.is_mirrored() {
+            return None;
+        }
+        let view = self.picture.view();
+        let ordinate = |row: u32| view.point(0, row).im.to_bits();
+        // rows are equally spaced: the sum of the indices is the same for all pairs
+        let (first, last) = (ordinate(0), ordinate(self.picture.size().height - 1));
+        let pitch = view.pitch().to_bits();
+        if last >= 0 || first <= 0 || ordinate(y) >= 0 {
+            return None;
+        }
+        // (first - -y) / pitch, to nearest
+        let steps = (first.wrapping_add(ordinate(y)) + pitch / 2).checked_div_euclid(pitch)?;
+        let image = u32::try_from(steps).ok()?;
+        (image < self.picture.size().height && ordinate(image) == -ordinate(y)).then_some(image)
+    }
+}
+
+impl<P: EscapeTime> Field for Canvas<'_, P> {
+    type Value = Dwell;
+    type Row<'b>
+        = CanvasRow<'b>
+    where
+        Self: 'b;
+
+    fn size(&self) -> Size {
+        self.picture.size()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> CanvasRow<'_> {
+        let start = y as usize * self.picture.size().width as usize + x.start as usize;
+        let counts = self.counts.get(start..start + x.len()).unwrap_or(&[]);
+        CanvasRow { counts: counts.iter(), max: self.picture.max_dwell() }
+    }
+}
+
+/// The dwells of a row, from left to right.
+#[derive(Debug, Clone)]
+pub struct CanvasRow<'a> {
+    counts: core::slice::Iter<'a, u16>,
+    max: u32,
+}
+
+impl Iterator for CanvasRow<'_> {
+    type Item = Dwell;
+
+    #[inline]
+    fn next(&mut self) -> Option<Dwell> {
+        self.counts.next().map(|count| Dwell { count: u32::from(*count), max: self.max })
+    }
+
+    #[inline]
+    fn nth(&mut self, n: usize) -> Option<Dwell> {
+        self.counts.nth(n).map(|count| Dwell { count: u32::from(*count), max: self.max })
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.counts.size_hint()
+    }
+}
+
+impl ExactSizeIterator for CanvasRow<'_> {}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::escape::{Complex, Julia, Mandelbrot, View};
+    use crate::num::Wide;
+    use std::vec;
+
+    fn assert_is_plain<P: EscapeTime + Copy>(canvas: &Canvas<'_, P>) {
+        let size = canvas.size();
+        for y in 0..size.height {
+            assert!(canvas.row(y, 0..size.width).eq(canvas.picture().row(y, 0..size.width)), "row {y}");
+        }
+    }
+
+    #[test]
+    fn the_mirror_changes_no_pixel_and_halves_the_work() {
+        for (w, h, im) in [(60, 50, 0.0), (61, 51, 0.0), (64, 48, 0.28125), (64, 48, 0.1), (60, 50, 3.0)] {
+            let centre = Complex::new(Wide::from_num(-0.7), Wide::from_num(im));
+            let view = View::new(centre, Wide::from_num(3), Size::new(w, h)).unwrap();
+            let mut counts = vec![0; (w * h) as usize];
+            let canvas = Canvas::new(Mandelbrot::new(view, 200).unwrap(), &mut counts).unwrap();
+            assert_is_plain(&canvas);
+            if im == 0.0 {
+                assert_eq!(canvas.computed(), (w * h.div_ceil(2)) as usize);
+            } else if im == 0.28125 {
+                assert!(canvas.computed() < (w * h) as usize * 3 / 4);
+            }
+        }
+    }
+
+    #[test]
+    fn panning_changes_no_pixel_and_computes_what_comes_into_sight() {
+        let centre = Complex::new(Wide::from_num(-0.7), Wide::from_num(0.3));
+        let view = View::new(centre, Wide::from_num(1.1), Size::new(50, 40)).unwrap();
+        let mut counts = vec![0; 2000];
+        let mut canvas = Canvas::new(Mandelbrot::new(view, 100).unwrap(), &mut counts).unwrap();
+        for (right, up) in
+            [(1, 0), (0, 1), (-3, 5), (7, -9), (0, -1), (49, 39), (0, 0), (50, 1), (-200, 3), (190, -40)]
+        {
+            canvas.pan(right, up).unwrap();
+            assert_is_plain(&canvas);
+            let (across, down) = (right.unsigned_abs().min(50) as usize, up.unsigned_abs().min(40) as usize);
+            assert!(canvas.computed() <= 2000 - (50 - across) * (40 - down));
+        }
+        assert!(canvas.pan(1 << 20, 0).is_err() && canvas.pan(i32::MIN, i32::MAX).is_err());
+        assert_is_plain(&canvas);
+        let home = View::new(Complex::default(), Wide::from_num(4), Size::new(50, 40)).unwrap();
+        let julia = Julia::new(home, Complex::new(Wide::from_num(-0.1), Wide::from_num(0.7)), 99).unwrap();
+        let mut canvas = Canvas::new(julia, &mut counts).unwrap();
+        canvas.pan(-5, 4).unwrap();
+        assert_is_plain(&canvas);
+    }
+
+    #[test]
+    fn a_buffer_of_another_length_names_the_right_one() {
+        let picture = Mandelbrot::new(View::home(Size::new(9, 7)).unwrap(), 70_000).unwrap();
+        let error = Canvas::new(picture, &mut [0; 62]).err();
+        assert_eq!(error, Some(Error::BufferLength { given: 62, needed: 63 }));
+        assert!(matches!(Canvas::new(picture, &mut [0; 63]), Err(Error::Capacity { needed: 70_000, .. })));
+    }
+}

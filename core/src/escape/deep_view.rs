@@ -1,0 +1,188 @@
+//! A grid of square pixels in the complex plane, as fine as its coordinates have limbs.
+//!
+//! As [`View`](super::View), eq. 5 of course unit V around the centre: `M.x + (2 i + 1 - cols) W / (2 cols)`, `M.y + (rows - 1 - 2 j) W / (2 cols)`, with quotient and
+//! remainder of `W / (2 cols)` kept apart. The coordinates come as decimal strings.
+
+use embedded_graphics_core::geometry::Size;
+
+use super::Complex;
+use super::block::Block;
+use crate::Error;
+use crate::num::{Limbs, Wide};
+use crate::picture::checked_size;
+
+/// Bits that a pixel must have behind it: rounding a corner of a pixel then shows nowhere.
+const GUARD: u32 = 8;
+
+/// A rectangle of the complex plane and the square pixels that show it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DeepView<const LIMBS: usize> {
+    centre: Complex<Limbs<LIMBS>>,
+    width: Limbs<LIMBS>,
+    size: Size,
+    /// `W / (2 cols)`: quotient and remainder.
+    half_pitch: Limbs<LIMBS>,
+    rest: u32,
+}
+
+impl<const LIMBS: usize> DeepView<LIMBS> {
+    /// The rectangle around `centre` that is `width` wide; its height follows from the size.
+    ///
+    /// Domain: width and height above 0 and at most 4, the centre within 4 of 0 in each part, 8 bits behind the pitch.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the width, the height, the part of the centre or the side of the picture; [`Error::Capacity`] says how many
+    /// limbs a width as small as this takes.
+    pub fn new(centre: Complex<Limbs<LIMBS>>, width: Limbs<LIMBS>, size: Size) -> Result<Self, Error> {
+        const FOUR: Wide = Wide::lit("4");
+        let size = checked_size(size)?;
+        let out = |what, value, min| Err(Error::OutOfRange { what, index: 0, value, min, max: FOUR });
+        let wide = width.to_wide();
+        let highest = match width.highest_bit() {
+            Some(bit) if !width.is_negative() => bit,
+            _ => return out("width of the view", wide, Wide::DELTA),
+        };
+        if wide >= FOUR {
+            return out("width of the view", wide, Wide::DELTA);
+        }
+        // below 2^51 2^14, shifted down first
+        let height =
+            ((wide.to_bits() >> 16) * i64::from(size.height)).checked_div(i64::from(size.width)).unwrap_or(0);
+        if height >= FOUR.to_bits() >> 16 {
+            let height = Wide::from_bits(height.saturating_mul(1 << 16));
+            return out("height of the view", height, Wide::DELTA);
+        }
+        for (what, part) in
+            [("real part of the centre", &centre.re), ("imaginary part of the centre", &centre.im)]
+        {
+            let part = part.to_wide();
+            if part.unsigned_abs() > FOUR.unsigned_abs() {
+                return out(what, part, -FOUR);
+            }
+        }
+        let bits = size.width.ilog2() + 1 + GUARD;
+        if highest < bits {
+            let needed = (Limbs::<LIMBS>::FRACTION + 4 + bits - highest).div_ceil(32) as usize;
+            let what = "limbs for so small a width";
+            return Err(Error::Capacity { what, needed: needed.max(LIMBS + 1), capacity: LIMBS });
+        }
+        let (half_pitch, rest) = width.divided(2 * size.width);
+        Ok(Self { centre, width, size, half_pitch, rest })
+    }
+
+    /// [`DeepView::new`] with coordinates in decimal.
+    ///
+    /// ```
+    /// use attractor::escape::DeepView;
+    /// use embedded_graphics_core::geometry::Size;
+    /// let view = DeepView::<12>::parse("-1.9999999999999999999999999999", "0", "1e-60", Size::new(64, 64))?;
+    /// assert_eq!(view.size().width, 64);
+    /// assert!(DeepView::<12>::parse("-2", "0", "0", Size::new(64, 64)).is_err());
+    /// # Ok::<(), attractor::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`DeepView::new`], and as [`Limbs::from_str`](core::str::FromStr::from_str): too many digits are told how many fit.
+    pub fn parse(re: &str, im: &str, width: &str, size: Size) -> Result<Self, Error> {
+        Self::new(Complex::new(re.parse()?, im.parse()?), width.parse()?, size)
+    }
+
+    /// The point in the middle.
+    pub const fn centre(&self) -> &Complex<Limbs<LIMBS>> {
+        &self.centre
+    }
+
+    /// The width of the rectangle.
+    pub const fn width(&self) -> &Limbs<LIMBS> {
+        &self.width
+    }
+
+    /// Width and height in pixels.
+    pub const fn size(&self) -> Size {
+        self.size
+    }
+
+    /// The middle of pixel `(column, row)`, `(0, 0)` at the upper left.
+    ///
+    /// Domain: inside [`DeepView::size`]; others count as the nearest pixel. Error: below a unit of the last place.
+    pub fn point(&self, column: u32, row: u32) -> Complex<Limbs<LIMBS>> {
+        let (across, up) = self.steps(column, row);
+        Complex::new(self.centre.re.plus(&self.offset(across)), self.centre.im.plus(&self.offset(up)))
+    }
+
+    /// Half pitches from the centre, to the right and up: odd or even, at most 2^14.
+    pub(super) fn steps(&self, column: u32, row: u32) -> (i32, i32) {
+        let (width, height) = (self.size.width as i32, self.size.height as i32);
+        let column = column.min(self.size.width - 1) as i32;
+        let row = row.min(self.size.height - 1) as i32;
+        (2 * column + 1 - width, height - 1 - 2 * row)
+    }
+
+    fn offset(&self, steps: i32) -> Limbs<LIMBS> {
+        let divisor = 2 * i64::from(self.size.width);
+        let units = (i64::from(steps) * i64::from(self.rest)).checked_div_euclid(divisor).unwrap_or(0);
+        self.half_pitch.times_small(steps).plus_units(units)
+    }
+
+    /// The exponent of 2 just below the pitch: `2^e <= pitch < 2^(e + 1)`.
+    pub fn pitch_exponent(&self) -> i32 {
+        let highest = self.half_pitch.highest_bit().unwrap_or(0) as i32;
+        highest + 1 - Limbs::<LIMBS>::FRACTION as i32
+    }
+
+    /// Half a pitch as a real block. Error: `2^-30` of it.
+    pub(super) fn half_pitch_block(&self) -> Block {
+        let Some(highest) = self.width.highest_bit() else { return Block::ZERO };
+        // 62 bits of the width over 2 cols
+        let bits = (u64::from(self.width.window(highest)) << 30)
+            | u64::from(highest.checked_sub(32).map_or(0, |p| self.width.window(p)) >> 2);
+        let quotient = bits.checked_div(2 * u64::from(self.size.width)).unwrap_or(0);
+        Block::new(quotient as i64, 0, highest as i32 - 61 - Limbs::<LIMBS>::FRACTION as i32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::escape::View;
+
+    #[test]
+    fn the_grid_is_that_of_the_narrow_view() {
+        let centre = Complex::new(Wide::from_num(-0.7), Wide::from_num(0.3));
+        for (w, h) in [(64, 48), (240, 135), (7, 100)] {
+            let size = Size::new(w, h);
+            let width = Wide::from_num(0.25);
+            let limbs = |v| Limbs::<5>::from_wide(v).unwrap();
+            let narrow = View::new(centre, width, size).unwrap();
+            let deep =
+                DeepView::new(Complex::new(limbs(centre.re), limbs(centre.im)), limbs(width), size).unwrap();
+            for (x, y) in [(0, 0), (w - 1, h - 1), (w / 2, h / 3), (1, 5)] {
+                let (a, b) = (narrow.point(x, y), deep.point(x, y));
+                assert!(
+                    (a.re - b.re.to_wide()).abs() <= Wide::DELTA
+                        && (a.im - b.im.to_wide()).abs() <= Wide::DELTA
+                );
+            }
+            let pitch =
+                2.0 * f64::from(deep.half_pitch_block().re) * 2_f64.powi(deep.half_pitch_block().exponent);
+            assert!((pitch / (0.25 / f64::from(w)) - 1.0).abs() < 2e-9);
+            assert_eq!(deep.pitch_exponent(), (0.25 / f64::from(w)).log2().floor() as i32);
+        }
+    }
+
+    #[test]
+    fn widths_of_0_and_below_and_too_fine_ones_are_refused() {
+        let size = Size::new(64, 64);
+        let view = |width: &str| DeepView::<4>::parse("-0.5", "0", width, size);
+        for width in ["0", "-1", "-1e-30", "4", "7.5"] {
+            let error = view(width).unwrap_err();
+            assert!(matches!(error, Error::OutOfRange { what: "width of the view", .. }), "{width}: {error}");
+        }
+        assert!(view("1e-32").is_ok());
+        assert!(matches!(view("1e-36"), Err(Error::Capacity { needed: 5, capacity: 4, .. })));
+        assert!(matches!(view("1e-50"), Err(Error::Capacity { capacity: 37, .. })));
+        assert!(DeepView::<4>::parse("5", "0", "1", size).is_err());
+        assert!(DeepView::<4>::parse("0", "0", "1", Size::new(1, 9)).is_err());
+        assert!(DeepView::<4>::parse("0", "0", "1", Size::new(0, 9)).is_err());
+    }
+}

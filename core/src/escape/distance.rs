@@ -1,0 +1,152 @@
+//! The distance from an outer point to the set, estimated: `|z_n| ln |z_n|^2 / |z'_n|`, in pixels.
+//!
+//! Source: H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.2.5, from J. Milnor: the true distance `d` satisfies
+//! `estimate / 4 < d < estimate` (Koebe's quarter theorem) in the limit. `z' <- 2 z z' + 1` (Mandelbrot), `2 z z'` (Julia).
+//! Format: the derivative as two 32-bit mantissas and a shared exponent.
+
+use core::ops::Range;
+
+use embedded_graphics_core::geometry::Size;
+
+use super::block::Block;
+use super::escape_time::{EscapeTime, Orbit};
+use super::view::Line;
+use super::{Complex, Dwell};
+use crate::num::{Real, Wide, log2, sqrt};
+use crate::picture::Field;
+
+/// The estimated distance at every pixel, in pixels: none inside. As a level, 1 is a pixel and more: thin parts of the set stay visible.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Distance<P>(
+    /// The picture.
+    pub P,
+);
+
+impl<P: EscapeTime> Distance<P> {
+    /// The estimate at a point, in pixels of the view.
+    ///
+    /// Domain: all. Result: saturated at the end of [`Real`], none where the orbit does not escape. Error: below 1 in 1000 of the estimate and one unit,
+    /// beside that of the orbit (`the_estimate_agrees_with_float`). Cost: the dwell, the same number of steps once more with a derivative, two logarithms:
+    /// 7.1 million Cortex-M4 instructions for the whole set on 60 x 50 pixels, against 0.54 million of the dwell alone.
+    pub fn value_at(&self, point: Complex<Wide>) -> Option<Real> {
+        let Dwell { count, max } = self.0.dwell_at(point);
+        if count >= max {
+            return None;
+        }
+        let Some(orbit) = self.0.orbit(point) else { return Some(Real::MAX) };
+        let (estimate, exponent) = estimate(orbit, count)?;
+        // the pitch as 31 bits and an exponent
+        let pitch = self.0.view().pitch().to_bits().unsigned_abs();
+        let places = 33 - pitch.leading_zeros() as i32;
+        let pitch = if places > 0 { pitch >> places } else { pitch << -places };
+        let quotient = (estimate << 31).checked_div(pitch)?;
+        // to 24 fractional bits
+        let places = exponent - 31 - places + 48 + 24;
+        let bits = if places >= 0 {
+            if (quotient.leading_zeros() as i32) > places { quotient << places } else { u64::MAX }
+        } else {
+            quotient.checked_shr(places.unsigned_abs()).unwrap_or(0)
+        };
+        Some(Real::from_bits(bits.min(i32::MAX as u64) as i32))
+    }
+}
+
+/// `|z| ln |z|^2 / |z'|` after the orbit has gone on to `|z| > 1024`: mantissa of at most 32 bits, and exponent.
+fn estimate(mut orbit: Orbit, count: u32) -> Option<(u64, i32)> {
+    let gain = if orbit.by_constant { Block::ONE } else { Block::ZERO };
+    let mut derivative = Block::ONE;
+    let word = |(x, y): (i32, i32)| Block::new(i64::from(x), i64::from(y), -29);
+    for _ in 1..count {
+        derivative = word(orbit.z).times(derivative).doubled().plus(gain);
+        orbit.step();
+    }
+    let (mut z, c) = (word(orbit.z), word(orbit.c));
+    for _ in 0..64 {
+        // the larger part is at least 2^29 2^exponent
+        if z.exponent > 10 - 29 {
+            break;
+        }
+        derivative = z.times(derivative).doubled().plus(gain);
+        z = z.times(z).plus(c);
+    }
+    let (square, twice) = z.square();
+    // ln |z|^2 with 24 fractional bits, below 2^30
+    const LN_2: u64 = 0xb172_17f7; // 32 fractional bits
+    let log = i64::from(log2(square)) + (i64::from(twice) << 24);
+    let log = (u64::try_from(log).ok()? * LN_2) >> 32;
+    let quotient = (u64::from(sqrt(square)) * log).checked_div(u64::from(sqrt(derivative.square().0)))?;
+    Some((quotient, z.exponent - derivative.exponent - 24))
+}
+
+impl<P: EscapeTime> Field for Distance<P> {
+    type Value = Option<Real>;
+    type Row<'a>
+        = DistanceRow<'a, P>
+    where
+        P: 'a;
+
+    fn size(&self) -> Size {
+        self.0.size()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> DistanceRow<'_, P> {
+        DistanceRow { picture: self, line: self.0.view().line(y, x) }
+    }
+}
+
+/// The distances of a row, from left to right.
+#[derive(Debug, Clone)]
+pub struct DistanceRow<'a, P> {
+    picture: &'a Distance<P>,
+    line: Line,
+}
+
+super::row::values_along_a_line!(DistanceRow, Option<Real>);
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::escape::{Mandelbrot, View};
+
+    fn float(c: (f64, f64)) -> f64 {
+        let ((mut x, mut y), (mut a, mut b)) = (c, (1.0, 0.0));
+        while x * x + y * y < 2_f64.powi(60) {
+            (a, b) = (2.0 * (x * a - y * b) + 1.0, 2.0 * (x * b + y * a));
+            (x, y) = (x * x - y * y + c.0, 2.0 * x * y + c.1);
+        }
+        x.hypot(y) * (x * x + y * y).ln() / a.hypot(b)
+    }
+
+    #[test]
+    fn the_estimate_agrees_with_float() {
+        let view = View::home(Size::new(120, 100)).unwrap();
+        let picture = Distance(Mandelbrot::new(view, 60).unwrap());
+        let pitch: f64 = view.pitch().to_num();
+        let (mut worst, mut outside, mut near) = (0.0_f64, 0, 0);
+        for (x, y) in (0..100).flat_map(|y| (0..120).map(move |x| (x, y))) {
+            let c = view.point(x, y);
+            if let Some(d) = picture.value_at(c) {
+                // later the orbits themselves part
+                if d == Real::MAX || picture.0.dwell_at(c).count > 20 {
+                    continue;
+                }
+                outside += 1;
+                near += u32::from(d < 1);
+                let exact = float((c.re.to_num(), c.im.to_num())) / pitch;
+                worst = worst.max(((d.to_num::<f64>() - exact).abs() - 6e-8).max(0.0) / exact);
+            }
+        }
+        std::println!("distance: {worst:e} of {outside}, {near} near");
+        assert!(outside > 5000 && near > 100);
+        assert!(worst > 0.0 && worst < 0.001, "{worst:e}");
+    }
+
+    #[test]
+    fn a_row_is_the_row_of_points() {
+        let picture = Distance(Mandelbrot::new(View::home(Size::new(40, 30)).unwrap(), 60).unwrap());
+        let mut row = picture.row(7, 3..30);
+        assert_eq!(row.nth(4), Some(picture.value_at(picture.0.view().point(7, 7))));
+        assert_eq!(row.len(), 22);
+    }
+}

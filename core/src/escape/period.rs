@@ -1,0 +1,145 @@
+//! The interior by period: which cycle the orbit of a point of the set is drawn to.
+//!
+//! Source: B. Branner, "The Mandelbrot set", 1989: each hyperbolic component is the set of `c` whose orbits tend to a cycle of one length. After `Num`
+//! steps the orbit is compared with its own next points until one is nearer than `2^-20`.
+
+use core::ops::Range;
+
+use embedded_graphics_core::geometry::Size;
+
+use super::Complex;
+use super::escape_time::EscapeTime;
+use super::view::Line;
+use crate::num::Wide;
+use crate::picture::Field;
+
+/// The longest cycle that is looked for.
+pub const MAX_PERIOD: u32 = 256;
+
+/// The length of the cycle that an orbit is drawn to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Period(
+    /// 1 for a fixed point; 0 when the orbit escapes, or no cycle of at most [`MAX_PERIOD`] points shows.
+    pub u32,
+);
+
+/// The period at every pixel of an escape-time picture.
+///
+/// ```
+/// use attractor::escape::{Complex, Interior, Mandelbrot, Period, View};
+/// use attractor::num::Wide;
+/// use embedded_graphics_core::geometry::Size;
+/// let interior = Interior(Mandelbrot::new(View::home(Size::new(24, 20))?, 1000)?);
+/// let at = |re: f32| interior.value_at(Complex::new(Wide::from_num(re), Wide::ZERO));
+/// assert_eq!([at(0.0), at(-1.0), at(-1.755), at(1.0)], [Period(1), Period(2), Period(3), Period(0)]);
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Interior<P>(
+    /// The picture. Its greatest dwell is the number of steps before a cycle is looked for.
+    pub P,
+);
+
+impl<P: EscapeTime> Interior<P> {
+    /// The period at a point.
+    ///
+    /// Domain: all. Error: where the orbit is still more than `2^-20` away from its cycle, near the edges of components, no period or a
+    /// multiple is found (`periods_are_those_of_float`). Cost: the dwell, and inside `Num` steps and a period.
+    pub fn value_at(&self, point: Complex<Wide>) -> Period {
+        const NEAR: u32 = 1 << 9; // 2^-20 with 29 fractional bits
+        if !self.0.dwell_at(point).is_inside() {
+            return Period(0);
+        }
+        let Some(mut orbit) = self.0.orbit(point) else { return Period(0) };
+        for _ in 0..self.0.max_dwell() {
+            orbit.step();
+        }
+        let (x, y) = orbit.z;
+        for period in 1..=MAX_PERIOD {
+            orbit.step();
+            if orbit.z.0.abs_diff(x) < NEAR && orbit.z.1.abs_diff(y) < NEAR {
+                return Period(period);
+            }
+        }
+        Period(0)
+    }
+}
+
+impl<P: EscapeTime> Field for Interior<P> {
+    type Value = Period;
+    type Row<'a>
+        = InteriorRow<'a, P>
+    where
+        P: 'a;
+
+    fn size(&self) -> Size {
+        self.0.size()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> InteriorRow<'_, P> {
+        InteriorRow { picture: self, line: self.0.view().line(y, x) }
+    }
+}
+
+/// The periods of a row, from left to right.
+#[derive(Debug, Clone)]
+pub struct InteriorRow<'a, P> {
+    picture: &'a Interior<P>,
+    line: Line,
+}
+
+super::row::values_along_a_line!(InteriorRow, Period);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::escape::{Julia, Mandelbrot, View};
+
+    /// The period after 20000 steps in `f64`, none near the edge of a component.
+    fn float(c: (f64, f64)) -> Option<u32> {
+        let step = |(x, y): (f64, f64)| (x * x - y * y + c.0, 2.0 * x * y + c.1);
+        let mut z = (0.0, 0.0);
+        for _ in 0..20_000 {
+            z = step(z);
+        }
+        let (mut w, mut multiplier) = (z, 1.0);
+        for period in 1..=MAX_PERIOD {
+            multiplier *= 2.0 * w.0.hypot(w.1);
+            w = step(w);
+            if (w.0 - z.0).abs().max((w.1 - z.1).abs()) < 1e-9 {
+                return (multiplier.powf(1000.0 / f64::from(period)) < 1e-8).then_some(period);
+            }
+        }
+        None
+    }
+
+    #[test]
+    fn periods_are_those_of_float() {
+        let view = View::home(Size::new(120, 100)).unwrap();
+        let picture = Interior(Mandelbrot::new(view, 1000).unwrap());
+        let mut found = [0; 8];
+        for (x, y) in (0..100).flat_map(|y| (0..120).map(move |x| (x, y))) {
+            let c = view.point(x, y);
+            let Period(period) = picture.value_at(c);
+            if period == 0 {
+                continue;
+            }
+            if let Some(expected) = float((c.re.to_num(), c.im.to_num())) {
+                assert_eq!(period, expected, "{c:?}");
+                found[(period as usize).min(7)] += 1;
+            }
+        }
+        assert!(found[1] > 1000 && found[2] > 200 && found[3] > 50 && found[4] > 10, "{found:?}");
+    }
+
+    #[test]
+    fn a_whole_julia_set_has_one_period() {
+        let view = View::new(Complex::default(), Wide::from_num(4), Size::new(50, 50)).unwrap();
+        let rabbit = Complex::new(Wide::from_num(-0.1226), Wide::from_num(0.7449));
+        let picture = Interior(Julia::new(view, rabbit, 500).unwrap());
+        let inside = (0..50).flat_map(|y| picture.row(y, 0..50)).filter(|p| p.0 != 0);
+        assert_eq!(inside.clone().min(), Some(Period(3)));
+        assert_eq!(inside.clone().max(), Some(Period(3)));
+        assert!(inside.count() > 100);
+    }
+}

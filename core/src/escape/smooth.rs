@@ -1,0 +1,197 @@
+//! Fractional dwell: `n + 1 - log2(log2 |z_n|)`, which has no steps between the bands of equal dwell.
+//!
+//! Source: H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.2.5 (the potential); the limit of
+//! `n - log2(log2 |z_n|)` exists and changes by 1 where the dwell does. The orbit is followed on to `|z| > 1024`, where
+//! the rest of the limit is below `2^-20`. Format: 20 fractional bits there, 11 in the result.
+
+use core::ops::Range;
+
+use embedded_graphics_core::geometry::Size;
+use fixed::types::U21F11;
+
+use super::escape_time::{EscapeTime, Orbit};
+use super::view::Line;
+use super::{Complex, Dwell};
+use crate::num::{Wide, log2};
+use crate::picture::Field;
+
+/// A dwell with a fraction, and the limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FractionalDwell {
+    /// The limit `n + 1 - log2(log2 |z_n|)`, at least 0; `max` inside.
+    pub dwell: U21F11,
+    /// `Num`.
+    pub max: u32,
+}
+
+impl FractionalDwell {
+    /// Whether the orbit did not escape in time.
+    pub fn is_inside(self) -> bool {
+        self.dwell >= U21F11::saturating_from_num(self.max)
+    }
+}
+
+/// The fractional dwell at every pixel of an escape-time picture.
+///
+/// ```
+/// use attractor::escape::{Complex, Mandelbrot, Smooth, View};
+/// use attractor::num::Wide;
+/// use embedded_graphics_core::geometry::Size;
+/// let smooth = Smooth(Mandelbrot::new(View::home(Size::new(24, 20))?, 100)?);
+/// let at = |re: f32| smooth.value_at(Complex::new(Wide::from_num(re), Wide::ZERO)).dwell;
+/// assert!(at(0.5) > at(0.51) && at(0.51) > at(0.52));
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Smooth<P>(
+    /// The picture.
+    pub P,
+);
+
+impl<P: EscapeTime> Smooth<P> {
+    /// The fractional dwell at a point.
+    ///
+    /// Domain: all. Error: below `2^-10` beside that of the orbit (`fractional_dwell_agrees_with_float`). Cost: the dwell, the same number of steps
+    /// once more and about 4, two logarithms; nothing more inside.
+    /// The whole set on 60 x 50 pixels takes 2.9 million Cortex-M4 instructions, against 0.54 million of the dwell alone.
+    pub fn value_at(&self, point: Complex<Wide>) -> FractionalDwell {
+        let Dwell { count, max } = self.0.dwell_at(point);
+        let inside = FractionalDwell { dwell: U21F11::saturating_from_num(max), max };
+        if count >= max {
+            return inside;
+        }
+        let dwell = match self.0.orbit(point) {
+            Some(orbit) => fraction(orbit, count),
+            None => beyond(point, self.0.constant_at(point)),
+        };
+        // an orbit that escapes in time is outside, whatever the fraction
+        FractionalDwell { dwell: dwell.min(inside.dwell.saturating_sub(U21F11::DELTA)), max }
+    }
+}
+
+/// The limit for an orbit that escapes after `count` steps.
+fn fraction(mut orbit: Orbit, count: u32) -> U21F11 {
+    let before = count.saturating_sub(1);
+    for _ in 0..before {
+        orbit.step();
+    }
+    let widen = |v: i32| i64::from(v >> 9);
+    let (x, y) = (widen(orbit.z.0), widen(orbit.z.1));
+    potential(x, y, (widen(orbit.c.0), widen(orbit.c.1)), before)
+}
+
+/// For a point beyond 2, which is no word.
+fn beyond(z: Complex<Wide>, c: Complex<Wide>) -> U21F11 {
+    let part = |v: Wide| v.to_bits() >> 28;
+    let (x, y) = (part(z.re), part(z.im));
+    if x.unsigned_abs().max(y.unsigned_abs()) < 1 << 30 {
+        potential(x, y, (part(c.re), part(c.im)), 0)
+    } else {
+        limit(x.unsigned_abs(), y.unsigned_abs(), 0)
+    }
+}
+
+/// From 20 fractional bits on to `|z| > 1024`.
+fn potential(mut x: i64, mut y: i64, c: (i64, i64), mut count: u32) -> U21F11 {
+    const FAR: u64 = 1 << (20 + 40);
+    // an orbit that rounding holds near 2 ends all the same
+    for _ in 0..64 {
+        // below 1024 in each part: squares below 2^60
+        if (x * x) as u64 + (y * y) as u64 >= FAR {
+            break;
+        }
+        (x, y) = ((((x - y) * (x + y)) >> 20) + c.0, ((x * y) >> 19) + c.1);
+        count += 1;
+        if x.unsigned_abs().max(y.unsigned_abs()) >= 1 << 30 {
+            break;
+        }
+    }
+    limit(x.unsigned_abs(), y.unsigned_abs(), count)
+}
+
+/// `count + 1 - log2(log2 |z|)` for parts with 20 fractional bits, below 2^40.
+fn limit(x: u64, y: u64, count: u32) -> U21F11 {
+    // 10 fractional bits: squares below 2^60
+    let (x, y) = (x >> 10, y >> 10);
+    let twice = log2(x * x + y * y).saturating_sub(20 << 24); // 2 log2 |z|, 24 fractional bits
+    // log2 of (2 log2 |z|) = log2(log2 |z|) + 1
+    let loglog = i64::from(log2(u64::from(twice))) - (25 << 24);
+    let limit = ((i64::from(count) + 1) << 24) - loglog;
+    U21F11::from_bits((limit >> 13).max(0) as u32)
+}
+
+impl<P: EscapeTime> Field for Smooth<P> {
+    type Value = FractionalDwell;
+    type Row<'a>
+        = SmoothRow<'a, P>
+    where
+        P: 'a;
+
+    fn size(&self) -> Size {
+        self.0.size()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> SmoothRow<'_, P> {
+        SmoothRow { picture: self, line: self.0.view().line(y, x) }
+    }
+}
+
+/// The fractional dwells of a row, from left to right.
+#[derive(Debug, Clone)]
+pub struct SmoothRow<'a, P> {
+    picture: &'a Smooth<P>,
+    line: Line,
+}
+
+super::row::values_along_a_line!(SmoothRow, FractionalDwell);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::escape::{Mandelbrot, View};
+
+    /// `n + 1 - log2(log2 |z_n|)` at `|z| > 2^40`.
+    fn float(c: (f64, f64)) -> f64 {
+        let (mut x, mut y) = c;
+        for n in 0.. {
+            let square = x * x + y * y;
+            if square > 2_f64.powi(80) {
+                return f64::from(n) + 1.0 - (square.log2() / 2.0).log2();
+            }
+            (x, y) = (x * x - y * y + c.0, 2.0 * x * y + c.1);
+        }
+        0.0
+    }
+
+    #[test]
+    fn fractional_dwell_agrees_with_float() {
+        let picture = Mandelbrot::new(View::home(Size::new(120, 100)).unwrap(), 60).unwrap();
+        let smooth = Smooth(picture);
+        let (mut worst, mut outside, mut off) = (0.0_f64, 0, 0);
+        for (x, y) in (0..100).flat_map(|y| (0..120).map(move |x| (x, y))) {
+            let c = picture.view().point(x, y);
+            let value = smooth.value_at(c);
+            let dwell = picture.dwell_at(c);
+            assert_eq!(value.is_inside(), dwell.is_inside());
+            if !value.is_inside() && dwell.count < 20 {
+                outside += 1;
+                let error =
+                    (value.dwell.to_num::<f64>() - float((c.re.to_num(), c.im.to_num())).max(0.0)).abs();
+                worst = worst.max(error);
+                let band = value.dwell.to_num::<f64>() - f64::from(dwell.count);
+                off += u32::from(!(-1.0..2.0).contains(&band) && dwell.count > 1);
+            }
+        }
+        assert!(outside > 5000 && off < 8, "{outside} {off}");
+        assert!(worst > 0.0 && worst < 2_f64.powi(-10), "{worst:e}");
+    }
+
+    #[test]
+    fn a_row_is_the_row_of_points() {
+        let picture = Smooth(Mandelbrot::new(View::home(Size::new(40, 30)).unwrap(), 60).unwrap());
+        let mut row = picture.row(7, 3..30);
+        assert_eq!(row.len(), 27);
+        assert_eq!(row.nth(4), Some(picture.value_at(picture.0.view().point(7, 7))));
+        assert_eq!(row.next(), Some(picture.value_at(picture.0.view().point(8, 7))));
+    }
+}
