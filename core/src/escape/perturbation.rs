@@ -5,7 +5,8 @@
 //! glitches", 2021). Nothing cancels then, and no pixel needs another reference.
 //!
 //! Format: reference points and distances are blocks, two 30-bit mantissas with one exponent. A step rounds the distance 3 times by `2^-30` of its
-//! size: after `n` steps a pixel is shown as if it were moved by less than `3 n 2^-30` of its distance from the centre. //! Whether `|z| > 2` is decided on 30 bits: at `c = -2` alone, where an orbit follows the circle itself, a dwell is that of a circle wider by `2^-29`.
+//! size: after `n` steps a pixel is shown as if it were moved by less than `3 n 2^-30` of its distance from the centre.
+//! Whether `|z| > 2` is decided on 30 bits: at `c = -2` alone, where an orbit follows the circle itself, a dwell is that of a circle wider by `2^-29`.
 //! At most 1 of 1024 pixels differs from arbitrary precision at nine published places down to a width of 1e-100; at a chaotic one 13 of 1024 (tests/deep_zoom.rs).
 
 use super::Complex;
