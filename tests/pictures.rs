@@ -25,6 +25,9 @@ const CORNER: View = View { eye: [-3.0, -2.5, 4.0], look_at: [1.0, 1.0, 0.75], d
 const ALONG_X: View = View { eye: [-4.0, 1.0, 1.5], look_at: [1.0, 1.0, 0.5], degrees: 40.0 };
 /// From inside the surface's box, above the surface.
 const INSIDE: View = View { eye: [0.25, 0.25, 0.75], look_at: [2.0, 1.75, 0.0], degrees: 60.0 };
+/// From the two corners in between: with [`CORNER`] and [`BELOW`] the four cases of figure 5.
+const LEFT: View = View { eye: [-2.75, 4.5, 3.5], look_at: [1.0, 1.0, 0.5], degrees: 28.0 };
+const RIGHT: View = View { eye: [5.0, -2.25, 3.0], look_at: [1.0, 1.0, 0.5], degrees: 28.0 };
 /// From the opposite corner and from below.
 const BELOW: View = View { eye: [5.0, 4.5, -3.0], look_at: [1.0, 1.0, 0.5], degrees: 25.0 };
 
@@ -212,7 +215,7 @@ fn a_mirrored_checkerboard_is_that_of_the_reference() {
 
 #[test]
 fn every_direction_of_view_gives_the_references_picture() {
-    for view in [ALONG_X, INSIDE, BELOW] {
+    for view in [ALONG_X, INSIDE, LEFT, RIGHT, BELOW] {
         let case = Case {
             surface: "integral of g",
             view,
