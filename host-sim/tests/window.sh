@@ -7,10 +7,10 @@ cd "$(dirname "$0")/../.."
 shots=${1:-$(mktemp -d)}
 mkdir -p "$shots"
 if [ "${ATTRACTOR_UNDER_XVFB:-}" != 1 ]; then
-    cargo build --release --quiet -p attractor-sim --features window --target-dir target/window
+    cargo build --release --quiet -p attractor-sim --features window
     ATTRACTOR_UNDER_XVFB=1 exec timeout 120 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
 fi
-attractor=target/window/release/attractor
+attractor=target/release/attractor
 fail() {
     echo "window: $1" >&2
     [ -z "${pid:-}" ] || kill "$pid" 2>/dev/null || true
