@@ -12,7 +12,7 @@ use super::precision::Precision;
 use super::view::{Line, View, narrow};
 use super::{Complex, Dwell, checked_max};
 use crate::Error;
-use crate::num::Wide;
+use crate::num::{Wide, sqrt};
 use crate::picture::Field;
 
 /// The dwell at every pixel of a view.
@@ -40,15 +40,17 @@ impl Julia {
     /// The filled-in Julia set of `c` as `view` shows it, with at most `max_dwell` iterations a pixel. The constant is rounded to 29 fractional bits.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits; the larger part of `c` is reported),
+    /// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits; `|c|` is reported),
     /// [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above [`MAX_DWELL`](super::MAX_DWELL).
     pub fn new(view: View, c: Complex<Wide>, max_dwell: u32) -> Result<Self, Error> {
         const TWO: Wide = Wide::lit("2");
         let max = checked_max(max_dwell)?;
         let Some(constant) = narrow(c) else {
-            let value = if c.re.unsigned_abs() > c.im.unsigned_abs() { c.re } else { c.im };
-            let what = "part of the constant c, |c| <= 2";
-            return Err(Error::OutOfRange { what, index: 0, value, min: -TWO, max: TWO });
+            // 16 fractional bits, rounded up
+            let square = |v: Wide| (v.to_bits() >> 32).pow(2).unsigned_abs();
+            let magnitude = i64::from(sqrt(square(c.re) + square(c.im))) + 2;
+            let value = Wide::from_bits(magnitude.saturating_mul(1 << 32));
+            return Err(Error::OutOfRange { what: "|c|", index: 0, value, min: Wide::ZERO, max: TWO });
         };
         Ok(Self { view, c, constant, max, precision: Precision::of(view.pitch(), max) })
     }
@@ -209,7 +211,8 @@ mod tests {
         let view = View::home(Size::new(8, 8)).unwrap();
         assert!(Julia::new(view, point(0.0, -2.0), 9).is_ok());
         let error = Julia::new(view, point(1.5, -2.25), 9);
-        assert!(matches!(error, Err(Error::OutOfRange { value, .. }) if value == Wide::from_num(-2.25)));
+        // 2.7042 in magnitude
+        assert!(matches!(error, Err(Error::OutOfRange { value, .. }) if value > 2.7041 && value < 2.7043));
         assert!(Julia::new(view, Complex::new(Wide::from_num(2) + Wide::DELTA, Wide::ZERO), 9).is_err());
         assert!(Julia::new(view, point(0.0, 0.0), 0).is_err());
     }
