@@ -118,7 +118,16 @@ impl fmt::Display for Error {
                 write!(f, "knot {index} is not to the right of knot {}", index.saturating_sub(1))
             }
             Self::OutOfRange { what, index, value, min, max } => {
-                write!(f, "{what} [{index}] is {value}, allowed is {min} to {max}")
+                write!(f, "{what} [{index}] is ")?;
+                // the ends of the format stand for everything beyond
+                if value == Wide::MAX {
+                    f.write_str("32768 or more")?;
+                } else if value == Wide::MIN {
+                    f.write_str("-32768 or less")?;
+                } else {
+                    write!(f, "{value}")?;
+                }
+                write!(f, ", it must lie between {min} and {max}")
             }
             Self::NotContractive { map } => write!(f, "map {map} is not a contraction"),
             Self::Probabilities { sum } => write!(f, "the probabilities add up to {sum}, not to 1"),

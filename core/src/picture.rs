@@ -122,21 +122,24 @@ impl Window {
         let width = extent(bounds.min.x, bounds.max.x);
         let height = extent(bounds.min.y, bounds.max.y);
         if width <= 0 || height <= 0 {
-            return Err(Error::Degenerate { what: "an extent of the window" });
+            return Err(Error::Degenerate { what: "area of the window" });
         }
         Ok(Self { bounds, size, x: pixels_a_unit(size.width, width), y: pixels_a_unit(size.height, height) })
     }
 
-    /// Shows all of `bounds`, centred, with square pixels: the shorter direction is widened.
+    /// Shows all of `bounds`, centred, with square pixels: the shorter direction is widened, so that a line or a point may be shown.
     ///
     /// # Errors
-    /// As [`Window::stretch`].
+    /// [`Error::Degenerate`] for a box that ends before it begins, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`].
     pub fn fit(bounds: Bounds2, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let (w, h) = (i64::from(size.width), i64::from(size.height));
         let (x0, x1) = (i64::from(bounds.min.x.to_bits()), i64::from(bounds.max.x.to_bits()));
         let (y0, y1) = (i64::from(bounds.min.y.to_bits()), i64::from(bounds.max.y.to_bits()));
         let (width, height) = (x1 - x0, y1 - y0);
+        if width < 0 || height < 0 {
+            return Err(Error::Degenerate { what: "area of the window" });
+        }
         // pitch = max(width / w, height / h), rounded up
         let pitch = ((width + w - 1) / w).max((height + h - 1) / h).max(1);
         let widen = |low: i64, high: i64, pixels: i64| {

@@ -11,7 +11,7 @@ use super::square_root::square_root;
 use super::view::narrow;
 use super::{Complex, checked_max, interior};
 use crate::Error;
-use crate::num::Wide;
+use crate::num::{Wide, sqrt};
 
 /// The Julia set of `z^2 + c`.
 ///
@@ -149,9 +149,11 @@ impl JuliaSet {
 pub(super) fn checked_constant(c: Complex<Wide>) -> Result<Word, Error> {
     const TWO: Wide = Wide::lit("2");
     narrow(c).ok_or_else(|| {
-        let value = if c.re.unsigned_abs() > c.im.unsigned_abs() { c.re } else { c.im };
-        let what = "part of the constant c, |c| <= 2";
-        Error::OutOfRange { what, index: 0, value, min: -TWO, max: TWO }
+        // 16 fractional bits, rounded up
+        let square = |v: Wide| (v.to_bits() >> 32).pow(2).unsigned_abs();
+        let magnitude = i64::from(sqrt(square(c.re) + square(c.im))) + 2;
+        let value = Wide::from_bits(magnitude.saturating_mul(1 << 32));
+        Error::OutOfRange { what: "|c|", index: 0, value, min: Wide::ZERO, max: TWO }
     })
 }
 

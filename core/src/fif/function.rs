@@ -338,7 +338,8 @@ pub(crate) fn saturate(v: i128) -> i64 {
 
 pub(crate) fn in_range(what: &'static str, index: usize, y: Wide) -> Result<(), Error> {
     let limit = Wide::from_num(128);
-    if y.abs() >= limit {
+    // not `abs`: the least number has none
+    if y.unsigned_abs() >= limit.unsigned_abs() {
         Err(Error::OutOfRange { what, index, value: y, min: -limit, max: limit })
     } else {
         Ok(())

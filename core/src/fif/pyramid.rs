@@ -153,14 +153,16 @@ impl<'a> Pyramid<'a> {
         (self.x0, self.width)
     }
 
-    /// Bounds of the function above `[from, to]`, outward to the cells of the finest level. Cost: `2 depth * maps` cells.
+    /// Bounds of the function above `[from, to]`, outward by `2^-25` of the domain and to the cells of the finest level. Cost: `2 depth * maps` cells.
     pub fn bounds(&self, from: crate::num::Wide, to: crate::num::Wide) -> (Real, Real) {
         let whole = crate::num::Reciprocal::of(self.width);
         let unit = |x: crate::num::Wide| {
             let distance = i128::from(x.to_bits()) - i128::from(self.x0);
             whole.quotient(distance.max(0).min(i128::from(self.width)) as u64) >> 32
         };
-        let (from, to) = (unit(from.min(to)), unit(from.max(to)));
+        // Places of cells are rounded down to 2^-31, by at most two units a level: look that much to both sides.
+        const PAD: u64 = 1 << 6;
+        let (from, to) = (unit(from.min(to)).saturating_sub(PAD), unit(from.max(to)) + PAD);
         let mut hull = (Real::MAX, Real::MIN);
         let mut add = |offset: usize, index: usize| {
             if let Some(cell) = self.cells.get(offset + index) {
@@ -199,11 +201,10 @@ struct Span {
 impl Span {
     const WHOLE: Self = Self { index: 0, start: 0, width: 1 << 31 };
 
-    /// The part that holds `u`; ends count to the part on their right.
+    /// The part that holds `u`; ends count to the part on their left, so that the first part of width 0 holds 0.
     fn child(self, starts: &[u32], u: u64) -> Self {
         let place = |s: u32| self.start + ((u64::from(s) * self.width) >> 31);
-        // a part wider by two units than it is cannot lose a point to rounding; neighbours overlap by that
-        let j = starts.partition_point(|s| place(*s) <= u).saturating_sub(1);
+        let j = starts.partition_point(|s| place(*s) < u).saturating_sub(1);
         let start = starts.get(j).map_or(self.start, |s| place(*s));
         let end = starts.get(j + 1).map_or(self.start + self.width, |s| place(*s));
         Self { index: self.index * starts.len() + j, start, width: end - start }

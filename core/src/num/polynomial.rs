@@ -98,9 +98,18 @@ impl<const D: usize> Polynomial<D> {
             let mut b = self.constant >> COARSE;
             let (mut over, mut under) = (1_i64, 1_i64);
             for (c, k) in self.powers.iter().zip(0_i64..i) {
-                over *= i - k;
-                under *= D as i64 - k;
-                b += ((c >> COARSE) * over).checked_div(under).unwrap_or(0);
+                if D <= 8 {
+                    // 47 bits and factorials up to 8!
+                    over *= i - k;
+                    under *= D as i64 - k;
+                    b += ((c >> COARSE) * over).checked_div(under).unwrap_or(0);
+                } else {
+                    // binomials, which stay smaller: up to D = 62 they fit
+                    over = (over * (i - k)).checked_div(k + 1).unwrap_or(0);
+                    under = (under * (D as i64 - k)).checked_div(k + 1).unwrap_or(0);
+                    let product = i128::from(c >> COARSE) * i128::from(over);
+                    b += product.checked_div(i128::from(under)).unwrap_or(0) as i64;
+                }
             }
             let exact_end = if D == 1 {
                 self.powers.iter().fold(self.constant, |s, c| s.wrapping_add(*c))

@@ -40,7 +40,10 @@ impl Camera {
                 max,
             });
         }
-        let forward = look_at.minus(eye).normalised().ok_or(Error::Degenerate { what: "eye to look_at" })?;
+        let forward = look_at
+            .minus(eye)
+            .normalised()
+            .ok_or(Error::Degenerate { what: "distance from eye to look_at" })?;
         let up = up.normalised().ok_or(Error::Degenerate { what: "up" })?;
         let side = forward.cross(up);
         // an `up` within 2^-10 of the view's direction leaves the frame undecided
@@ -76,9 +79,13 @@ impl Camera {
         use micromath::F32Ext;
         let [x, y, z] = look_at;
         let (level, height) = (distance * F32Ext::cos(lift), distance * F32Ext::sin(lift));
+        // what is no number counts as too large
         let real = |v: f32| {
-            Real::checked_from_num(v)
-                .ok_or(Error::Degenerate { what: "a number of the orbit that is too large or not one" })
+            let value = Wide::checked_from_num(v).unwrap_or(if v < 0.0 { Wide::MIN } else { Wide::MAX });
+            let (min, max) = (Wide::from_num(-128), Wide::from_num(128));
+            let refused =
+                Error::OutOfRange { what: "coordinate or angle of the orbit", index: 0, value, min, max };
+            Real::checked_from_num(v).ok_or(refused)
         };
         let eye = Vec3::new(
             real(x + level * F32Ext::cos(turn))?,

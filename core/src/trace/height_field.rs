@@ -129,9 +129,10 @@ impl<'a> Side<'a> {
         let (x0, width) = pyramid.domain_bits();
         let end = i128::from(x0) + i128::from(width);
         let limit = 64_i128 << 48;
-        if i128::from(x0) < -limit || end > limit {
+        // below 64, so that the width fits
+        if i128::from(x0) < -limit || end >= limit {
             let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
-            let value = Wide::from_bits(if end > limit { end as i64 } else { x0 });
+            let value = Wide::from_bits(if end >= limit { end as i64 } else { x0 });
             return Err(Error::OutOfRange { what: name, index: 0, value, min, max });
         }
         let origin = (x0 >> 24) as i32;

@@ -104,7 +104,8 @@ impl Ray {
     /// The ray from `origin` (each coordinate inside ±64, saturated to that) along `direction` (each component inside ±4, saturated).
     #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
-        let o = |c: Real| c.to_bits().clamp(-(64 << 24), 64 << 24);
+        // a plane at 64 is less than 128 away
+        let o = |c: Real| c.to_bits().clamp(1 - (64 << 24), 64 << 24);
         let d = |c: Real| c.to_bits().clamp(-(4 << 24), 4 << 24).saturating_mul(16);
         Self::from_bits([origin.x, origin.y, origin.z].map(o), [direction.x, direction.y, direction.z].map(d))
     }

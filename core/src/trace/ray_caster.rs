@@ -73,17 +73,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     pub fn new(surface: HeightField<'a, STACK>, camera: Camera, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
-        // |w| + k (cols / rows |r| + |u|) < 4
-        let reach = (i64::from(camera.tangent) * (cols + rows)).checked_div(rows).unwrap_or(i64::MAX);
-        if reach >= 3 << 28 {
-            return Err(Error::OutOfRange {
-                what: "tangent of the view, width plus height",
-                index: 0,
-                value: Wide::from_bits(reach.saturating_mul(1 << 20)),
-                min: Wide::ZERO,
-                max: Wide::from_num(3),
-            });
-        }
+        in_reach(&camera, cols, rows, 0)?;
         // one pixel: 2 k / rows, with 28 + 30 - 14 = 44 fractional bits for a direction cosine of 30
         let step = |cosine: Unit| {
             (i64::from(camera.tangent) * i64::from(cosine.to_bits())).checked_div(rows).unwrap_or(0) >> 13
@@ -145,9 +135,12 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     /// With these samples a pixel.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 8 samples a side, or none, or a filter outside its ranges.
+    /// [`Error::OutOfRange`] for more than 8 samples a side, or none, or a filter outside its ranges, or so wide that a ray's direction leaves ±4
+    /// (pictures of a few pixels).
     pub fn with_sampling(mut self, sampling: Sampling, filter: Filter) -> Result<Self, Error> {
         self.pattern = Pattern::new(sampling, filter)?;
+        let (cols, rows) = (i64::from(self.size.width), i64::from(self.size.height));
+        in_reach(&self.camera, cols, rows, filter.margin())?;
         self.cone = self.surface.cone(self.footprint.part(self.pattern.parts_a_side()));
         Ok(self)
     }
@@ -168,8 +161,11 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
         statistics
     }
 
-    /// The leaf that the ray through the centre of a pixel meets.
+    /// The leaf that the ray through the centre of a pixel meets; none outside the picture.
     pub fn hit(&self, x: u32, y: u32) -> Option<super::Hit> {
+        if x >= self.size.width || y >= self.size.height {
+            return None;
+        }
         let ray = Ray::from_bits(self.eye(), self.direction(x, y).map(narrow));
         self.surface.intersect(&ray, self.cone.footprint.per_t())
     }
@@ -237,6 +233,22 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     }
 }
 
+/// Checks that directions stay inside ±4 on a picture with `margin` pixels around it: `|w| + k (cols / rows |r| + |u|) < 4`.
+fn in_reach(camera: &Camera, cols: i64, rows: i64, margin: i64) -> Result<(), Error> {
+    let sides = cols + rows + 4 * margin;
+    let reach = (i64::from(camera.tangent) * sides).checked_div(rows).unwrap_or(i64::MAX);
+    if reach >= 3 << 28 {
+        return Err(Error::OutOfRange {
+            what: "tangent of half the view, width plus height",
+            index: 0,
+            value: Wide::from_bits(reach.saturating_mul(1 << 20)),
+            min: Wide::ZERO,
+            max: Wide::from_num(3),
+        });
+    }
+    Ok(())
+}
+
 #[inline]
 fn narrow(direction: i64) -> i32 {
     ((direction + (1 << 15)) >> 16) as i32
@@ -273,6 +285,9 @@ impl<'a, const STACK: usize> Field for RayCaster<'a, STACK> {
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> Row<'a, '_, STACK> {
+        // what lies outside the picture has no pixels
+        let (y, width) = (y.min(self.size.height.saturating_sub(1)), self.size.width);
+        let x = x.start.min(width)..x.end.min(width);
         Row {
             caster: self,
             y,

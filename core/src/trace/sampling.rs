@@ -38,6 +38,17 @@ pub enum Filter {
     },
 }
 
+impl Filter {
+    /// Within how many pixels of the pixel samples lie, rounded up.
+    pub(crate) fn margin(self) -> i64 {
+        match self {
+            Self::Box => 0,
+            // half of what is beyond the pixel's own width
+            Self::Gaussian { width, .. } => i64::from(((width - Real::ONE) / 2).ceil().to_num::<i32>()),
+        }
+    }
+}
+
 /// Most parts a side.
 const MOST: usize = 8;
 
