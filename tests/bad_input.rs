@@ -342,7 +342,7 @@ fn a_picture_is_not_too_wide_for_its_camera() {
         assert!(refused.starts_with("tangent of half the view, width plus height [0] is 4.55"), "{refused}");
         assert!(refused.ends_with(", it must lie between 0 and 3"), "{refused}");
         assert!(caster(Size::new(100, 1600), 100.0).is_ok());
-        // one pixel, and samples two pixels away from it: the direction once wrapped
+        // one pixel, and samples two pixels away from it: directions would leave ±4
         let one = caster(Size::new(1, 1), 100.0).expect("a picture of one pixel");
         let filter = Filter::Gaussian { deviation: Real::ONE, width: Real::from_num(4) };
         assert!(matches!(
