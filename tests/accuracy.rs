@@ -3,7 +3,8 @@
 //! Inputs come from four generators: a hand list, edge cases, a seeded random sequence, evenly spaced values.
 
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
-use attractor::num::{self, Angle, Real, Scaling, Wide};
+use attractor::num::{self, Angle, Real, Scaling, Unit, Vec3, Wide};
+use attractor::trace::{Environment, HeightField, Light, Material, Ray};
 use attractor_reference as reference;
 
 /// One line of the table.
@@ -35,6 +36,7 @@ pub fn table() -> Vec<Row> {
     let mut rows = numbers();
     rows.extend(functions());
     rows.extend(surfaces());
+    rows.extend(shading());
     rows
 }
 
@@ -118,6 +120,7 @@ fn numbers() -> Vec<Row> {
 }
 
 /// A function of the papers or like them, fixed and exact.
+#[derive(Debug)]
 pub struct Example {
     /// What it is.
     pub name: &'static str,
@@ -237,6 +240,14 @@ fn functions() -> Vec<Row> {
             ));
         }
     }
+    let rough = &dyadic_examples()[1];
+    let (fixed, exact) = (rough.fixed(), rough.exact());
+    rows.push(row(
+        "Fif::at_wide (g of figure 1)",
+        "I16F48",
+        fixed.error_bound().to_num::<f64>() - two_to(-25),
+        places().map(|u| fixed.at_wide(Wide::from_num(2.0 * u)).to_num::<f64>() - exact.at(2.0 * u)),
+    ));
     // composition ends at another abscissa than x: compare a function that is smooth enough for the difference not to show
     let smooth = &dyadic_examples()[3];
     let (fixed, exact) = (smooth.fixed(), smooth.exact());
@@ -281,6 +292,15 @@ fn surfaces() -> Vec<Row> {
         "I8F24",
         two_to(-22),
         points().map(|(x, y)| surface.height(wide(x), wide(y)).to_num::<f64>() - truth.height(x, y)),
+    ));
+    rows.push(row(
+        "Surface::partials (f x g)",
+        "I8F24",
+        two_to(-18),
+        points().flat_map(|(x, y)| {
+            let (p, t) = (surface.partials(wide(x), wide(y)), truth.partials(x, y));
+            [p.0.to_num::<f64>() - t.0, p.1.to_num::<f64>() - t.1]
+        }),
     ));
     rows.push(row(
         "Surface::normal (f x g)",
@@ -342,4 +362,100 @@ fn surfaces() -> Vec<Row> {
         rows.push(row(slope_name, "I8F24", two_to(-23) / (1.0 - ratio), pairs(|c| c.slope, |c| c.slope)));
     }
     rows
+}
+
+fn shading() -> Vec<Row> {
+    let mut w = words(5);
+    let mut component = move || Real::from_bits((w.next().unwrap_or(0) as i32) >> 5); // inside ±4
+    let mut vectors =
+        |n: usize| (0..n).map(|_| Vec3::new(component(), component(), component())).collect::<Vec<_>>();
+    let float = |v: Vec3<Unit>| [v.x, v.y, v.z].map(|c| c.to_num::<f64>());
+    let given = vectors(20_000);
+    let units: Vec<Vec3<Unit>> = given.iter().filter_map(|v| v.normalised()).collect();
+    let mut rows = vec![row(
+        "Vec3::normalised",
+        "I2F30",
+        two_to(-27),
+        given.iter().zip(&units).flat_map(|(v, u)| {
+            let v = [v.x, v.y, v.z].map(|c| c.to_num::<f64>());
+            let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let u = float(*u);
+            (0..3).map(move |i| u[i] - v[i] / length)
+        }),
+    )];
+    let sky = Environment::SKY;
+    let exact_sky = reference::Environment::Gradient { zenith: 1.0, horizon: 0.5, nadir: 0.125 };
+    rows.push(row(
+        "Environment::tone (gradient)",
+        "I2F30",
+        two_to(-26),
+        units.iter().map(|e| sky.tone(*e).to_num::<f64>() - exact_sky.tone(float(*e))),
+    ));
+    let towards = Vec3::new(Real::from_num(-1), Real::from_num(-2), Real::from_num(3));
+    let light = Light::new(towards).expect("a direction");
+    let phong = reference::Material::Phong { ambient: 0.125, diffuse: 0.5, specular: 0.375, shininess: 64.0 };
+    let matt = reference::Material::Diffuse { ambient: 0.125 };
+    let shiny = match Material::PHONG {
+        Material::Phong { ambient, diffuse, specular, .. } => {
+            Material::Phong { ambient, diffuse, specular, shininess: 64 }
+        }
+        other => other,
+    };
+    for (name, bound, fixed, exact) in [
+        ("Material::tone (diffuse)", two_to(-24), Material::DIFFUSE, matt),
+        ("Material::tone (Phong, exponent 64)", two_to(-22), shiny, phong),
+    ] {
+        rows.push(row(
+            name,
+            "I2F30",
+            bound,
+            units.chunks(2).filter(|c| c.len() == 2).map(|c| {
+                let (n, d) = (float(c[0]), float(c[1]));
+                // the definition turns a normal that points away round
+                let along: f64 = (0..3).map(|i| n[i] * d[i]).sum();
+                let facing = if along > 0.0 { n.map(|c| -c) } else { n };
+                fixed.tone(c[0], c[1], &light, &sky).to_num::<f64>()
+                    - exact.tone(facing, d, [-1.0, -2.0, 3.0], &exact_sky)
+            }),
+        ));
+    }
+    rows.push(hits());
+    rows
+}
+
+/// The depth of hits, where the leaf is the reference's; fewer than one in 500 may be another one.
+fn hits() -> Row {
+    let e = &dyadic_examples()[3];
+    let fixed = e.fixed();
+    let mut memory = vec![Cell::ZERO; Pyramid::cells(2, 7)];
+    let pyramid = Pyramid::new(&fixed, 7, &mut memory).expect("a pyramid");
+    let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid).expect("a surface");
+    let bounds = reference::Bounds::new(&e.exact(), 7);
+    let mut w = words(6);
+    let mut number = move |bits: u32| Real::from_bits((w.next().unwrap_or(0) >> (64 - bits)) as i32);
+    let (mut met, mut other, mut errors) = (0, 0, Vec::new());
+    for _ in 0..4000 {
+        let from = Vec3::new(
+            number(27) - Real::from_num(3),
+            number(27) - Real::from_num(3),
+            number(26) + Real::from_num(1),
+        );
+        let to = Vec3::new(number(25), number(25), number(23));
+        let direction = to.minus(from);
+        let direction = Vec3::new(direction.x >> 2, direction.y >> 2, direction.z >> 2);
+        let float = |v: Vec3| [v.x, v.y, v.z].map(|c| c.to_num::<f64>());
+        let ray = reference::Ray { origin: float(from), direction: float(direction) };
+        let exact = reference::trace(&bounds, &bounds, &ray, 0.0).hit;
+        let hit = surface.intersect(&Ray::new(from, direction), Unit::ZERO);
+        match (hit, exact) {
+            (Some(a), Some(b)) if a.index == (b.i as u32, b.j as u32) => {
+                met += 1;
+                errors.push(a.t.to_num::<f64>() - b.t);
+            }
+            (None, None) => {}
+            _ => other += 1,
+        }
+    }
+    assert!(met > 1000 && other * 500 <= met, "{met} leaves agree, {other} differ");
+    row("HeightField::intersect (depth)", "I8F24", two_to(-16), errors)
 }

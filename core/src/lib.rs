@@ -48,3 +48,8 @@ pub use error::Error;
 pub use fixed;
 pub use rand_core;
 pub use rand_xoshiro;
+
+/// The README's snippet is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -70,7 +70,7 @@ impl Material {
 
     /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points away is turned round.
     ///
-    /// Result: in `[0, 1]`. Error: below `2^-24` for diffuse and Phong light with an exponent up to 64.
+    /// Result: in `[0, 1]`. Error: below `2^-24` for diffuse light, `2^-22` for Phong's with an exponent up to 64.
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
         let along = n.dot(d);
