@@ -11,6 +11,7 @@
 
 mod exponential;
 mod polynomial;
+mod quotient;
 mod random;
 mod root;
 mod trig;
@@ -19,6 +20,7 @@ mod wide;
 
 pub use exponential::exp_minus;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
+pub(crate) use quotient::{nth, quotient, ratio};
 pub use random::Alias;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
 pub use trig::{Angle, sin_cos};
