@@ -177,6 +177,7 @@ pub fn dyadic_examples() -> Vec<Example> {
         Example::new("four maps", &four, &[0.7, -0.3, 0.55, 0.1], 0),
         Example::new("steep", &tent, &[0.99, -0.99], 0),
         Example::new("large", &[(-8.0, -31.25), (0.0, 40.1), (8.0, 22.7)], &[0.3, 0.37], 0),
+        Example::new("three wide", &[(-1.0, 0.2), (0.5, 0.9), (2.0, -0.3)], &[0.9, -0.8], 0),
         Example::new("two straight maps", &[(0.0, 0.1), (0.5, 0.7), (1.0, 1.3)], &[0.0, 0.0], 0),
     ]
 }

@@ -9,9 +9,9 @@
 use heapless::Vec;
 
 use super::Fif;
-use super::function::{Map, in_range, saturate, twice_high, value};
+use super::function::{Map, in_range, twice_high, value};
 use crate::Error;
-use crate::num::{ONE, Polynomial, Wide, times};
+use crate::num::{ONE, Polynomial, Wide, mul_high_u, nth, quotient, times};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function `initial + integral of f from x_0 to x`, with room for polynomials of degree `E`.
@@ -35,9 +35,9 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let scaling = times(map.scaling, map.width);
             let mut q = Polynomial::<E>::ZERO;
             q.constant = knot.wrapping_sub(twice_high(start, scaling));
-            let integrated = [map.q.constant].into_iter().chain(map.q.powers).zip(1_i64..);
+            let integrated = [map.q.constant].into_iter().chain(map.q.powers).zip(1..);
             for (to, (c, n)) in q.powers.iter_mut().zip(integrated) {
-                *to = self.times_width(times(c / n, map.width))?;
+                *to = self.times_width(times(nth(c, n), map.width))?;
             }
             let step = q.powers.iter().fold(0_i64, |sum, c| sum.wrapping_add(*c));
             knot = knot.saturating_add(step).saturating_add(twice_high(total, scaling));
@@ -62,12 +62,10 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             if map.scaling.unsigned_abs() >= map.width {
                 return Err(Error::NotDifferentiable { map: index });
             }
-            let scaling =
-                saturate((i128::from(map.scaling) << 63).checked_div(i128::from(map.width)).unwrap_or(0));
+            let scaling = quotient(map.scaling, 63, map.width);
             // 1 / (w a_j); w a_j with 48 fractional bits
-            let length = i128::from(crate::num::mul_high_u(self.width, map.width)) << 1;
-            let per_length =
-                |c: i64| saturate((i128::from(c) << 48).checked_div(length).unwrap_or(i128::from(i64::MAX)));
+            let length = mul_high_u(self.width, map.width) << 1;
+            let per_length = |c: i64| quotient(c, 48, length);
             let slope = map.q.derivative();
             let mut q = Polynomial::<E>::ZERO;
             q.constant = per_length(slope.constant);
@@ -83,18 +81,22 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The mean value over the domain, `sum of a_n mean(q_n) / (1 - sum of a_n alpha_n)`, 55 fractional bits.
     pub(crate) fn mean(&self) -> i64 {
         let mut sum = 0_i64;
-        let mut rest = i128::from(ONE);
+        let mut rest = ONE; // stays inside (0, 2): |sum of a_n alpha_n| < 1
         for map in &self.maps {
             sum = sum.saturating_add(times(map.q.mean(), map.width));
-            rest -= i128::from(times(map.scaling, map.width));
+            rest = rest.wrapping_sub(times(map.scaling, map.width) as u64);
         }
-        saturate((i128::from(sum) << 63).checked_div(rest).unwrap_or(0))
+        quotient(sum, 63, rest)
     }
 
     /// `value * (x_N - x_0)`; an error where it leaves 64 bits.
     fn times_width(&self, v: i64) -> Result<i64, Error> {
-        let product = (i128::from(v) * i128::from(self.width)) >> 48;
-        i64::try_from(product).map_err(|_| Error::OutOfRange {
+        let high = mul_high_u(v as u64, self.width).wrapping_sub(if v < 0 { self.width } else { 0 }) as i64;
+        let low = (v as u64).wrapping_mul(self.width);
+        if high >> 47 == high >> 63 {
+            return Ok(high << 16 | (low >> 48) as i64);
+        }
+        Err(Error::OutOfRange {
             what: "integral",
             index: 0,
             value: if v < 0 { Wide::MIN } else { Wide::MAX },

@@ -62,13 +62,13 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             return None;
         }
         // as many digits a step as there is room for: the composites of all addresses of that length are again such a system
-        let mut bits = digit;
+        let (mut bits, mut digits) = (digit, 1);
         while bits + digit <= 8 && M >> (bits + digit) > 0 {
             bits += digit;
+            digits += 1;
         }
         let composite = |address: usize| {
-            let digits = (0..bits / digit).rev();
-            self.composite(digits.map(move |k| (address >> (k * digit)) & (count - 1)))
+            self.composite((0..digits).rev().map(|k| (address >> (k * digit)) & (count - 1)))
         };
         // the largest number that a word must hold: a value, or a partial sum of Horner's scheme without the constant
         let mut largest = self.range.0.saturating_abs().max(self.range.1.saturating_abs());

@@ -8,7 +8,7 @@
 
 use super::Fif;
 use super::function::twice_high;
-use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, real_from};
+use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, ratio, real_from};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.
@@ -31,14 +31,14 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// with all smaller terms, rounded up.
     pub fn error_bound(&self) -> Real {
         let steepest = self.maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
-        let rest = u128::from((ONE - steepest) >> 32).max(1);
+        let rest = ((ONE - steepest) >> 32).max(1);
         let largest = self.range.0.unsigned_abs().max(self.range.1.unsigned_abs());
         // with 55 fractional bits: scalings 2^-32 max|f|, and 2^-47 for products and coefficients a level
-        let per_level = u128::from(largest >> 32) + (1 << (FRACTION - 47));
-        let sum = (per_level << 31).checked_div(rest).unwrap_or(u128::MAX);
+        let per_level = (largest >> 32) + (1 << (FRACTION - 47));
+        let sum = ratio(per_level, 31, rest);
         let total = sum.saturating_add(1 << (FRACTION - 25)).saturating_add(1 << (FRACTION - 30));
-        let bits = total.div_ceil(1 << (FRACTION - 24)).min(i32::MAX as u128);
-        Real::from_bits(bits as i32)
+        let bits = (total >> (FRACTION - 24)) + u64::from(total.trailing_zeros() < FRACTION - 24);
+        Real::from_bits(bits.min(i32::MAX as u64) as i32)
     }
 
     /// The value at a unit abscissa with 63 fractional bits, with 55 fractional bits.
@@ -65,7 +65,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 
     /// The value at the place `numerator / denominator` of the domain, as a point's ordinate.
     pub(crate) fn at_fraction(&self, numerator: u32, denominator: u32) -> (u64, Real) {
-        let u = (u128::from(numerator) << 63).checked_div(u128::from(denominator)).unwrap_or(0) as u64;
+        let u = ratio(u64::from(numerator), 63, u64::from(denominator)).min(ONE);
         (u, real_from(self.evaluate(u), FRACTION))
     }
 }

@@ -2,8 +2,9 @@
 
 use heapless::Vec;
 
+use super::bounds::{Bounds, Image, too_large};
 use crate::Error;
-use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, mul_high};
+use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, mul_high, ratio};
 
 /// A point that the graph passes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +58,6 @@ pub struct Fif<const N: usize, const D: usize = 1> {
     /// `x_0` and `x_N - x_0`, 48 fractional bits.
     pub(crate) x0: i64,
     pub(crate) width: u64,
-    pub(crate) per_width: Reciprocal,
     /// `y_0` and `y_N`, 55 fractional bits.
     pub(crate) first: i64,
     pub(crate) last: i64,
@@ -69,12 +69,6 @@ pub struct Fif<const N: usize, const D: usize = 1> {
 
 /// How far neighbouring maps may disagree at a knot: `2^-22`.
 const JOIN_TOLERANCE: i64 = 1 << (FRACTION - 22);
-
-/// `2^7` with 55 fractional bits: the values of a function stay below it.
-const LIMIT: i64 = 1 << (FRACTION + 7);
-
-/// The magnitudes of a map's coefficients add up to less than `2^8`.
-const COEFFICIENTS: i64 = i64::MAX;
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function through the knots with affine polynomials (eq. 10-11), the ordinary construction.
@@ -170,8 +164,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         let x0 = knots_x.clone().next().map_or(0, bits);
         let xn = knots_x.clone().last().map_or(0, bits);
         let width = xn.wrapping_sub(x0) as u64; // below 2^64: exact
-        let whole = Reciprocal::of(width);
-        let unit = |x: Wide| whole.quotient(x.to_bits().wrapping_sub(x0) as u64);
+        let unit = |x: Wide| ratio(x.to_bits().wrapping_sub(x0) as u64, 63, width);
         let mut maps = Vec::new();
         let ends = knots_x.clone().zip(knots_x.skip(1)).zip(vertical_scaling).enumerate();
         for (index, ((a, b), scaling)) in ends {
@@ -201,41 +194,14 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 
     /// From maps in the unit abscissa: finds end values, range and levels.
     pub(crate) fn from_maps(mut maps: Vec<Map<D>, N>, x0: i64, width: u64) -> Result<Self, Error> {
-        if let [only] = maps.as_mut_slice() {
-            // N = 1: f = alpha f + q at the same abscissa, so f = q / (1 - alpha)
-            let rest = i128::from(ONE) - i128::from(only.scaling);
-            for c in only.q.powers.iter_mut().chain([&mut only.q.constant]) {
-                *c = saturate((i128::from(*c) << 63).checked_div(rest).unwrap_or(0));
-            }
-            only.scaling = 0;
-        }
-        for (index, map) in maps.iter().enumerate() {
-            if map.q.norm() == COEFFICIENTS {
-                return Err(limit("coefficients of map", index, map.q.norm(), COEFFICIENTS));
-            }
-        }
-        let fixed_point = |map: Option<&Map<D>>, u: u64| match map {
-            Some(m) => {
-                let rest = i128::from(ONE) - i128::from(m.scaling);
-                saturate((i128::from(m.q.at(u)) << 63).checked_div(rest).unwrap_or(0))
-            }
-            None => 0,
-        };
-        let first = fixed_point(maps.first(), 0);
-        let last = fixed_point(maps.last(), ONE);
-        let range = range_of(&maps);
-        for extreme in [range.0, range.1] {
-            if extreme.saturating_abs() >= LIMIT {
-                return Err(limit("range of the function", 0, extreme, LIMIT));
-            }
-        }
-        let levels = levels_of(&maps);
+        let mut images = [Image::default(); N];
+        let Bounds { first, last, range, levels } = Bounds::of(&mut maps, &mut images)?;
         let mut starts = Vec::new();
         for map in &maps {
             // as many as maps: never full
             let _ = starts.push((map.start >> 32) as u32);
         }
-        Ok(Self { maps, starts, x0, width, per_width: Reciprocal::of(width), first, last, range, levels })
+        Ok(Self { maps, starts, x0, width, first, last, range, levels })
     }
 
     /// Checks that neighbouring maps agree at their knot.
@@ -294,7 +260,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             0
         } else {
             let distance = bits.wrapping_sub(self.x0) as u64;
-            if distance >= self.width { ONE } else { self.per_width.quotient(distance) }
+            // exact where the place is dyadic, whatever the width
+            if distance >= self.width { ONE } else { ratio(distance, 63, self.width) }
         }
     }
 
@@ -308,8 +275,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     }
 }
 
-/// `2^-63 a b` for `b` with 63 fractional bits. Error: below 2 units.
-#[inline]
+/// `2^-63 a b` for `b` with 63 fractional bits. Error: below 2 units. Out of line: constructors ask for many.
+#[inline(never)]
 pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
     mul_high(a, b) << 1
 }
@@ -332,10 +299,6 @@ pub(crate) fn real_above(value: i64) -> Real {
     real_below(up)
 }
 
-pub(crate) fn saturate(v: i128) -> i64 {
-    v.clamp(i128::from(i64::MIN), i128::from(i64::MAX)) as i64
-}
-
 pub(crate) fn in_range(what: &'static str, index: usize, y: Wide) -> Result<(), Error> {
     let limit = Wide::from_num(128);
     // not `abs`: the least number has none
@@ -344,10 +307,6 @@ pub(crate) fn in_range(what: &'static str, index: usize, y: Wide) -> Result<(), 
     } else {
         Ok(())
     }
-}
-
-fn limit(what: &'static str, index: usize, got: i64, allowed: i64) -> Error {
-    Error::OutOfRange { what, index, value: wide(got), min: wide(-allowed), max: wide(allowed) }
 }
 
 /// `q(x_0 + width u)` with 55 fractional bits, from coefficients in `x` with 48.
@@ -360,7 +319,7 @@ fn on_unit_interval<const D: usize>(
     if q.len() > D + 1 {
         return Err(Error::Capacity { what: "coefficients", needed: q.len(), capacity: D + 1 });
     }
-    let too_large = || limit("coefficients of map", index, COEFFICIENTS, COEFFICIENTS);
+    let too_large = || too_large(index);
     // Horner with 55 fractional bits: p <- p (x_0 + width u) + c
     let product = |p: i128, x: i128| p.checked_mul(x).map(|v| (v + (1 << 47)) >> 48);
     let mut constant = 0_i128;
@@ -383,54 +342,4 @@ fn on_unit_interval<const D: usize>(
         *r = narrow(p)?;
     }
     Ok(result)
-}
-
-/// Bounds of the attractor in `y`: iterates the hull of the images, outward, from a root that contains it. With 16 fractional bits,
-/// because the first root may be large.
-fn range_of<const N: usize, const D: usize>(maps: &Vec<Map<D>, N>) -> (i64, i64) {
-    const COARSE: u32 = FRACTION - 16;
-    let mut images: Vec<_, N> = Vec::new();
-    for m in maps {
-        let (low, high) = m.q.range();
-        // as many as maps: never full
-        let _ = images.push((m.scaling, low >> COARSE, (high >> COARSE) + 1));
-    }
-    // |f| <= max |q| / (1 - max |alpha|)
-    let steepest = maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
-    let largest =
-        images.iter().map(|(_, low, high)| low.unsigned_abs().max(high.unsigned_abs())).max().unwrap_or(0);
-    let rest = (ONE - steepest) >> 32; // at least 1: scalings have 31 bits, or come from a contraction of such
-    let root = (u128::from(largest + 1) << 31)
-        .checked_div(u128::from(rest.max(1)))
-        .unwrap_or(u128::MAX)
-        .min(1 << 56) as i64;
-    let (mut min, mut max) = (-root, root);
-    for _ in 0..4096 {
-        let (mut low, mut high) = (i64::MAX, i64::MIN);
-        for &(scaling, q_low, q_high) in &images {
-            let (a, b) = (twice_high(min << 4, scaling), twice_high(max << 4, scaling));
-            low = low.min(((a.min(b) - 2) >> 4) + q_low);
-            high = high.max(((a.max(b) + 2 + 15) >> 4) + q_high);
-        }
-        let settled = low <= min && high >= max;
-        (min, max) = (min.max(low), max.min(high));
-        if settled {
-            break;
-        }
-    }
-    (min.saturating_mul(1 << COARSE), max.saturating_mul(1 << COARSE))
-}
-
-/// After how many maps an address has settled the value: the product of the horizontal factors is below `2^-62` or that of the scalings
-/// below `2^-40`. `r^k <= e^(-k (1 - r))`.
-fn levels_of<const D: usize>(maps: &[Map<D>]) -> u32 {
-    let widest = maps.iter().map(|m| m.width).max().unwrap_or(0);
-    let steepest = maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
-    let steps = |nepers: u128, r: u64| {
-        (nepers << 63)
-            .checked_div(u128::from(ONE.saturating_sub(r)))
-            .map_or(u32::MAX, |k| (k + 1).min(u128::from(u32::MAX)) as u32)
-    };
-    // 62 ln 2 = 42.98, 40 ln 2 = 27.73
-    steps(43, widest).min(steps(28, steepest))
 }

@@ -7,6 +7,7 @@
 //!
 //! Inside, the abscissa `u = (x - x_0) / (x_N - x_0)` runs over `[0, 1]` with 63 fractional bits, values have 55.
 
+mod bounds;
 mod calculus;
 mod chaos;
 mod compose;

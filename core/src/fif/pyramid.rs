@@ -12,7 +12,7 @@
 use super::Fif;
 use super::function::{Map, real_above, real_below, twice_high};
 use crate::Error;
-use crate::num::{FRACTION, ONE, Polynomial, Real, mul_high_u, real_from};
+use crate::num::{FRACTION, ONE, Polynomial, Real, mul_high, mul_high_u, quotient, real_from};
 
 /// A function above one of its cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,6 +59,7 @@ pub struct Pyramid<'a> {
 
 impl Pyramid<'static> {
     /// How many cells the levels 0 to `depth` of a function of `maps` maps have: the length of the memory to lend.
+    #[inline(never)]
     pub const fn cells(maps: usize, depth: u32) -> usize {
         let mut sum = 1_usize;
         let mut level = 0;
@@ -95,8 +96,7 @@ impl<'a> Pyramid<'a> {
         let Some(cells) = memory.get_mut(..needed) else { return Err(Error::BufferLength { given, needed }) };
         if let Some(root) = cells.first_mut() {
             let rise = fif.last.saturating_sub(fif.first);
-            let slope =
-                (i128::from(rise) << (48 + 24 - FRACTION)).checked_div(i128::from(fif.width)).unwrap_or(0);
+            let slope = quotient(rise, 48 + 24 - FRACTION, fif.width);
             *root = Cell {
                 min: real_below(fif.range.0),
                 max: real_above(fif.range.1),
@@ -105,11 +105,11 @@ impl<'a> Pyramid<'a> {
             };
         }
         for level in 0..depth {
-            fill(fif, cells, level, Fresh::All);
+            fill(&fif.maps, fif.width, cells, level, Fresh::All);
         }
         for _ in 0..128 {
             tighten(cells, fif.maps.len(), depth);
-            if depth == 0 || !fill(fif, cells, depth - 1, Fresh::Range) {
+            if depth == 0 || !fill(&fif.maps, fif.width, cells, depth - 1, Fresh::Range) {
                 break;
             }
         }
@@ -157,8 +157,8 @@ impl<'a> Pyramid<'a> {
     pub fn bounds(&self, from: crate::num::Wide, to: crate::num::Wide) -> (Real, Real) {
         let whole = crate::num::Reciprocal::of(self.width);
         let unit = |x: crate::num::Wide| {
-            let distance = i128::from(x.to_bits()) - i128::from(self.x0);
-            whole.quotient(distance.max(0).min(i128::from(self.width)) as u64) >> 32
+            let distance = if x.to_bits() < self.x0 { 0 } else { x.to_bits().wrapping_sub(self.x0) as u64 };
+            whole.quotient(distance.min(self.width)) >> 32
         };
         // Places of cells are rounded down to 2^-31, by at most two units a level: look that much to both sides.
         const PAD: u64 = 1 << 6;
@@ -224,6 +224,7 @@ const fn level_at(maps: usize, level: u32) -> (usize, usize) {
 }
 
 /// Every cell above the finest level becomes the hull of its parts.
+#[inline(never)]
 fn tighten(cells: &mut [Cell], maps: usize, depth: u32) {
     for level in (0..depth).rev() {
         let (offset, count) = level_at(maps, level);
@@ -244,22 +245,17 @@ enum Fresh {
 }
 
 /// Computes level `level + 1` from level `level`; whether a range has changed.
-fn fill<const N: usize, const D: usize>(
-    fif: &Fif<N, D>,
-    cells: &mut [Cell],
-    level: u32,
-    fresh: Fresh,
-) -> bool {
-    let maps = fif.maps.len();
-    let (offset, count) = level_at(maps, level);
+#[inline(never)]
+fn fill<const D: usize>(maps: &[Map<D>], width: u64, cells: &mut [Cell], level: u32, fresh: Fresh) -> bool {
+    let (offset, count) = level_at(maps.len(), level);
     let Some((upper, lower)) = cells.split_at_mut_checked(offset + count) else { return false };
     let Some(parents) = upper.get(offset..) else { return false };
     let mut changed = false;
     // position of j w: j count + position of w
-    for (map, part) in fif.maps.iter().zip(lower.chunks_exact_mut(count.max(1))) {
-        let slopes = Slopes::of(fif, map);
+    for (map, part) in maps.iter().zip(lower.chunks_exact_mut(count.max(1))) {
+        let slopes = Slopes::of(width, map);
         for (index, (cell, parent)) in part.iter_mut().zip(parents).enumerate() {
-            let (start, width) = interval(&fif.maps, index, level);
+            let (start, width) = interval(maps, index, level);
             let q = map.q.part(start, width);
             let (low, high) = range(map, &q, parent);
             if fresh == Fresh::All {
@@ -319,17 +315,15 @@ struct Slopes<const D: usize> {
 }
 
 impl<const D: usize> Slopes<D> {
-    fn of<const N: usize>(fif: &Fif<N, D>, map: &Map<D>) -> Self {
-        let ratio = (i128::from(map.scaling) << 40).checked_div(i128::from(map.width)).unwrap_or(0);
-        let length = i128::from(mul_high_u(fif.width, map.width)) << 1; // 48 fractional bits
+    fn of(width: u64, map: &Map<D>) -> Self {
+        let length = mul_high_u(width, map.width) << 1; // 48 fractional bits
         let per_length = |c: i64| {
             // 55 + 48 - 48 = 55 bits; 32 are taken off, 4 of them before the product with a power
-            let quotient = (i128::from(c) << 32).checked_div(length).unwrap_or(0);
-            quotient.clamp(-(1 << 58), 1 << 58) as i64
+            quotient(c, 32, length).clamp(-(1 << 58), 1 << 58)
         };
         let quartered = Polynomial { constant: 0, powers: map.q.powers.map(|c| c >> 4) }.derivative();
         Self {
-            ratio: ratio.clamp(i128::from(i64::MIN), i128::from(i64::MAX)) as i64,
+            ratio: quotient(map.scaling, 40, map.width),
             steepness: Polynomial {
                 constant: per_length(quartered.constant) << 4,
                 powers: quartered.powers.map(|c| per_length(c) << 4),
@@ -338,11 +332,11 @@ impl<const D: usize> Slopes<D> {
     }
 
     fn at(&self, slope: Real, start: u64, width: u64) -> Real {
-        let scaled = (i128::from(slope.to_bits()) * i128::from(self.ratio)) >> 40;
-        saturated(scaled + i128::from(self.steepness.part(start, width).mean() >> 15))
+        let scaled = mul_high(i64::from(slope.to_bits()) << 24, self.ratio);
+        saturated(scaled + (self.steepness.part(start, width).mean() >> 15))
     }
 }
 
-fn saturated(bits: i128) -> Real {
-    Real::from_bits(bits.clamp(i128::from(i32::MIN), i128::from(i32::MAX)) as i32)
+fn saturated(bits: i64) -> Real {
+    Real::from_bits(bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
 }

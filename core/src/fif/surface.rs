@@ -6,9 +6,9 @@
 //! Source: Cochran, Lewis, Hart, section 3.1; the mean is left as future work there (section 6.1).
 
 use super::Fif;
-use super::function::{saturate, twice_high};
+use super::function::twice_high;
 use crate::Error;
-use crate::num::{FRACTION, Real, Vec3, Wide, real_from};
+use crate::num::{FRACTION, Real, Vec3, Wide, quotient, real_from};
 
 /// One factor of a tensor product: a differentiable function with its derivative and its integral.
 ///
@@ -59,13 +59,13 @@ impl<const N: usize, const D: usize> Factor<N, D> {
         let (low, high) = self.value.domain();
         let (a, b) = (a.max(low).min(high), b.max(low).min(high));
         let (u, v) = (self.value.unit(a), self.value.unit(b));
-        let length = i128::from(b.to_bits()) - i128::from(a.to_bits());
+        let length = b.to_bits().wrapping_sub(a.to_bits()) as u64; // a <= b: exact
         if length == 0 {
             return (self.slope.evaluate(u), self.value.evaluate(u));
         }
         let mean = |f: &Fif<N, D>| {
-            let rise = i128::from(f.evaluate(v)) - i128::from(f.evaluate(u));
-            saturate((rise << 48).checked_div(length).unwrap_or(0))
+            // values stay below 2^62
+            quotient(f.evaluate(v).wrapping_sub(f.evaluate(u)), 48, length)
         };
         (mean(&self.value), mean(&self.integral))
     }

@@ -13,8 +13,8 @@ pub fn exp_minus(x: Real) -> Unit {
     let y = ((halvings & 0xffff_ffff) * LN_2) >> 32;
     let mut sum = 1_i64 << 30;
     for k in (1..=11).rev() {
-        // sum <- 1 - y sum / k
-        sum = (1 << 30) - ((y * sum) >> 30) / k;
+        // sum <- 1 - y sum / k; both are at most 1
+        sum = (1 << 30) - i64::from(((y * sum) >> 30) as u32 / k);
     }
     Unit::from_bits((sum >> whole) as i32)
 }

@@ -3,7 +3,7 @@
 //! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
 //! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
-use super::mul_high;
+use super::{mul_high, nth};
 
 /// Fractional bits of values and coefficients.
 pub(crate) const FRACTION: u32 = 55;
@@ -19,7 +19,9 @@ pub(crate) struct Polynomial<const D: usize> {
 }
 
 /// `value * t` for an abscissa with 63 fractional bits. Error: below 2 units, towards minus infinity; exact for `t` = 1.
-#[inline]
+///
+/// Out of line: constructors ask for many.
+#[inline(never)]
 pub(crate) fn times(value: i64, t: u64) -> i64 {
     if t >= ONE { value } else { mul_high(value, t as i64) << 1 }
 }
@@ -84,44 +86,44 @@ impl<const D: usize> Polynomial<D> {
 
     /// The mean over the unit interval, `sum of c_k / (k + 1)`. Error: below `D` units.
     pub(crate) fn mean(&self) -> i64 {
-        self.powers.iter().zip(2_i64..).fold(self.constant, |sum, (c, n)| sum.wrapping_add(c / n))
+        self.powers.iter().zip(2..).fold(self.constant, |sum, (c, n)| sum.wrapping_add(nth(*c, n)))
     }
 
     /// Least and greatest value on the unit interval, outward: the hull of the Bernstein coefficients. Exact for degree 1, else wide by
-    /// a part of the second differences, which shrink with the square of the interval.
+    /// a part of the second differences, which shrink with the square of the interval; above degree 16 the sum of all magnitudes.
     pub(crate) fn range(&self) -> (i64, i64) {
-        const COARSE: u32 = 16; // 39 fractional bits leave room for binomials
-        const PAD: i64 = 1 << (COARSE + 4);
-        let (mut min, mut max) = (self.constant, self.constant);
-        for i in 1..=D as i64 {
-            // b_i = sum over k <= i of C(i, k) / C(D, k) c_k; the ratio is built up factor by factor
-            let mut b = self.constant >> COARSE;
-            let (mut over, mut under) = (1_i64, 1_i64);
-            for (c, k) in self.powers.iter().zip(0_i64..i) {
-                if D <= 8 {
-                    // 47 bits and factorials up to 8!
-                    over *= i - k;
-                    under *= D as i64 - k;
-                    b += ((c >> COARSE) * over).checked_div(under).unwrap_or(0);
-                } else {
-                    // binomials, which stay smaller: up to D = 62 they fit
-                    over = (over * (i - k)).checked_div(k + 1).unwrap_or(0);
-                    under = (under * (D as i64 - k)).checked_div(k + 1).unwrap_or(0);
-                    let product = i128::from(c >> COARSE) * i128::from(over);
-                    b += product.checked_div(i128::from(under)).unwrap_or(0) as i64;
-                }
+        match self.powers.as_slice() {
+            [] => (self.constant, self.constant),
+            [c] => {
+                let end = self.constant.wrapping_add(*c);
+                (self.constant.min(end), self.constant.max(end))
             }
-            let exact_end = if D == 1 {
-                self.powers.iter().fold(self.constant, |s, c| s.wrapping_add(*c))
-            } else {
-                b << COARSE
-            };
-            let pad = if D == 1 { 0 } else { PAD };
-            min = min.min(exact_end.saturating_sub(pad));
-            max = max.max(exact_end.saturating_add(pad));
+            _ if D > 16 => (self.norm().saturating_neg(), self.norm()),
+            powers => hull(self.constant, powers),
         }
-        (min, max)
     }
+}
+
+/// The hull of the Bernstein coefficients `b_i = sum over k <= i of C(i, k) / C(D, k) c_k`.
+#[inline(never)]
+fn hull(constant: i64, powers: &[i64]) -> (i64, i64) {
+    const COARSE: u32 = 16; // 39 fractional bits leave room for binomials
+    const PAD: i64 = 1 << (COARSE + 4);
+    let degree = powers.len() as u32;
+    let (mut min, mut max) = (constant, constant);
+    for i in 1..=degree {
+        let mut b = constant >> COARSE;
+        let (mut over, mut under) = (1, 1);
+        for (c, k) in powers.iter().zip(1..=i) {
+            // C(i, k) from C(i, k - 1): at most C(16, 8), so that the product stays below 2^61
+            over = over * (i + 1 - k) / k;
+            under = under * (degree + 1 - k) / k;
+            b += nth((c >> COARSE) * i64::from(over), under);
+        }
+        min = min.min((b << COARSE).saturating_sub(PAD));
+        max = max.max((b << COARSE).saturating_add(PAD));
+    }
+    (min, max)
 }
 
 #[cfg(test)]

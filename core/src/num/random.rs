@@ -2,6 +2,7 @@
 //!
 //! Source: A. J. Walker, "An efficient method for generating discrete random variables", 1977; the table by M. D. Vose, 1991.
 
+use super::ratio;
 use crate::Error;
 
 /// An alias table of at most `N <= 256` items. Cost of a draw: one multiplication, one comparison, two loads.
@@ -55,7 +56,7 @@ impl<const N: usize> Alias<N> {
                 break;
             }
             // poor < sum < 2^40, so that the quotient is below 2^32
-            let fraction = ((u128::from(poor) << 32).checked_div(u128::from(sum)).unwrap_or(0)) as u32;
+            let fraction = ratio(poor, 32, sum) as u32;
             if let (Some(t), Some(o), Some(s)) =
                 (table.threshold.get_mut(i), table.other.get_mut(i), settled.get_mut(i))
             {

@@ -2,6 +2,8 @@
 //!
 //! `i128` multiplication is a library call on 32-bit machines; these are a handful of `SMULL`/`UMULL` each.
 
+use super::ratio;
+
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
 ///
 /// Domain: all. Error: below 4 units of `value`, towards minus infinity. Cost: 2 multiplications.
@@ -59,13 +61,8 @@ impl Reciprocal {
     pub fn of(d: u64) -> Self {
         let d = d.max(1);
         let shift = d.leading_zeros();
-        let normal = u128::from(d << shift); // in [2^63, 2^64)
-        // 2^63 / (normal / 2^63), in (2^62, 2^63]
-        let mantissa = match (1_u128 << 126).checked_div(normal) {
-            Some(q) => q as u64,
-            None => 1 << 63,
-        };
-        Self { mantissa, shift }
+        // 2^63 / m, m = d 2^shift / 2^63 in [1, 2): in (2^62, 2^63]
+        Self { mantissa: ratio(1 << 63, 63, d << shift), shift }
     }
 
     /// `v / d` with 63 fractional bits, for `v <= d`.

@@ -1,7 +1,7 @@
 //! A pinhole camera: where the eye is, where it looks, how wide.
 
 use crate::Error;
-use crate::num::{Angle, Real, Unit, Vec3, Wide, sin_cos};
+use crate::num::{Angle, Real, Unit, Vec3, Wide, nth, quotient, sin_cos};
 
 /// A pinhole camera.
 ///
@@ -52,9 +52,9 @@ impl Camera {
         }
         let right = side.normalised().ok_or(Error::Degenerate { what: "angle between view and up" })?;
         // half the angle in turns: degrees / 720, with 32 fractional bits
-        let half = (i64::from(field_of_view.to_bits()) << 8) / 720;
+        let half = nth(i64::from(field_of_view.to_bits()) << 8, 720);
         let (sin, cos) = sin_cos(Angle::from_bits(half as u32));
-        let tangent = (i64::from(sin.to_bits()) << 28).checked_div(i64::from(cos.to_bits())).unwrap_or(0);
+        let tangent = quotient(i64::from(sin.to_bits()), 28, u64::from(cos.to_bits().unsigned_abs()));
         Ok(Self { eye, forward, right, up: right.cross(forward), tangent: tangent as i32 })
     }
 

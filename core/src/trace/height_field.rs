@@ -127,12 +127,12 @@ struct Frame {
 impl<'a> Side<'a> {
     fn new(name: &'static str, pyramid: &Pyramid<'a>) -> Result<Self, Error> {
         let (x0, width) = pyramid.domain_bits();
-        let end = i128::from(x0) + i128::from(width);
-        let limit = 64_i128 << 48;
+        let end = x0.saturating_add_unsigned(width);
         // below 64, so that the width fits
-        if i128::from(x0) < -limit || end >= limit {
+        let limit = 64 << 48;
+        if x0 < -limit || end >= limit {
             let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
-            let value = Wide::from_bits(if end >= limit { end as i64 } else { x0 });
+            let value = Wide::from_bits(if end >= limit { end } else { x0 });
             return Err(Error::OutOfRange { what: name, index: 0, value, min, max });
         }
         let origin = (x0 >> 24) as i32;

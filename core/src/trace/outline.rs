@@ -6,6 +6,7 @@
 use core::ops::Range;
 
 use super::Camera;
+use crate::num::{quotient, reciprocal};
 
 /// The projected edges of a box, or none where a corner is not in front of the eye.
 #[derive(Debug, Clone, Copy)]
@@ -53,12 +54,14 @@ impl Outline {
             if top.1 > below || bottom.1 < above {
                 continue;
             }
+            let fall = bottom.1.wrapping_sub(top.1) as u32;
+            let run = i64::from(bottom.0) - i64::from(top.0);
+            let (mantissa, shift) = reciprocal(fall);
             let at = |row: i32| {
-                let part =
-                    (i64::from(row) - i64::from(top.1)).max(0).min(i64::from(bottom.1) - i64::from(top.1));
-                let run = i64::from(bottom.0) - i64::from(top.0);
-                let offset = (part * run).checked_div(i64::from(bottom.1) - i64::from(top.1)).unwrap_or(0);
-                top.0.saturating_add(offset as i32)
+                let below = (i64::from(row) - i64::from(top.1)).max(0).min(i64::from(fall));
+                // at most 1, with 30 fractional bits
+                let part = (below * i64::from(mantissa)) >> ((shift - 30) & 63);
+                top.0.wrapping_add(((part * run) >> 30) as i32)
             };
             // an edge along the row has both its ends there
             let ends = if top.1 == bottom.1 { (top.0, bottom.0) } else { (at(above), at(below)) };
@@ -89,7 +92,8 @@ fn project(point: [i32; 3], camera: &Camera, cols: u32, rows: u32) -> Option<(i3
     // offset / (depth k) * rows / 2: 24 fractional bits over 52 - 20, with 16
     let reach = (depth * i64::from(camera.tangent)) >> 20;
     let pixels = |offset: i64| {
-        let ratio = ((i128::from(offset) * i128::from(rows)) << 23).checked_div(i128::from(reach))?;
+        // the offset has at most 34 bits, the rows 15; saturated where it is nothing
+        let ratio = quotient(offset * i64::from(rows), 23, reach as u64);
         i32::try_from(ratio).ok().filter(|r| r.unsigned_abs() < 1 << 30)
     };
     let x = pixels(along(&camera.right))? + ((cols as i32) << 15);

@@ -16,7 +16,7 @@ use super::outline::Outline;
 use super::ray::{Footprint, Ray};
 use super::sampling::{Filter, Pattern, Sampling};
 use crate::Error;
-use crate::num::{Unit, Vec3, Wide, reciprocal_sqrt};
+use crate::num::{Unit, Vec3, Wide, nth, reciprocal_sqrt};
 use crate::picture::{Field, checked_size};
 
 /// Brightness of a pixel: 0 is black, 65535 white.
@@ -75,9 +75,8 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
         in_reach(&camera, cols, rows, 0)?;
         // one pixel: 2 k / rows, with 28 + 30 - 14 = 44 fractional bits for a direction cosine of 30
-        let step = |cosine: Unit| {
-            (i64::from(camera.tangent) * i64::from(cosine.to_bits())).checked_div(rows).unwrap_or(0) >> 13
-        };
+        let step =
+            |cosine: Unit| nth(i64::from(camera.tangent) * i64::from(cosine.to_bits()), size.height) >> 13;
         let components = |v: Vec3<Unit>| [v.x, v.y, v.z];
         let right = components(camera.right).map(step);
         let down = components(camera.up).map(|c| -step(c));
@@ -86,8 +85,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
             *c -= (r * (cols - 1) + d * (rows - 1)) / 2;
         }
         // 2 k / rows with 30 fractional bits
-        let footprint =
-            (i64::from(camera.tangent) << 3).checked_div(rows).unwrap_or(0).min(i64::from(i32::MAX));
+        let footprint = nth(i64::from(camera.tangent) << 3, size.height).min(i64::from(i32::MAX));
         let footprint = Footprint::new(Unit::from_bits(footprint as i32));
         let light = Light::new(Vec3::new((-1).into(), (-2).into(), 3.into()))?;
         Ok(Self {

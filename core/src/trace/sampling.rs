@@ -4,7 +4,7 @@ use heapless::Vec;
 
 use super::environment::between;
 use crate::Error;
-use crate::num::{Real, Unit, Wide, exp_minus};
+use crate::num::{Real, Unit, Wide, exp_minus, nth, quotient};
 
 /// How many samples a pixel gets, and where.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,26 +78,27 @@ impl Pattern {
                 width
             }
         };
-        let count = i64::from(n);
-        let width = i64::from(width.to_bits());
-        let weigh = |place: i64| match filter {
-            Filter::Box => Unit::ONE,
-            Filter::Gaussian { deviation, .. } => {
-                let deviation = i64::from(deviation.to_bits()).max(1);
-                // (place / deviation)^2 / 2, below 2^8
-                let ratio = (place << 24) / deviation;
-                exp_minus(Real::from_bits(((ratio * ratio) >> 25).min(i64::from(i32::MAX)) as i32))
-            }
-        };
-        let place = |i: i64| (width * (2 * i + 1 - count)).checked_div(2 * count).unwrap_or(0);
-        let sum: i64 = (0..count).map(|i| i64::from(weigh(place(i)).to_bits())).sum();
+        let (count, width) = (i64::from(n), i64::from(width.to_bits()));
         let mut parts = Vec::new();
+        let mut sum = 0;
         for i in 0..count {
-            let weight = (i64::from(weigh(place(i)).to_bits()) << 30).checked_div(sum).unwrap_or(0);
+            let place = nth(width * (2 * i + 1 - count), 2 * u32::from(n));
+            let weight = match filter {
+                Filter::Box => Unit::ONE,
+                Filter::Gaussian { deviation, .. } => {
+                    // (place / deviation)^2 / 2, below 2^8
+                    let ratio = quotient(place, 24, u64::from(deviation.to_bits().unsigned_abs()));
+                    exp_minus(Real::from_bits(((ratio * ratio) >> 25).min(i64::from(i32::MAX)) as i32))
+                }
+            };
+            sum += u64::from(weight.to_bits().unsigned_abs());
             // at most MOST, as checked above
-            let _ = parts.push((place(i) as i32, weight as i32));
+            let _ = parts.push((place as i32, weight.to_bits()));
         }
-        Ok(Self { parts, side: width.checked_div(count).unwrap_or(0) as i32, seed })
+        for (_, weight) in &mut parts {
+            *weight = quotient(i64::from(*weight), 30, sum) as i32;
+        }
+        Ok(Self { parts, side: nth(width, n.into()) as i32, seed })
     }
 
     /// Parts a side.
