@@ -2,9 +2,11 @@
 
 mod area;
 mod chart;
+mod coloring;
 mod copier;
 mod curve;
 mod data;
+mod deep;
 mod density;
 mod environment;
 mod escape;
