@@ -114,7 +114,7 @@ mod tests {
             assert_eq!(exact(text.parse().unwrap()), text);
         }
         let third: Limbs<LIMBS> = "-0.333333333333333333333333333333333333".parse().unwrap();
-        assert_eq!(exact(third).parse::<Limbs<LIMBS>>().is_err(), true);
+        assert!(exact(third).parse::<Limbs<LIMBS>>().is_err());
         assert!(exact(third).starts_with("-0.3333333333333333333333333333333333"));
     }
 }

@@ -16,6 +16,7 @@ mod function;
 mod ifs;
 mod julia;
 mod julia_set;
+mod law;
 mod mandelbrot;
 mod nested;
 mod plot;
