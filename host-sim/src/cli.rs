@@ -88,8 +88,11 @@ pub(crate) struct Dump {
 #[command(after_help = "Columns:
   fif-curve            x,fixed,reference,error at x_i = x_0 + i (x_N - x_0) / (N - 1)
   fif-surface          x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference on a grid of about N points
+  curve, random-curve  x,y of the first N vertices; where they stop at a pixel, --size counts
   ifs                  x,y of N points of the chaos game
-  mandelbrot, julia    re,im,dwell,reference for every pixel of --size
+  copier               x,y of the first N vertices of the last order
+  julia-set            x,y of the first N points found by backward iteration
+  mandelbrot, julia    re,im,dwell,reference for every pixel of --size; no reference for a deep zoom
 
 Fixed-point numbers are printed exactly, those of the reference with the digits that give the same f64 back.
 An abscissa is a multiple of 2^-48 and an f64.")]

@@ -13,10 +13,17 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
   fif-surface  [f] and [g] as above, height f(x) g(y); [camera] eye, look_at, [up], [field_of_view]; [light] direction;
                [material = \"diffuse\" | \"phong\" | \"mirror\"], [environment = \"gradient\" | \"checkerboard\" | \"plain\"],
                [gradient] zenith, horizon, nadir; [checkerboard] bright, dark, horizon, scale, fade; [samples], [depth], [palette]
+  curve        curve = \"koch\" | ... or generator = [[x, y], ...] or turtle = \"F+F--F+F\" with angle = degrees;
+               order = 5 or adaptive = true (down to a pixel), [base = [[x, y], ...]], [fill], [palette]
+  random-curve law = \"elbow\" | \"line-to-line\" | \"one-variable\" | \"two-variable\", [knots = [[x, y], ...] | coast = \"iceland\"], [seed],
+               [beta], [deviation], [offset], [ratio], [length | norm | parameter: where to stop], [fill], [palette]
+  copier       maps as ifs, or attractor = \"barnsley-fern\" | ..., [polyline = [[x, y], ...]], [orders = [0, 1, 2, 3, 4, 5, 6]], [palette]
   ifs          maps = [[a, b, c, d, e, f, p], ...], [points], [shading = \"maps\" | \"density\" | \"plain\"], [palette]
   mandelbrot   [centre = [\"re\", \"im\"]], [width = \"3.0\"], [max_dwell = 100], [palette], [lift], [cycle], [inside = \"#rrggbb\"],
+               [coloring = \"dwell\" | \"smooth\" | \"distance\" | \"interior\"], [equalised], widths down to \"1e-100\",
                [grey] palette, lift, cycle, inside: the colours on displays without colour
   julia        c = [\"re\", \"im\"], and as mandelbrot
+  julia-set    c = [\"re\", \"im\"], [points], [method = \"pruned\" | \"plain\"], [palette]
 Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
 ";
 
@@ -36,7 +43,7 @@ pub(crate) fn run() -> Result<(), Fail> {
     let width = builtin::SCENES.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     for (name, _) in builtin::SCENES {
         let scene = scene::load(name)?;
-        writeln!(out, "  {name:width$}  {:11}  {}", scene.kind(), scene.title)?;
+        writeln!(out, "  {name:width$}  {:12}  {}", scene.kind(), scene.title)?;
     }
     write!(out, "\n{KINDS}\n{COMMANDS}")?;
     Ok(())

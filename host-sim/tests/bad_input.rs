@@ -89,7 +89,8 @@ fn numbers_outside_the_format_are_refused() {
     refused(MANDELBROT, "-0.75", "-32769", &["centre[0]", "-32769"]);
     refused(MANDELBROT, "\"0.5\"", "\"0\"", &["width", "\"0\""]);
     refused(MANDELBROT, "\"0.5\"", "\"-3\"", &["width", "-3"]);
-    refused(MANDELBROT, "\"0.5\"", "\"0.00000000001\"", &["width", "0.00000000001"]);
+    refused(MANDELBROT, "\"0.5\"", "\"1e-130\"", &["width", "1e-130", "room for 114"]);
+    refused(MANDELBROT, "\"0.5\"", "\"1e-114\"", &["width", "1e-114", "limbs"]);
     refused(MANDELBROT, "\"0.5\"", "\"wide\"", &["width", "wide", "decimal number"]);
     refused(MANDELBROT, "= 50", "= 0", &["max_dwell", "= 0", "1048576"]);
     refused(MANDELBROT, "= 50", "= -1", &["max_dwell", "-1"]);

@@ -106,6 +106,34 @@ fn every_pixel_of_a_dwell_picture_is_listed() {
 }
 
 #[test]
+fn vertices_and_points_of_curves_are_listed() {
+    let (header, rows) = sample(&["koch-snowflake", "--points", "5000"]);
+    assert_eq!((header.as_str(), rows.len()), ("x,y", 3073));
+    assert!(rows.iter().all(|p| p[0].hypot(p[1]) < 1.000_001) && rows[0] == rows[3072]);
+    let (_, rows) = sample(&["coastline", "--points", "100"]);
+    assert_eq!(rows.len(), 100);
+    // 3^6 copies of eleven points
+    assert_eq!(sample(&["copier-gasket", "--points", "10000"]).1.len(), 8019);
+    let (_, rows) = sample(&["rabbit-outline", "--points", "300"]);
+    assert_eq!(rows.len(), 300);
+    assert!(rows.iter().all(|p| p[0].hypot(p[1]) < 2.0) && rows[0] != rows[1]);
+}
+
+#[test]
+fn a_deep_zoom_is_listed_with_all_its_digits_and_no_reference() {
+    let text = good(Path::new("."), &["sample", "deep-100", "--size", "3x3"]);
+    assert_eq!((text.lines().next(), text.lines().count()), (Some("re,im,dwell,reference"), 10));
+    let middle: Vec<&str> = text.lines().nth(5).unwrap().split(',').collect();
+    // the nucleus itself: inside, and the digits of the scene
+    assert!(middle[0].starts_with(
+        "-1.296355138173036216808304477845282266265735748447889659897753734376582836466569504197"
+    ));
+    assert_eq!((middle[2], middle[3]), ("4000", ""));
+    let column: Vec<&str> = text.lines().skip(1).map(|l| l.split(',').next().unwrap()).collect();
+    assert!(column[0] != column[1] && column[0].len() > 110);
+}
+
+#[test]
 fn digits_of_coordinates_are_kept_to_the_last_bit() {
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("deep.toml");

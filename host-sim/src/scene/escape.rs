@@ -10,9 +10,11 @@ use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::coloring::Coloring;
+use super::deep::{self, Deep};
 use crate::color::Depth;
 use crate::fail::Fail;
-use crate::number::exact;
+use crate::number::{self, exact};
 use crate::palette::{Colors, Named, color};
 use crate::source::{Num, Source};
 
@@ -27,6 +29,10 @@ pub(super) struct Keys<'a> {
     pub(super) cycle: Option<&'a Spanned<i64>>,
     pub(super) inside: Option<&'a Spanned<String>>,
     pub(super) grey: Option<&'a Grey>,
+    pub(super) coloring: Option<&'a Spanned<Coloring>>,
+    pub(super) equalised: bool,
+    /// Whether there are pictures beyond 32 bits.
+    pub(super) goes_deep: bool,
 }
 
 /// The table `[grey]`: the colours on displays without colour.
@@ -40,6 +46,9 @@ pub(super) struct Grey {
     inside: Option<Spanned<String>>,
 }
 
+/// Why a colouring is refused.
+const WHOLE: &str = "a view as deep as this has whole dwells only";
+
 /// What is seen, and how.
 #[derive(Debug)]
 pub(super) struct Escape {
@@ -49,7 +58,10 @@ pub(super) struct Escape {
     /// None: as wide as the height given here needs, at least.
     width: Option<Wide>,
     home: (Wide, Wide),
+    deep: Option<Deep>,
     pub(super) max_dwell: u32,
+    pub(super) coloring: Coloring,
+    pub(super) equalised: bool,
     colors: Colors,
     /// On displays without colour.
     grey: Colors,
@@ -86,21 +98,43 @@ impl Escape {
                     .map_or(Ok(Rgb888::BLACK), |text| color(source, "grey.inside", text))?,
             },
         };
+        let coloring = keys.coloring.map_or(Coloring::Dwell, |coloring| *coloring.get_ref());
+        if let Some(cycle) = keys.cycle.filter(|_| keys.equalised) {
+            return Err(source.fail(cycle.span(), "cycle", "an equalised palette does not come round"));
+        }
+        let deep = if keys.goes_deep { Deep::load(source, keys)? } else { None };
+        let is_deep =
+            deep.is_some() && keys.width.is_some_and(|w| number::float(source.digits(w)) < deep::UNIT);
+        if let Some(key) = keys.coloring.filter(|_| is_deep && coloring != Coloring::Dwell) {
+            return Err(source.fail(key.span(), "coloring", WHOLE));
+        }
         let scene = Self {
             file: source.name.clone(),
             centre,
             width,
             home: (home_width, home_height),
+            deep,
             max_dwell,
+            coloring,
+            equalised: keys.equalised,
             colors,
             grey,
         };
-        if let Some(width) = keys.width {
+        if let Some(width) = keys.width.filter(|_| !is_deep) {
             // the coarsest grid there is: what it refuses, every size refuses
             View::new(centre, scene.width.unwrap_or_default(), Size::new(1, 1))
                 .map_err(|error| source.fail(width.span(), "width", error))?;
         }
         Ok(scene)
+    }
+
+    /// The deep view on a display of this size, if 32 bits are too coarse for it.
+    pub(super) fn deep_view(&self, size: Size) -> Result<Option<deep::View>, Fail> {
+        let Some(deep) = self.deep.filter(|_| self.view(size).is_err()) else { return Ok(None) };
+        if self.coloring != Coloring::Dwell {
+            return Err(Fail::new(format_args!("{}: coloring: {WHOLE}", self.file)));
+        }
+        deep.view(size).map(Some)
     }
 
     /// The palette on a display of colour `C`.

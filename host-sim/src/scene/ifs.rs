@@ -3,10 +3,8 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::Error;
 use attractor::draw::{Dots, Level};
-use attractor::ifs::{Affine, Ifs, MAX_MAPS};
-use attractor::num::{Real, Unit};
+use attractor::ifs::{Ifs, MAX_MAPS};
 use attractor::picture::{Bounds2, Window};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
@@ -18,13 +16,14 @@ use toml::Spanned;
 
 use super::chart::PAPER;
 use super::density::Density;
+use super::system::{Maps, system};
 use super::{Request, Watch, draw_field};
 use crate::cli::MAX_POINTS;
 use crate::color::{Depth, ground, solid};
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
-use crate::source::{Num, Source};
+use crate::source::Source;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -33,7 +32,7 @@ struct File {
     _kind: String,
     #[serde(rename = "title")]
     _title: Option<String>,
-    maps: Spanned<Vec<Spanned<[Num; 7]>>>,
+    maps: Maps,
     points: Option<Spanned<u32>>,
     shading: Option<Shading>,
     palette: Option<Named>,
@@ -67,23 +66,14 @@ const PORTION: usize = 4096;
 impl IfsScene {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
         let file: File = source.parse()?;
-        let (mut maps, mut shares) = (Vec::new(), Vec::new());
-        for (i, map) in file.maps.get_ref().iter().enumerate() {
-            let [a, b, c, d, e, f, p] = map.get_ref();
-            let unit = |n: &Num, k: usize| source.fixed::<Unit>(n, &format!("maps[{i}][{k}]"));
-            let real = |n: &Num, k: usize| source.fixed::<Real>(n, &format!("maps[{i}][{k}]"));
-            let linear = [unit(a, 0)?, unit(b, 1)?, unit(c, 2)?, unit(d, 3)?];
-            maps.push(Affine::new(linear, [real(e, 4)?, real(f, 5)?]));
-            shares.push(unit(p, 6)?);
-        }
-        let ifs = Ifs::new(&maps, &shares).map_err(|error| explain(source, &file.maps, error))?;
+        let ifs = system(source, &file.maps)?;
         let points = file.points.map(|points| match *points.get_ref() {
             n @ 1..=MAX_POINTS => Ok(n),
             _ => Err(source.fail(points.span(), "points", format!("allowed is 1 to {MAX_POINTS}"))),
         });
         let bounds = ifs.bounds();
         Ok(Self {
-            ifs: Box::new(ifs),
+            ifs,
             bounds,
             points: points.transpose()?,
             shading: file.shading.unwrap_or(Shading::Maps),
@@ -157,30 +147,12 @@ impl IfsScene {
 }
 
 /// A sixteenth of the shorter side, nothing on the smallest displays.
-fn margin(size: Size) -> u32 {
+pub(super) fn margin(size: Size) -> u32 {
     let side = size.width.min(size.height);
     if side < 32 { 0 } else { (side / 24).max(1) }
 }
 
 /// Paper where nothing was hit, else the palette without its darkest part.
-fn density_color(palette: Named, paper: Rgb888, level: Option<Level>) -> Rgb888 {
+pub(super) fn density_color(palette: Named, paper: Rgb888, level: Option<Level>) -> Rgb888 {
     level.map_or(paper, |level| palette.at(Level(level.0 / 4 * 3 + 16_000)))
-}
-
-/// The kernel's error with the map that it is about.
-fn explain(source: &Source, maps: &Spanned<Vec<Spanned<[Num; 7]>>>, error: Error) -> Fail {
-    let map = |index: usize, key: String, reason: &dyn std::fmt::Display| {
-        let span = maps.get_ref().get(index).map_or(maps.span(), Spanned::span);
-        source.fail(span, &key, reason)
-    };
-    match error {
-        Error::NotContractive { map: index } => {
-            map(index, format!("maps[{index}]"), &"it is not a contraction")
-        }
-        Error::OutOfRange { what: "probability", index, .. } => {
-            map(index, format!("maps[{index}][6]"), &error)
-        }
-        Error::OutOfRange { index, .. } if index > 0 => map(index, format!("maps[{index}]"), &error),
-        _ => source.fail(maps.span(), "maps", error),
-    }
 }

@@ -10,8 +10,9 @@ use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::coloring::{self, Coloring};
 use super::escape::{self, Escape, Grey, Keys};
-use super::{Request, Watch, draw_field};
+use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
@@ -34,6 +35,9 @@ struct File {
     cycle: Option<Spanned<i64>>,
     inside: Option<Spanned<String>>,
     grey: Option<Grey>,
+    coloring: Option<Spanned<Coloring>>,
+    #[serde(default)]
+    equalised: bool,
 }
 
 /// A view of a filled-in Julia set ready to be drawn.
@@ -58,6 +62,9 @@ impl JuliaScene {
             cycle: file.cycle.as_ref(),
             inside: file.inside.as_ref(),
             grey: file.grey.as_ref(),
+            coloring: file.coloring.as_ref(),
+            equalised: file.equalised,
+            goes_deep: false,
         };
         let [re, im] = source.pair(file.c.get_ref(), "c")?;
         let c = Complex::new(re, im);
@@ -77,8 +84,9 @@ impl JuliaScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        draw_field(self.picture(request)?, self.escape.colors::<D::Color>(), target, watch);
-        Ok(())
+        let Escape { coloring, equalised, .. } = self.escape;
+        let colors = self.escape.colors::<D::Color>();
+        coloring::draw(self.picture(request)?, coloring, equalised, colors, target, watch)
     }
 
     pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {

@@ -9,8 +9,10 @@ use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::coloring::{self, Coloring};
+use super::deep::{self, Picture};
 use super::escape::{self, Escape, Grey, Keys};
-use super::{Request, Watch, draw_field};
+use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
@@ -32,6 +34,9 @@ struct File {
     cycle: Option<Spanned<i64>>,
     inside: Option<Spanned<String>>,
     grey: Option<Grey>,
+    coloring: Option<Spanned<Coloring>>,
+    #[serde(default)]
+    equalised: bool,
 }
 
 /// A view of the set ready to be drawn.
@@ -52,6 +57,9 @@ impl MandelbrotScene {
             cycle: file.cycle.as_ref(),
             inside: file.inside.as_ref(),
             grey: file.grey.as_ref(),
+            coloring: file.coloring.as_ref(),
+            equalised: file.equalised,
+            goes_deep: true,
         };
         Ok(Self(Escape::load(source, &keys, HOME)?))
     }
@@ -65,11 +73,22 @@ impl MandelbrotScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        draw_field(self.picture(request)?, self.0.colors::<D::Color>(), target, watch);
-        Ok(())
+        let Escape { max_dwell, coloring, equalised, .. } = self.0;
+        let colors = self.0.colors::<D::Color>();
+        if let Some(view) = self.0.deep_view(request.size)? {
+            let mut orbit = deep::orbit(&view, max_dwell);
+            let picture = Picture::new(view, max_dwell, &mut orbit).map_err(Fail::new)?;
+            return coloring::paint(picture, colors, if equalised { max_dwell } else { 0 }, target, watch);
+        }
+        coloring::draw(self.picture(request)?, coloring, equalised, colors, target, watch)
     }
 
     pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+        if let Some(view) = self.0.deep_view(request.size)? {
+            let mut orbit = deep::orbit(&view, self.0.max_dwell);
+            let picture = Picture::new(view, self.0.max_dwell, &mut orbit).map_err(Fail::new)?;
+            return deep::sample(&picture, out);
+        }
         let picture = self.picture(request)?;
         let reference = |re, im| attractor_reference::dwell((re, im), self.0.max_dwell);
         escape::sample(picture.view(), |c| picture.dwell_at(c).count, reference, out)

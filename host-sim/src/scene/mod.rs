@@ -1,7 +1,12 @@
 //! Scenes: what a name or a TOML file describes, compiled and ready to be drawn or sampled.
 
+mod area;
 mod chart;
+mod coloring;
+mod copier;
+mod curve;
 mod data;
+mod deep;
 mod density;
 mod environment;
 mod escape;
@@ -10,8 +15,14 @@ mod fif_surface;
 mod function;
 mod ifs;
 mod julia;
+mod julia_set;
+mod law;
 mod mandelbrot;
 mod nested;
+mod plot;
+mod polyline;
+mod random_curve;
+mod system;
 
 use std::convert::Infallible;
 use std::io::Write;
@@ -55,9 +66,13 @@ pub(crate) struct Scene {
 enum Kind {
     FifCurve(fif_curve::FifCurve),
     FifSurface(fif_surface::FifSurface),
+    Curve(curve::CurveScene),
+    RandomCurve(random_curve::RandomCurve),
     Ifs(ifs::IfsScene),
+    Copier(copier::CopierScene),
     Mandelbrot(mandelbrot::MandelbrotScene),
     Julia(julia::JuliaScene),
+    JuliaSet(julia_set::JuliaSetScene),
 }
 
 /// The only key that is read before the kind is known.
@@ -91,11 +106,15 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
     let kind = match head.kind.get_ref().as_str() {
         "fif-curve" => Kind::FifCurve(fif_curve::FifCurve::load(source)?),
         "fif-surface" => Kind::FifSurface(fif_surface::FifSurface::load(source)?),
+        "curve" => Kind::Curve(curve::CurveScene::load(source)?),
+        "random-curve" => Kind::RandomCurve(random_curve::RandomCurve::load(source)?),
         "ifs" => Kind::Ifs(ifs::IfsScene::load(source)?),
+        "copier" => Kind::Copier(copier::CopierScene::load(source)?),
         "mandelbrot" => Kind::Mandelbrot(mandelbrot::MandelbrotScene::load(source)?),
         "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
+        "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
         _ => {
-            let reason = "allowed is fif-curve, fif-surface, ifs, mandelbrot or julia";
+            let reason = "allowed is fif-curve, fif-surface, curve, random-curve, ifs, copier, mandelbrot, julia or julia-set";
             return Err(source.fail(head.kind.span(), "kind", reason));
         }
     };
@@ -109,9 +128,13 @@ impl Scene {
         match self.kind {
             Kind::FifCurve(_) => "fif-curve",
             Kind::FifSurface(_) => "fif-surface",
+            Kind::Curve(_) => "curve",
+            Kind::RandomCurve(_) => "random-curve",
             Kind::Ifs(_) => "ifs",
+            Kind::Copier(_) => "copier",
             Kind::Mandelbrot(_) => "mandelbrot",
             Kind::Julia(_) => "julia",
+            Kind::JuliaSet(_) => "julia-set",
         }
     }
 
@@ -124,9 +147,13 @@ impl Scene {
         match &self.kind {
             Kind::FifCurve(scene) => scene.draw(request, target, watch),
             Kind::FifSurface(scene) => scene.draw(request, target, watch),
+            Kind::Curve(scene) => scene.draw(request, target, watch),
+            Kind::RandomCurve(scene) => scene.draw(request, target, watch),
             Kind::Ifs(scene) => scene.draw(request, target, watch),
+            Kind::Copier(scene) => scene.draw(request, target, watch),
             Kind::Mandelbrot(scene) => scene.draw(request, target, watch),
             Kind::Julia(scene) => scene.draw(request, target, watch),
+            Kind::JuliaSet(scene) => scene.draw(request, target, watch),
         }
     }
 
@@ -135,9 +162,13 @@ impl Scene {
         match &self.kind {
             Kind::FifCurve(scene) => scene.sample(points, out),
             Kind::FifSurface(scene) => scene.sample(points, out),
+            Kind::Curve(scene) => scene.sample(request, points, out),
+            Kind::RandomCurve(scene) => scene.sample(request, points, out),
             Kind::Ifs(scene) => scene.sample(request, points, out),
+            Kind::Copier(scene) => scene.sample(points, out),
             Kind::Mandelbrot(scene) => scene.sample(request, out),
             Kind::Julia(scene) => scene.sample(request, out),
+            Kind::JuliaSet(scene) => scene.sample(request, points, out),
         }
     }
 }

@@ -1,0 +1,139 @@
+//! What of an orbit decides the colour of a pixel: dwell, fractional dwell, distance or period.
+
+use std::convert::Infallible;
+use std::iter::Map;
+use std::ops::Range;
+
+use attractor::draw::{Equalised, Level, Leveled, Palette};
+use attractor::escape::{Distance, EscapeTime, FractionalDwell, Interior, Period, Smooth, SmoothRow};
+use attractor::picture::Field;
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
+use serde::Deserialize;
+
+use super::chart::PAPER;
+use super::{Watch, draw_field};
+use crate::color::{Depth, ground};
+use crate::fail::Fail;
+use crate::palette::Colors;
+
+/// The key `coloring`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Coloring {
+    /// Whole counts, in bands.
+    #[default]
+    Dwell,
+    /// Fractional counts, without bands.
+    Smooth,
+    /// The distance to the set, up to a pixel.
+    Distance,
+    /// The length of the cycle, inside.
+    Interior,
+}
+
+/// Steps of a fractional dwell that a palette counts, for each whole one.
+const FINE: u32 = 64;
+
+/// A fractional dwell whose count is fine.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fine(FractionalDwell);
+
+impl Leveled for Fine {
+    fn level(&self) -> Level {
+        self.0.level()
+    }
+
+    fn count(&self) -> u32 {
+        // 11 fractional bits
+        self.0.dwell.to_bits() / (2048 / FINE)
+    }
+
+    fn is_inside(&self) -> bool {
+        self.0.is_inside()
+    }
+}
+
+/// The field of [`Fine`] dwells.
+struct FineField<P>(Smooth<P>);
+
+impl<P: EscapeTime> Field for FineField<P> {
+    type Value = Fine;
+    type Row<'a>
+        = Map<SmoothRow<'a, P>, fn(FractionalDwell) -> Fine>
+    where
+        P: 'a;
+
+    fn size(&self) -> Size {
+        self.0.size()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
+        self.0.row(y, x).map(Fine)
+    }
+}
+
+/// Draws an escape-time picture in this colouring.
+pub(super) fn draw<P, D>(
+    picture: P,
+    coloring: Coloring,
+    equalised: bool,
+    colors: Colors,
+    target: &mut D,
+    watch: Watch<'_, D>,
+) -> Result<(), Fail>
+where
+    P: EscapeTime + Copy,
+    D: DrawTarget<Error = Infallible>,
+    D::Color: Depth,
+{
+    let counts = if equalised { picture.max_dwell() } else { 0 };
+    match coloring {
+        Coloring::Dwell => paint(picture, colors, counts, target, watch),
+        Coloring::Smooth => {
+            let cycle = colors.cycle.map(|counts| counts * FINE);
+            let colors = Colors { cycle, ..colors };
+            paint(FineField(Smooth(picture)), colors, counts * FINE, target, watch)
+        }
+        Coloring::Distance => {
+            let counts = if equalised { 1 << 16 } else { 0 };
+            paint(Distance(picture), colors, counts, target, watch)
+        }
+        Coloring::Interior => {
+            let paper = ground::<D::Color>(PAPER);
+            // six colours over and over, without the darkest fifth
+            let color = |period: Period| match period.0 {
+                0 => paper,
+                n => colors.named.at(Level(Level::ratio((n - 1) % 6, 5).0 / 5 * 4 + 13_000)),
+            };
+            draw_field(Interior(picture), color, target, watch);
+            Ok(())
+        }
+    }
+}
+
+/// Draws a field as the palette says; with `counts` above 0 every colour covers the same share of the outside.
+pub(super) fn paint<F, D>(
+    field: F,
+    colors: Colors,
+    counts: u32,
+    target: &mut D,
+    watch: Watch<'_, D>,
+) -> Result<(), Fail>
+where
+    F: Field,
+    F::Value: Leveled,
+    D: DrawTarget<Error = Infallible>,
+    D::Color: Depth,
+{
+    if counts == 0 {
+        draw_field(field, colors, target, watch);
+        return Ok(());
+    }
+    let mut counts = vec![0; counts as usize + 1];
+    let named = |level: Level| colors.named.at(level);
+    let equalised = Equalised::new(&field, &mut counts, named).map_err(Fail::new)?;
+    let color = |value: F::Value| if value.is_inside() { colors.inside } else { equalised.rgb(value) };
+    draw_field(field, color, target, watch);
+    Ok(())
+}

@@ -1,0 +1,218 @@
+//! `kind = "curve"`: a polyline each of whose segments is replaced by the generator, again and again.
+
+use std::convert::Infallible;
+use std::io::Write;
+
+use attractor::Error;
+use attractor::curve::{Generator, Refined, catalogue, koch};
+use attractor::num::{Angle, Real, Wide};
+use attractor::picture::{Point2, Step, Window};
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::area::Area;
+use super::plot::{Extent, Pencil, inner, pitch};
+use super::polyline::{self, Points};
+use super::{Request, Watch};
+use crate::cli::MAX_POINTS;
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::number::exact;
+use crate::palette::Named;
+use crate::source::{Num, Source};
+
+/// Room for segments of a generator and for orders.
+const SEGMENTS: usize = 64;
+const DEPTH: usize = 32;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "kind")]
+    _kind: String,
+    #[serde(rename = "title")]
+    _title: Option<String>,
+    curve: Option<Spanned<String>>,
+    generator: Option<Points>,
+    turtle: Option<Spanned<String>>,
+    angle: Option<Num>,
+    order: Option<Spanned<i64>>,
+    adaptive: Option<Spanned<bool>>,
+    base: Option<Points>,
+    palette: Option<Named>,
+    fill: Option<bool>,
+}
+
+/// A curve ready to be drawn.
+#[derive(Debug)]
+pub(super) struct CurveScene {
+    generator: Box<Generator<SEGMENTS>>,
+    base: Vec<Point2>,
+    /// None: down to the length of a pixel.
+    order: Option<u32>,
+    filled: bool,
+    pencil: Pencil,
+}
+
+impl CurveScene {
+    pub(super) fn load(source: &Source) -> Result<Self, Fail> {
+        let file: File = source.parse()?;
+        let (generator, closed) = generator(source, &file)?;
+        let base = match &file.base {
+            Some(list) => polyline::points(source, "base", list)?,
+            None if closed => koch::triangle(Point2::default(), Real::ONE).to_vec(),
+            None => koch::SEGMENT.to_vec(),
+        };
+        let is_adaptive = file.adaptive.as_ref().is_some_and(|a| *a.get_ref());
+        let order = match (&file.order, &file.adaptive) {
+            (Some(_), Some(adaptive)) if is_adaptive => {
+                return Err(source.fail(adaptive.span(), "adaptive", "an order is given as well"));
+            }
+            (Some(order), _) => Some(checked_order(source, order, &generator, &base)?),
+            (None, _) if is_adaptive => None,
+            (None, _) => return Err(source.fail_all("order", "missing, or adaptive = true")),
+        };
+        let closed = base.first() == base.last();
+        let scene = Self {
+            generator: Box::new(generator),
+            base,
+            order,
+            filled: file.fill.unwrap_or(closed),
+            pencil: Pencil { palette: file.palette.unwrap_or(Named::Ocean), closed },
+        };
+        // what the kernel says against the base
+        scene.refined(scene.order.unwrap_or(0)).map_err(|error| match &file.base {
+            Some(list) => source.fail(list.span(), "base", error),
+            None => source.fail_all("base", error),
+        })?;
+        Ok(scene)
+    }
+
+    fn refined(&self, order: u32) -> Result<Refined<'_, SEGMENTS, DEPTH>, Error> {
+        self.generator.refined(&self.base, order)
+    }
+
+    /// The path on a display of this size, and what it takes.
+    fn path(&self, size: Size) -> Result<(Refined<'_, SEGMENTS, DEPTH>, Extent, Window), Fail> {
+        let area = inner(size).size;
+        let order = self.order.unwrap_or_else(|| {
+            // the shape at least: a few thousand points
+            (0..6).rev().find(|k| points(&self.generator, &self.base, *k) <= 1 << 12).unwrap_or(0)
+        });
+        let mut path = self.refined(order).map_err(Fail::new)?;
+        let mut extent = Extent::of(path.clone())?;
+        let mut window = Window::fit(extent.room(), area).map_err(Fail::new)?;
+        if self.order.is_none() {
+            path = self.generator.refined_to(&self.base, pitch(&window)).map_err(Fail::new)?;
+            extent = Extent::of(path.clone())?;
+            window = Window::fit(extent.room(), area).map_err(Fail::new)?;
+        }
+        Ok((path, extent, window))
+    }
+
+    pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
+    where
+        D: DrawTarget<Error = Infallible>,
+        D::Color: Depth,
+    {
+        let (path, extent, window) = self.path(request.size)?;
+        let corner = inner(request.size).top_left;
+        if self.filled {
+            let area = Area::of(path.clone(), &window, request.size, corner);
+            if !self.pencil.area(area, target, watch) {
+                return Ok(());
+            }
+        } else {
+            Pencil::paper(request.size, target);
+        }
+        self.pencil.line(path, extent.points, (window, corner), target, watch);
+        Ok(())
+    }
+
+    /// `x,y` of the first vertices.
+    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+        vertices(self.path(request.size)?.0, points, out)
+    }
+}
+
+/// `x,y` of the first points of a path.
+pub(super) fn vertices(
+    path: impl Iterator<Item = Step>,
+    points: u32,
+    out: &mut dyn Write,
+) -> Result<(), Fail> {
+    writeln!(out, "x,y")?;
+    for Step::MoveTo(p) | Step::LineTo(p) in path.take(points as usize) {
+        writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
+    }
+    Ok(())
+}
+
+/// The generator, by name, word or polyline, and whether its picture is drawn on a triangle.
+fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, bool), Fail> {
+    if let Some(angle) = file.angle.as_ref().filter(|_| file.turtle.is_none()) {
+        return Err(source.fail(angle.span(), "angle", "it belongs to a turtle word"));
+    }
+    match (&file.curve, &file.generator, &file.turtle) {
+        (Some(name), None, None) => {
+            let Some(curve) = catalogue::find(name.get_ref()) else {
+                let names: Vec<&str> = catalogue::ALL.iter().map(|curve| curve.name).collect();
+                let reason = format!("allowed is {}", names.join(", "));
+                return Err(source.fail(name.span(), "curve", reason));
+            };
+            let generator = curve.generator().map_err(|error| source.fail(name.span(), "curve", error))?;
+            Ok((generator, curve.closed))
+        }
+        (None, Some(list), None) => {
+            let mut vertices = Vec::new();
+            for (i, pair) in list.get_ref().iter().enumerate() {
+                vertices.push(source.pair::<Wide>(pair.get_ref(), &format!("generator[{i}]"))?);
+            }
+            let generator = Generator::polyline(&vertices).map_err(|error| match error {
+                Error::NotContractive { map } => {
+                    let span = list.get_ref().get(map).map_or(list.span(), Spanned::span);
+                    let reason =
+                        "the segment from here is no shorter than the one that the generator replaces";
+                    source.fail(span, &format!("generator[{map}]"), reason)
+                }
+                _ => source.fail(list.span(), "generator", error),
+            })?;
+            Ok((generator, false))
+        }
+        (None, None, Some(word)) => {
+            let Some(angle) = &file.angle else {
+                return Err(source.fail(word.span(), "turtle", "it needs an `angle` in degrees"));
+            };
+            let degrees = source.fixed::<Wide>(angle, "angle")?;
+            // 48 fractional bits, to 32 of a turn, rounded
+            let turns = ((i128::from(degrees.to_bits()) << 32) / 180 + (1 << 48)) >> 49;
+            let generator = Generator::turtle(word.get_ref(), Angle::from_bits(turns as u32));
+            Ok((generator.map_err(|error| source.fail(word.span(), "turtle", error))?, false))
+        }
+        _ => Err(source.fail_all("curve", "one of curve, generator and turtle is needed")),
+    }
+}
+
+/// How many points a path of this order has.
+fn points(generator: &Generator<SEGMENTS>, base: &[Point2], order: u32) -> u64 {
+    (generator.len() as u64).saturating_pow(order).saturating_mul(base.len().max(1) as u64)
+}
+
+fn checked_order(
+    source: &Source,
+    order: &Spanned<i64>,
+    generator: &Generator<SEGMENTS>,
+    base: &[Point2],
+) -> Result<u32, Fail> {
+    let fits = |order: &u32| points(generator, base, *order) <= u64::from(MAX_POINTS);
+    let most = (0..=DEPTH as u32).take_while(fits).last().unwrap_or(0);
+    match u32::try_from(*order.get_ref()) {
+        Ok(n) if n <= most => Ok(n),
+        _ => {
+            let reason = format!("allowed is 0 to {most} for this generator: at most {MAX_POINTS} points");
+            Err(source.fail(order.span(), "order", reason))
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! The laws of random curves, with the parameters that a scene gives them.
+
+use attractor::Error;
+use attractor::curve::{Displacement, Elbow, LineToLine, OneVariable, Part, TwoVariable};
+use attractor::num::{Real, Unit};
+use attractor::picture::Point2;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::fail::Fail;
+use crate::source::{Num, Source};
+
+/// What a file says about its law.
+#[derive(Debug)]
+pub(super) struct Parameters {
+    pub(super) law: Name,
+    pub(super) beta: Option<Num>,
+    pub(super) deviation: Option<Num>,
+    pub(super) offset: Option<Num>,
+    pub(super) ratio: Option<Num>,
+    pub(super) seed: u64,
+}
+
+/// The key `law`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Name {
+    Elbow,
+    LineToLine,
+    OneVariable,
+    TwoVariable,
+}
+
+/// Any of the laws.
+#[derive(Debug, Clone)]
+pub(super) enum Law {
+    Elbow(Elbow),
+    LineToLine(LineToLine),
+    OneVariable(OneVariable),
+    TwoVariable(TwoVariable),
+}
+
+impl Displacement for Law {
+    fn check(&self, knots: &[Point2]) -> Result<(), Error> {
+        match self {
+            Self::Elbow(law) => law.check(knots),
+            Self::LineToLine(law) => law.check(knots),
+            Self::OneVariable(law) => law.check(knots),
+            Self::TwoVariable(law) => law.check(knots),
+        }
+    }
+
+    fn midpoint(&self, part: &Part) -> Point2 {
+        match self {
+            Self::Elbow(law) => law.midpoint(part),
+            Self::LineToLine(law) => law.midpoint(part),
+            Self::OneVariable(law) => law.midpoint(part),
+            Self::TwoVariable(law) => law.midpoint(part),
+        }
+    }
+}
+
+/// The law with its parameters; those of other laws are refused.
+pub(super) fn law(source: &Source, file: &Parameters) -> Result<Law, Fail> {
+    let (name, allowed) = match file.law {
+        Name::Elbow => ("elbow", &["beta", "deviation"][..]),
+        Name::LineToLine => ("line-to-line", &["beta", "offset"][..]),
+        Name::OneVariable => ("one-variable", &["ratio", "offset"][..]),
+        Name::TwoVariable => ("two-variable", &["offset"][..]),
+    };
+    let given = [
+        ("beta", &file.beta),
+        ("deviation", &file.deviation),
+        ("offset", &file.offset),
+        ("ratio", &file.ratio),
+    ];
+    for (key, number) in given {
+        if let Some(number) = number.as_ref().filter(|_| !allowed.contains(&key)) {
+            let reason = format!("the law {name} takes {}", allowed.join(" and "));
+            return Err(source.fail(number.span(), key, reason));
+        }
+    }
+    if let (Some(ratio), Some(_)) = (&file.ratio, &file.offset) {
+        return Err(source.fail(ratio.span(), "ratio", "an offset is given as well"));
+    }
+    let real = |number: &Option<Num>, key: &str, otherwise: Real| {
+        number.as_ref().map_or(Ok(otherwise), |n| source.fixed::<Real>(n, key))
+    };
+    let unit = |number: &Option<Num>, key: &str, otherwise: Unit| {
+        number.as_ref().map_or(Ok(otherwise), |n| source.fixed::<Unit>(n, key))
+    };
+    // which of the numbers a law refuses
+    let refused = |error: Error| {
+        let key = match error {
+            Error::OutOfRange { what: "beta", .. } => "beta",
+            Error::OutOfRange { what: "similarity ratio", .. } => "ratio",
+            _ if file.law == Name::Elbow => "deviation",
+            _ => "offset",
+        };
+        let number = given.iter().find(|(k, _)| *k == key).and_then(|(_, number)| number.as_ref());
+        source.fail(number.map_or(0..0, Spanned::span), key, error)
+    };
+    let (seed, two, three) = (file.seed, Real::lit("2"), Real::lit("3"));
+    let offset = unit(&file.offset, "offset", Unit::lit("0.3"))?;
+    match file.law {
+        Name::Elbow => {
+            let beta = real(&file.beta, "beta", two)?;
+            match &file.deviation {
+                None => Elbow::self_similar(beta, seed),
+                Some(deviation) => Elbow::new(source.fixed::<Unit>(deviation, "deviation")?, beta, seed),
+            }
+            .map(Law::Elbow)
+        }
+        Name::LineToLine => {
+            let beta = real(&file.beta, "beta", three)?;
+            LineToLine::with_spectrum(offset, beta, seed).map(Law::LineToLine)
+        }
+        Name::OneVariable => match &file.ratio {
+            None => OneVariable::new(offset, seed),
+            Some(ratio) => OneVariable::with_ratio(source.fixed::<Real>(ratio, "ratio")?, seed),
+        }
+        .map(Law::OneVariable),
+        Name::TwoVariable => TwoVariable::new(offset, seed).map(Law::TwoVariable),
+    }
+    .map_err(refused)
+}

@@ -1,0 +1,193 @@
+//! `kind = "random-curve"`: a curve through knots whose midpoints a law displaces at random; the seed repeats it.
+
+use std::convert::Infallible;
+use std::io::Write;
+
+use attractor::Error;
+use attractor::curve::{Stop, Subdivision, coast, koch};
+use attractor::num::Real;
+use attractor::picture::{Point2, Step, Window};
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::area::Area;
+use super::curve::vertices;
+use super::law::{Law, Name, Parameters, law};
+use super::plot::{Extent, Pencil, inner, pitch};
+use super::polyline::{self, Points};
+use super::{Request, Watch};
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::palette::Named;
+use crate::source::{Num, Source};
+
+/// The most halvings between two knots.
+const LEVELS: usize = 20;
+type Curve<'a> = Subdivision<'a, Law, LEVELS>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "kind")]
+    _kind: String,
+    #[serde(rename = "title")]
+    _title: Option<String>,
+    law: Name,
+    knots: Option<Points>,
+    coast: Option<Spanned<String>>,
+    beta: Option<Num>,
+    deviation: Option<Num>,
+    offset: Option<Num>,
+    ratio: Option<Num>,
+    #[serde(default)]
+    seed: u64,
+    length: Option<Num>,
+    norm: Option<Num>,
+    parameter: Option<Num>,
+    palette: Option<Named>,
+    fill: Option<bool>,
+}
+
+/// A curve ready to be drawn.
+#[derive(Debug)]
+pub(super) struct RandomCurve {
+    law: Law,
+    knots: Vec<Point2>,
+    /// None: down to the length of a pixel.
+    stop: Option<Stop>,
+    filled: bool,
+    pencil: Pencil,
+}
+
+impl RandomCurve {
+    pub(super) fn load(source: &Source) -> Result<Self, Fail> {
+        let file: File = source.parse()?;
+        let law = law(
+            source,
+            &Parameters {
+                law: file.law,
+                beta: file.beta.clone(),
+                deviation: file.deviation.clone(),
+                offset: file.offset.clone(),
+                ratio: file.ratio.clone(),
+                seed: file.seed,
+            },
+        )?;
+        let knots = match (&file.knots, &file.coast) {
+            (Some(list), None) => polyline::points(source, "knots", list)?,
+            (None, Some(name)) if name.get_ref() == "iceland" => coast::ICELAND.to_vec(),
+            (None, None) => koch::SEGMENT.to_vec(),
+            (None, Some(name)) => return Err(source.fail(name.span(), "coast", "allowed is iceland")),
+            (Some(_), Some(name)) => {
+                return Err(source.fail(name.span(), "coast", "knots are given as well"));
+            }
+        };
+        let (stop, limit) = stop(source, &file)?;
+        let scene = {
+            let closed = knots.first() == knots.last();
+            let is_graph = file.law == Name::LineToLine;
+            let palette = file.palette.unwrap_or(Named::Ocean);
+            let filled = file.fill.unwrap_or(closed || is_graph);
+            Self { law, knots, stop, filled, pencil: Pencil { palette, closed } }
+        };
+        scene.curve(stop.unwrap_or(Stop::Length(Real::ONE))).map_err(|error| match (error, limit) {
+            (Error::OutOfRange { .. } | Error::Capacity { .. }, Some((key, number))) => {
+                source.fail(number.span(), key, error)
+            }
+            (Error::KnotsNotIncreasing { index }, _) => {
+                let span = file.knots.as_ref().and_then(|list| list.get_ref().get(index));
+                source.fail(span.map_or(0..0, Spanned::span), &format!("knots[{index}]"), error)
+            }
+            _ => match &file.knots {
+                Some(list) => source.fail(list.span(), "knots", error),
+                None => source.fail_all("knots", error),
+            },
+        })?;
+        Ok(scene)
+    }
+
+    fn curve(&self, stop: Stop) -> Result<Curve<'_>, Error> {
+        Subdivision::new(&self.law, &self.knots, stop)
+    }
+
+    fn window(&self, extent: &Extent, size: Size) -> Result<Window, Fail> {
+        let (room, size) = (extent.room(), inner(size).size);
+        match self.law {
+            Law::LineToLine(_) => Window::stretch(room, size),
+            _ => Window::fit(room, size),
+        }
+        .map_err(Fail::new)
+    }
+
+    /// The path on a display of this size, and what it takes.
+    fn path(&self, size: Size) -> Result<(Curve<'_>, Extent, Window), Fail> {
+        let stop = match self.stop {
+            Some(stop) => stop,
+            None => {
+                let coarse = Stop::Parameter(attractor::curve::Parameter::from_bits(1 << 24));
+                let extent = Extent::of(self.curve(coarse).map_err(Fail::new)?)?;
+                Stop::Length(pitch(&self.window(&extent, size)?))
+            }
+        };
+        let curve = self.curve(stop).map_err(Fail::new)?;
+        let extent = Extent::of(curve.clone())?;
+        let window = self.window(&extent, size)?;
+        Ok((curve, extent, window))
+    }
+
+    pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
+    where
+        D: DrawTarget<Error = Infallible>,
+        D::Color: Depth,
+    {
+        let (curve, extent, window) = self.path(request.size)?;
+        let corner = inner(request.size).top_left;
+        if self.filled {
+            // what is open is closed below: the ground under a graph
+            let (min, max) = (extent.bounds.min, extent.bounds.max);
+            let below = [max.x, min.x].map(|x| Step::LineTo(Point2::new(x, min.y)));
+            let below = below.into_iter().chain(self.knots.first().map(|p| Step::LineTo(*p)));
+            let below = below.filter(|_| !self.pencil.closed);
+            let area = Area::of(curve.clone().chain(below), &window, request.size, corner);
+            if !self.pencil.area(area, target, watch) {
+                return Ok(());
+            }
+        } else {
+            Pencil::paper(request.size, target);
+        }
+        self.pencil.line(curve, extent.points, (window, corner), target, watch);
+        Ok(())
+    }
+
+    /// `x,y` of the first points.
+    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+        vertices(self.path(request.size)?.0, points, out)
+    }
+}
+
+type Limit<'a> = Option<(&'static str, &'a Num)>;
+
+/// When to stop, and the key that says it.
+fn stop<'a>(source: &Source, file: &'a File) -> Result<(Option<Stop>, Limit<'a>), Fail> {
+    let given: Vec<(&str, &Num)> =
+        [("length", &file.length), ("norm", &file.norm), ("parameter", &file.parameter)]
+            .into_iter()
+            .filter_map(|(key, number)| Some((key, number.as_ref()?)))
+            .collect();
+    match given.as_slice() {
+        [] => Ok((None, None)),
+        [(key, number)] => {
+            let stop = match *key {
+                "length" => Stop::Length(source.fixed(number, key)?),
+                "norm" => Stop::Norm(source.fixed(number, key)?),
+                _ => Stop::Parameter(source.fixed(number, key)?),
+            };
+            Ok((Some(stop), Some((key, number))))
+        }
+        [(first, _), (key, number), ..] => {
+            Err(source.fail(number.span(), key, format!("`{first}` is given as well")))
+        }
+    }
+}
