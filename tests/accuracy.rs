@@ -37,6 +37,7 @@ pub fn table() -> Vec<Row> {
     rows.extend(functions());
     rows.extend(surfaces());
     rows.extend(shading());
+    rows.extend(moments());
     rows
 }
 
@@ -459,4 +460,38 @@ fn hits() -> Row {
     }
     assert!(met > 1000 && other * 500 <= met, "{met} leaves agree, {other} differ");
     row("HeightField::intersect (depth)", "I8F24", two_to(-16), errors)
+}
+
+/// The exact moments of an attractor's measure by the reference, for the numbers that the kernel has, rounding of the tables included.
+pub fn exact_moments<const N: usize>(ifs: &attractor::ifs::Ifs<N>) -> reference::Moments {
+    let maps: Vec<_> = ifs
+        .maps()
+        .iter()
+        .map(|m| {
+            let [a, b, c, d] = [m.a, m.b, m.c, m.d].map(|l| l.to_num::<f64>());
+            reference::Affine { a, b, c, d, e: m.e.to_num(), f: m.f.to_num() }
+        })
+        .collect();
+    let shares: Vec<f64> = ifs.probabilities().iter().map(|p| p.to_num()).collect();
+    let sum: f64 = shares.iter().sum();
+    reference::moments(&maps, &shares.iter().map(|p| p / sum).collect::<Vec<_>>())
+}
+
+fn moments() -> Vec<Row> {
+    let (mut means, mut covariances) = (Vec::new(), Vec::new());
+    for attractor in attractor::ifs::catalogue::ALL {
+        let ifs = attractor.ifs::<{ attractor::ifs::catalogue::LARGEST }>().expect(attractor.name);
+        let got = ifs.moments().expect(attractor.name);
+        let want = exact_moments(&ifs);
+        let pairs = |got: &[Wide], want: &[f64]| -> Vec<f64> {
+            got.iter().zip(want).map(|(g, w)| g.to_num::<f64>() - w).collect()
+        };
+        means.extend(pairs(&got.mean, &[want.mean.0, want.mean.1]));
+        let (xx, xy, yy) = want.covariance;
+        covariances.extend(pairs(&got.covariance, &[xx, xy, yy]));
+    }
+    vec![
+        row("Ifs::moments (mean)", "I16F48", two_to(-46), means),
+        row("Ifs::moments (covariance)", "I16F48", two_to(-40), covariances),
+    ]
 }

@@ -179,6 +179,23 @@ impl Window {
         Some(Point::new(column as i32, row as i32))
     }
 
+    /// The index of [`Window::pixel`] in a buffer of the whole raster, row by row from the upper left.
+    #[inline(always)]
+    pub(crate) fn cell(&self, p: Point2) -> Option<usize> {
+        let Bounds2 { min, max } = self.bounds;
+        // modulo 2^32 a coordinate below the window is far above it
+        let right = p.x.to_bits().wrapping_sub(min.x.to_bits()) as u32;
+        let down = max.y.to_bits().wrapping_sub(p.y.to_bits()) as u32;
+        if right > max.x.to_bits().wrapping_sub(min.x.to_bits()) as u32
+            || down > max.y.to_bits().wrapping_sub(min.y.to_bits()) as u32
+        {
+            return None;
+        }
+        let column = scaled(right, self.x).min(self.size.width - 1);
+        let row = scaled(down, self.y).min(self.size.height - 1);
+        Some(row.wrapping_mul(self.size.width).wrapping_add(column) as usize)
+    }
+
     /// Column and row of `p` in the raster continued over the whole plane: inside the window as [`Window::pixel`], below 2^47 everywhere.
     pub fn raster(&self, p: Point2) -> (i64, i64) {
         let bits = |r: Real| i64::from(r.to_bits());

@@ -3,6 +3,7 @@
 //! Format: 16 bits, `0..=65535` for `0..=1`.
 
 use crate::escape::{Dwell, FractionalDwell, MAX_PERIOD, Period};
+use crate::ifs::Hits;
 use crate::num::Real;
 use crate::trace::Tone;
 
@@ -165,6 +166,24 @@ impl Leveled for Period {
     #[inline]
     fn is_inside(&self) -> bool {
         self.0 == 0
+    }
+}
+
+/// The level is the tone; a pixel without hits is off the scale.
+impl Leveled for Hits {
+    #[inline]
+    fn level(&self) -> Level {
+        Level(self.tone)
+    }
+
+    #[inline]
+    fn count(&self) -> u32 {
+        u32::from(self.count)
+    }
+
+    #[inline]
+    fn is_inside(&self) -> bool {
+        self.count == 0
     }
 }
 

@@ -29,11 +29,15 @@ mod bounds;
 pub mod catalogue;
 mod chaos;
 mod copier;
+mod density;
 mod disc;
+mod moments;
 mod system;
 
 pub use affine::Affine;
 pub use chaos::{ChaosGame, WithMaps};
 pub use copier::{CopiedPath, CopiedPoints, Copier};
+pub use density::{Counter, Density, Hits, Toned, TonedRow};
 pub use disc::Disc;
+pub use moments::Moments;
 pub use system::{Ifs, MAX_MAPS};

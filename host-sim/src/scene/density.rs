@@ -1,59 +1,50 @@
-//! How often each pixel was hit, as a field: the measure of an attractor.
+//! The density of an attractor with a margin around it.
 
+use std::iter::{Chain, RepeatN, repeat_n};
 use std::ops::Range;
 
-use attractor::draw::Level;
-use attractor::picture::{Field, Point2, Window};
-use embedded_graphics::geometry::{Point, Size};
+use attractor::draw::{Level, Leveled as _};
+use attractor::ifs::{Hits, Toned, TonedRow};
+use attractor::picture::Field;
+use embedded_graphics::geometry::Size;
 
-/// Levels of a whole display, row by row; none where no point fell.
+/// A density on a larger display: nothing falls on the margin.
 #[derive(Debug)]
-pub(super) struct Density {
-    levels: Vec<Option<Level>>,
-    size: Size,
+pub(super) struct Framed<'a> {
+    pub(super) density: Toned<'a, u16>,
+    pub(super) size: Size,
+    /// Width of the margin on the left and above.
+    pub(super) margin: u32,
 }
 
-impl Density {
-    /// Counts points seen through `window`, whose first pixel lies at `corner`.
-    pub(super) fn of(
-        points: impl Iterator<Item = Point2>,
-        window: &Window,
-        size: Size,
-        corner: Point,
-    ) -> Self {
-        let mut counts = vec![0_u32; size.width as usize * size.height as usize];
-        for pixel in points.filter_map(|p| window.pixel(p)) {
-            let at = pixel + corner;
-            let index = at.y as usize * size.width as usize + at.x as usize;
-            if let Some(count) = counts.get_mut(index) {
-                *count = count.saturating_add(1);
-            }
-        }
-        // the scale ends where only one hit pixel in 50 lies above
-        let mut hit: Vec<u32> = counts.iter().copied().filter(|c| *c > 0).collect();
-        hit.sort_unstable();
-        let full = hit.get(hit.len() * 49 / 50).copied().unwrap_or(1);
-        // the square root twice: neither the trunk nor the finest leaves are lost
-        let level = |count: u32| {
-            let root = (u32::from(Level::ratio(count, full).0) * u32::from(u16::MAX)).isqrt();
-            Level(((root * u32::from(u16::MAX)).isqrt()) as u16)
-        };
-        let levels = counts.into_iter().map(|c| (c > 0).then(|| level(c))).collect();
-        Self { levels, size }
-    }
-}
-
-impl Field for Density {
-    type Value = Option<Level>;
-    type Row<'a> = std::iter::Copied<std::slice::Iter<'a, Option<Level>>>;
+impl Field for Framed<'_> {
+    type Value = Hits;
+    type Row<'r>
+        = Chain<Chain<RepeatN<Hits>, TonedRow<'r, u16>>, RepeatN<Hits>>
+    where
+        Self: 'r;
 
     fn size(&self) -> Size {
         self.size
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-        let start = y as usize * self.size.width as usize;
-        let row = self.levels.get(start + x.start as usize..start + x.end as usize);
-        row.unwrap_or_default().iter().copied()
+        let inner = self.density.size();
+        let (left, right) = (self.margin, self.margin + inner.width);
+        let inside = |edge: u32| edge.clamp(left, right) - left;
+        let columns =
+            if (left..left + inner.height).contains(&y) { inside(x.start)..inside(x.end) } else { 0..0 };
+        let width = columns.end - columns.start;
+        let before = if width > 0 { left.saturating_sub(x.start) } else { x.end - x.start };
+        let after = x.end - x.start - width - before;
+        let nothing = |count: u32| repeat_n(Hits::default(), count as usize);
+        let row = self.density.row(y.saturating_sub(left).min(inner.height.saturating_sub(1)), columns);
+        nothing(before).chain(row).chain(nothing(after))
     }
+}
+
+/// The square root of the tone, twice: neither the trunk nor the finest leaves are lost. None where no point fell.
+pub(super) fn level(hits: Hits) -> Option<Level> {
+    let root = |level: u32| (level * u32::from(u16::MAX)).isqrt();
+    (hits.count > 0).then(|| Level(root(root(u32::from(hits.level().0))) as u16))
 }
