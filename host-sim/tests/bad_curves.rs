@@ -44,8 +44,8 @@ fn the_good_files_are_good() {
 #[test]
 fn generators_that_refine_nothing_are_refused() {
     refused(CURVE, "[1, 1]", "[1, 0]", &[":2:", "generator", "segment of the generator is zero"]);
-    refused(CURVE, "[1, 1]", "[9, 1]", &["generator["]);
-    refused(CURVE, "[1, 0], [1, 1], [2, 1]", "[3, 0], [1, 0]", &["generator[0]", "no shorter"]);
+    refused(CURVE, "[1, 1]", "[9, 1]", &["generator[2]", "[9, 1]", "outside"]);
+    refused(CURVE, "[1, 0], [1, 1], [2, 1]", "[1.5, 0], [1, 0]", &["generator[0]", "no shorter"]);
     refused(CURVE, "[2, 1]]", "[0, 0]]", &["generator", "is zero"]);
     refused(CURVE, "[[0, 0], [1, 0], [1, 1], [2, 1]]", "[[0, 0], [1, 0]]", &["generator", "at least 3"]);
     refused(TURTLE, "F+F--F+F", "F+G", &["turtle", "F+G"]);

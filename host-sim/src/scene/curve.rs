@@ -177,6 +177,12 @@ fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, bool)
                         "the segment from here is no shorter than the one that the generator replaces";
                     source.fail(span, &format!("generator[{map}]"), reason)
                 }
+                // the kernel has not computed the value
+                Error::OutOfRange { index, .. } => {
+                    let span = list.get_ref().get(index).map_or(list.span(), Spanned::span);
+                    let reason = "outside -1 < x < 2, -2 < y < 2, seen from the segment that is replaced";
+                    source.fail(span, &format!("generator[{index}]"), reason)
+                }
                 _ => source.fail(list.span(), "generator", error),
             })?;
             Ok((generator, false))
