@@ -564,3 +564,19 @@ fn a_similarity_ratio_of_1_3_gives_dimension_1_61() {
     }
     assert!((ratio - 1.3).abs() < 0.02 && (d - 1.61).abs() < 0.05, "{ratio} {d}");
 }
+
+#[test]
+fn a_refinement_lengthens_by_the_sum_of_its_segments() {
+    for points in [
+        &[[0.0, 0.0], [0.3, 0.4], [1.0, 0.0]][..],
+        &[[0.0, 0.0], [0.25, 0.25], [0.5, -0.25], [0.9, 0.1], [1.0, 0.0]],
+    ] {
+        let wide: Vec<_> = points.iter().map(|p| p.map(Wide::from_num)).collect();
+        let generator = Generator::<8>::polyline(&wide).unwrap();
+        let exact: f64 = points.windows(2).map(|w| f64::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).sum();
+        let excess = generator.lengthening().to_num::<f64>() - exact;
+        // upwards, but for the rounding of the vertices to 31 bits
+        let segment = (-29.0_f64).exp2();
+        assert!((-segment..(points.len() - 1) as f64 * segment).contains(&excess), "{excess:e}");
+    }
+}

@@ -47,7 +47,7 @@ pub const fn turn_over(parts: u32) -> Angle {
 impl<const S: usize> Generator<S> {
     /// The generator that a turtle draws.
     ///
-    /// Domain: see the table above; angles in turns. Error: of each vertex below `2^-26` for up to nine steps and turns, from the sines
+    /// Domain: see the table above; angles in turns. Error: of each vertex below `2^-26` for up to nine steps and turns, from the sines (tests/curves.rs)
     /// (`curves.rs`: `every_vertex_is_within_its_bound`).
     ///
     /// # Errors

@@ -4,9 +4,11 @@ use std::iter::{Chain, RepeatN, repeat_n};
 use std::ops::Range;
 
 use attractor::draw::{Level, Leveled as _};
-use attractor::ifs::{Hits, Toned, TonedRow};
-use attractor::picture::Field;
+use attractor::ifs::{Density, Hits, Toned, TonedRow};
+use attractor::picture::{Field, Point2, Window};
 use embedded_graphics::geometry::Size;
+
+use crate::fail::Fail;
 
 /// A density on a larger display: nothing falls on the margin.
 #[derive(Debug)]
@@ -41,6 +43,21 @@ impl Field for Framed<'_> {
         let row = self.density.row(y.saturating_sub(left).min(inner.height.saturating_sub(1)), columns);
         nothing(before).chain(row).chain(nothing(after))
     }
+}
+
+/// How often each pixel of `window`, which lies within a margin of `size`, was hit by `points`; then shown by `show`.
+pub(super) fn counted<R>(
+    points: impl Iterator<Item = Point2>,
+    window: Window,
+    size: Size,
+    margin: u32,
+    show: impl FnOnce(Framed<'_>) -> R,
+) -> Result<R, Fail> {
+    let mut counts = vec![0_u16; (window.size().width * window.size().height) as usize];
+    let mut hits = Density::new(window, &mut counts).map_err(Fail::new)?;
+    hits.extend(points);
+    // the scale ends where fewer than one hit pixel in 50 lie above
+    Ok(show(Framed { density: hits.linear(hits.quantile(50)), size, margin }))
 }
 
 /// The square root of the tone, twice: neither the trunk nor the finest leaves are lost. None where no point fell.

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::io::Write;
 
 use attractor::draw::{Dots, Level};
-use attractor::ifs::{Density, Ifs, MAX_MAPS};
+use attractor::ifs::{Ifs, MAX_MAPS};
 use attractor::picture::{Bounds2, Window};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
@@ -15,7 +15,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::chart::PAPER;
-use super::density::{self, Framed};
+use super::density;
 use super::system::{Maps, system};
 use super::{Request, Watch, draw_field};
 use crate::cli::MAX_POINTS;
@@ -97,13 +97,10 @@ impl IfsScene {
         let mut game = self.ifs.seeded_chaos_game(request.seed);
         if self.shading == Shading::Density {
             let paper = ground::<D::Color>(PAPER);
-            let mut counts = vec![0_u16; (inner.width * inner.height) as usize];
-            let mut hits = Density::new(window, &mut counts).map_err(Fail::new)?;
-            hits.extend(game.take(points));
-            // the scale ends where fewer than one hit pixel in 50 lie above
-            let framed = Framed { density: hits.linear(hits.quantile(50)), size, margin };
             let color = |hits| density_color(self.palette, paper, density::level(hits));
-            draw_field(&framed, color, target, watch);
+            density::counted(game.take(points), window, size, margin, |framed| {
+                draw_field(&framed, color, target, watch);
+            })?;
             return Ok(());
         }
         let paper = solid(ground::<D::Color>(PAPER));

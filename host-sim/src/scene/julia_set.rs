@@ -12,7 +12,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::chart::PAPER;
-use super::density::Density;
+use super::density;
 use super::ifs::density_color;
 use super::plot::{Extent, inner, pitch};
 use super::{Request, Watch, draw_field};
@@ -117,10 +117,12 @@ impl JuliaSetScene {
     {
         let window = self.window(request)?;
         let points = self.found(request, &window, self.most(request.size))?;
-        let corner = inner(request.size).top_left;
-        let density = Density::of(points.into_iter(), &window, request.size, corner);
+        let margin = inner(request.size).top_left.x.unsigned_abs();
         let paper = ground::<D::Color>(PAPER);
-        draw_field(&density, |level| density_color(self.palette, paper, level), target, watch);
+        let color = |hits| density_color(self.palette, paper, density::level(hits));
+        density::counted(points.into_iter(), window, request.size, margin, |framed| {
+            draw_field(&framed, color, target, watch);
+        })?;
         Ok(())
     }
 
