@@ -75,7 +75,7 @@ fn orders_and_bases_beyond_the_room_are_refused() {
 #[test]
 fn parameters_outside_their_range_are_refused() {
     for beta in ["0.99", "3.01", "-2", "0"] {
-        refused(ELBOW, "beta = 2", &format!("beta = {beta}"), &["beta", beta, "1 to 3"]);
+        refused(ELBOW, "beta = 2", &format!("beta = {beta}"), &["beta", beta, "between 1 and 3"]);
     }
     refused(ELBOW, "deviation = 0.3", "deviation = -0.3", &["deviation", "-0.3"]);
     refused(ELBOW, "deviation = 0.3", "ratio = 1.3", &["ratio", "elbow", "beta"]);
@@ -91,7 +91,7 @@ fn deep_coordinates_are_told_how_many_digits_fit() {
     let long = format!("0.{}", "3".repeat(500));
     refused(DEEP, "0.0", &long, &["centre[0]", "500 decimal places", "room for 114"]);
     for width in ["0", "-1e-30", "-3"] {
-        refused(DEEP, "1e-60", width, &["width", width, "allowed is"]);
+        refused(DEEP, "1e-60", width, &["width", width, "must lie between"]);
     }
     refused(DEEP, "max_dwell", "coloring = \"smooth\"\nmax_dwell", &["coloring", "whole dwells"]);
     refused(DEEP, "max_dwell", "equalised = true\ncycle = 9\nmax_dwell", &["cycle", "9"]);
