@@ -4,7 +4,7 @@
 //! a cell; each leaves a point of the attractor. Boxes of 8 to 64 cells a side are counted, on eight positions of the grid for each size, and
 //! `log N` is averaged over the positions: that removes most of the staircase. The line is fitted to the mean logarithms. Boxes below 8 cells feel the cells,
 //! those above a 64th of the picture feel its rim. With `--boundary` only cells with an empty neighbour count: the boundary of a set with an inside.
-//! The rim of a set with an inside lowers its own dimension: Heighway's dragon measures 1.8 to 1.9, not 2.
+//! The rim of a set with an inside lowers its own dimension: Heighway's dragon measures 1.86, not 2.
 //!
 //! Graphs (`fif-curve`): counting boxes on graphs converges slowly, because the width of a column adds to its height. Instead the oscillation of each column above
 //! its chord is added up, `V(w)`: a variation method (B. Dubuc, J. F. Quiniou, C. Roques-Carmes, C. Tricot, S. W. Zucker, "Evaluating the fractal

@@ -85,7 +85,7 @@ fn scenes_without_theory_are_measured_all_the_same() {
         let text = good(Path::new("."), &args);
         println!("{text}");
         let word = if args[0] == "dimension" { "dimension" } else { "beta" };
-        assert!(value(&text, word).is_some_and(|v| v >= 0.5 && v < 3.0), "{text}");
+        assert!(value(&text, word).is_some_and(|v| (0.5..4.0).contains(&v)), "{text}");
         assert!(text.contains("theory"));
     }
 }

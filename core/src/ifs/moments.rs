@@ -30,9 +30,8 @@ impl<const N: usize> Ifs<N> {
     /// Mean and covariance of the invariant measure: of infinitely many points of the chaos game.
     ///
     /// Domain: contraction factors up to `1 - 2^-8`.
-    /// Error: of the mean below a unit of `2^-48`; of the covariance below `2^-40` for the catalogue
-    /// (`the_moments_are_those_of_the_reference` in `tests/ifs.rs`). Cost: 22 multiplications of 128 bits a map, and some dozen
-    /// divisions of 128 bits. Memory: below 500 bytes of stack.
+    /// Error: of the mean below `2^-46`, of the covariance below `2^-40`, for the catalogue (rows `Ifs::moments` of the table of promises).
+    /// Cost: below 130 thousand Cortex-M4 instructions for the fern.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for larger contraction factors.
@@ -109,7 +108,7 @@ impl<const N: usize> Ifs<N> {
                 // from 110 - excess fractional bits to 50
                 let step = if excess >= 60 { step << (excess - 60) } else { step >> (60 - excess) };
                 // no variance in the disc is larger than 64^2
-                *c = (*c + step).max(-(1 << 62)).min(1 << 62);
+                *c = (*c + step).clamp(-(1 << 62), 1 << 62);
             }
         }
         Some(solution.map(|c| Wide::from_bits(((c + 2) >> 2) as i64)))
