@@ -10,6 +10,11 @@
 //! its chord is added up, `V(w)`: a variation method (B. Dubuc, J. F. Quiniou, C. Roques-Carmes, C. Tricot, S. W. Zucker, "Evaluating the fractal
 //! dimension of profiles", Physical Review A 39, 1989) that leaves trends out. `V / w` boxes of side `w` cover the graph, so `D = 1 - slope(log V, log w)`, at least 1.
 //! Columns are `1, N, N^2, ..` for `N <= 16` equal intervals, else powers of two; the two coarsest and what lies near the last place are left out.
+//! With `N` equal intervals and affine maps the columns are images of one another, and heights above chords scale by `|alpha_j|` exactly: the measurement then tests
+//! the kernel and the formula, and its error is no more than rounding. It is not blind: it takes `N` from the scene.
+//!
+//! The standard error is that of the fit and knows nothing of what the rim and the cells do to all sizes alike: the carpet measures 0.015 low, the dragon's boundary
+//! 0.020 low, both by more than their standard errors.
 //! The equal-interval formula is M. F. Barnsley, "Fractal functions and interpolation", 1986, theorem 4 (affine maps).
 
 use std::io::Write as _;
