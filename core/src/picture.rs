@@ -179,21 +179,13 @@ impl Window {
         Some(Point::new(column as i32, row as i32))
     }
 
-    /// The index of [`Window::pixel`] in a buffer of the whole raster, row by row from the upper left.
-    #[inline(always)]
-    pub(crate) fn cell(&self, p: Point2) -> Option<usize> {
-        let Bounds2 { min, max } = self.bounds;
-        // modulo 2^32 a coordinate below the window is far above it
-        let right = p.x.to_bits().wrapping_sub(min.x.to_bits()) as u32;
-        let down = max.y.to_bits().wrapping_sub(p.y.to_bits()) as u32;
-        if right > max.x.to_bits().wrapping_sub(min.x.to_bits()) as u32
-            || down > max.y.to_bits().wrapping_sub(min.y.to_bits()) as u32
-        {
-            return None;
-        }
-        let column = scaled(right, self.x).min(self.size.width - 1);
-        let row = scaled(down, self.y).min(self.size.height - 1);
-        Some(row.wrapping_mul(self.size.width).wrapping_add(column) as usize)
+    /// For each direction the pixels a unit as 32-bit mantissa and the right shift of the product's high word; none where a unit of the format is a
+    /// pixel or wider, or where a point below the window could get an index inside it modulo `2^32`.
+    pub(crate) fn scales(&self) -> Option<[(u32, u32); 2]> {
+        let (x_shift, y_shift) = (self.x.1.checked_sub(32)?, self.y.1.checked_sub(32)?);
+        // the row 2^32 units below the upper edge, and one more
+        let rows = u64::from(self.y.0 >> (y_shift & 31)) + 2;
+        (rows * u64::from(self.size.width) < 1 << 32).then_some([(self.x.0, x_shift), (self.y.0, y_shift)])
     }
 
     /// Column and row of `p` in the raster continued over the whole plane: inside the window as [`Window::pixel`], below 2^47 everywhere.

@@ -41,6 +41,10 @@ pub(crate) enum Command {
     Sample(Sample),
     /// Measure the kernels against the f64 reference, beside the bounds that they promise
     Accuracy(Accuracy),
+    /// Measure the box-counting dimension of an attractor or of a graph, with theory beside it
+    Dimension(Dimension),
+    /// Measure the spectral exponent of a graph, with theory beside it
+    Spectrum(Spectrum),
     /// Show scenes in a window, row by row as they are computed (feature `window`)
     Window(Window),
 }
@@ -114,6 +118,31 @@ pub(crate) struct Accuracy {
     /// As CSV with all digits instead of a table
     #[arg(long)]
     pub(crate) csv: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "ifs: boxes on a grid of up to 4096 cells a side; fif-curve: oscillations of columns above their chords.
+The error is the standard error of the fitted slope."
+)]
+pub(crate) struct Dimension {
+    /// Name of a built-in scene, or path of a TOML file
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: String,
+    /// Of the boundary of the set (ifs)
+    #[arg(long)]
+    pub(crate) boundary: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "fif-curve: the power of the ordinate falls as 1/f^beta; beta is fitted to the mean power of octaves.
+The error is the standard error of the fitted slope."
+)]
+pub(crate) struct Spectrum {
+    /// Name of a built-in scene, or path of a TOML file
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: String,
 }
 
 #[derive(Debug, Args)]

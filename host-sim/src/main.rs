@@ -7,8 +7,10 @@ mod builtin;
 mod canvas;
 mod cli;
 mod color;
+mod dimension;
 mod dump;
 mod fail;
+mod fit;
 mod list;
 mod number;
 mod output;
@@ -16,6 +18,7 @@ mod palette;
 mod sample;
 mod scene;
 mod source;
+mod spectrum;
 mod window;
 
 use std::process::ExitCode;
@@ -35,6 +38,8 @@ fn main() -> ExitCode {
         Some(Command::Dump(args)) => dump::run(args),
         Some(Command::Sample(args)) => sample::run(args),
         Some(Command::Accuracy(args)) => accuracy::run(args),
+        Some(Command::Dimension(args)) => dimension::run(args),
+        Some(Command::Spectrum(args)) => spectrum::run(args),
         Some(Command::Window(args)) => window::run(args),
     };
     match done {

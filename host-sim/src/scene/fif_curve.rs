@@ -11,6 +11,7 @@ use toml::Spanned;
 use super::chart::Chart;
 use super::data::{self, Table};
 use super::function::{Description, Fixed, Function};
+use super::graph::Graph;
 use super::nested::Nested;
 use super::{Request, Watch};
 use crate::color::Depth;
@@ -80,6 +81,11 @@ impl FifCurve {
             return Err(source.fail(list.span(), "contractions", "at most 16 are shown"));
         }
         Ok(Self { function, contractions: indices, palette })
+    }
+
+    /// What measurements need of it.
+    pub(super) fn graph(&self) -> Graph<'_> {
+        Graph::new(&self.function)
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

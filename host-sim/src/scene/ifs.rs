@@ -81,6 +81,11 @@ impl IfsScene {
         })
     }
 
+    /// The system.
+    pub(super) fn ifs(&self) -> &Ifs<MAX_MAPS> {
+        &self.ifs
+    }
+
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,

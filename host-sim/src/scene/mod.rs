@@ -13,6 +13,7 @@ mod escape;
 mod fif_curve;
 mod fif_surface;
 mod function;
+mod graph;
 mod ifs;
 mod julia;
 mod julia_set;
@@ -41,6 +42,17 @@ use crate::builtin;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::source::Source;
+
+pub(crate) use graph::Graph;
+
+/// What can be measured of a scene.
+#[derive(Debug)]
+pub(crate) enum Subject<'a> {
+    /// An attractor in the plane.
+    Set(&'a attractor::ifs::Ifs<{ attractor::ifs::MAX_MAPS }>),
+    /// The graph of a function.
+    Graph(Graph<'a>),
+}
 
 /// What a picture or a sample is asked for.
 #[derive(Debug, Clone, Copy)]
@@ -135,6 +147,15 @@ impl Scene {
             Kind::Mandelbrot(_) => "mandelbrot",
             Kind::Julia(_) => "julia",
             Kind::JuliaSet(_) => "julia-set",
+        }
+    }
+
+    /// What can be measured of it; nothing of most kinds.
+    pub(crate) fn subject(&self) -> Option<Subject<'_>> {
+        match &self.kind {
+            Kind::FifCurve(scene) => Some(Subject::Graph(scene.graph())),
+            Kind::Ifs(scene) => Some(Subject::Set(scene.ifs())),
+            _ => None,
         }
     }
 
