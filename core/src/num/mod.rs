@@ -23,6 +23,7 @@ pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
 pub(crate) use quotient::{nth, quotient, ratio};
 pub use random::Alias;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
+pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;
 pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};
