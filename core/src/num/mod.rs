@@ -30,6 +30,7 @@ pub(crate) use quotient::{nth, quotient, ratio};
 pub use random::Alias;
 pub(crate) use root::root_and_reciprocal;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
+pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;
 pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};

@@ -1,6 +1,9 @@
 //! Reciprocal, square root and reciprocal square root: a table, then Newton's iteration.
 //!
-//! Newton: `y <- y (2 - m y)` for `1/m`, `y <- y (3 - m y^2) / 2` for `1/sqrt(m)`; each doubles the number of correct bits.
+//! Newton: `y <- y (2 - m y)` for `1/m`, `y <- y (3 - m y^2) / 2` for `1/sqrt(m)`; each doubles the number of correct bits. Formats are
+//! chosen so that of every product the high word alone is needed.
+
+use core::num::NonZeroU32;
 
 /// Seeds of `1/m` for `m = 1 + (i + 1/2) / 128`, 16 fractional bits.
 static RECIPROCAL: [u16; 128] = {
@@ -14,7 +17,7 @@ static RECIPROCAL: [u16; 128] = {
     table
 };
 
-/// Seeds of `1/sqrt(m)` for `m = (i + 1/2) / 64`, 16 fractional bits. The first 64 are not used: a byte needs no check.
+/// Seeds of `1/sqrt(m)` for `m = (i + 1/2) / 64`, 16 fractional bits. Those below `i` = 64 are never asked for: they spare a subtraction.
 static RECIPROCAL_SQRT: [u16; 256] = {
     let mut table = [u16::MAX; 256];
     let mut i = 64;
@@ -35,9 +38,9 @@ static RECIPROCAL_SQRT: [u16; 256] = {
     table
 };
 
-#[inline]
-const fn high(a: u32, b: u32, shift: u32) -> u32 {
-    ((a as u64 * b as u64) >> shift) as u32
+#[inline(always)]
+const fn high(a: u32, b: u32) -> u32 {
+    ((a as u64 * b as u64) >> 32) as u32
 }
 
 /// `1/d` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
@@ -45,14 +48,21 @@ const fn high(a: u32, b: u32, shift: u32) -> u32 {
 /// Domain: `d > 0` (0 counts as 1). Error: below `2^-29` relative. Cost: 4 multiplications, a table of 256 bytes.
 #[inline]
 pub fn reciprocal(d: u32) -> (u32, u32) {
-    let d = d.max(1);
-    let zeros = d.leading_zeros();
-    let m = d << zeros; // 31 fractional bits, in [1, 2)
-    let mut y = u32::from(RECIPROCAL[((m >> 24) & 127) as usize]) << 15;
-    y = high(y, high(m, y, 31).wrapping_neg(), 31);
-    y = high(y, high(m, y, 31).wrapping_neg(), 31);
+    let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(d).unwrap_or(NonZeroU32::MIN));
     // d = m 2^(31 - zeros)
-    (y, 62 - zeros)
+    (mantissa as u32, 62 - zeros)
+}
+
+/// The mantissa of `1/d`, below `2^31`, and how many zeros lead `d`: `1/d` is `mantissa 2^zeros / 2^62`.
+#[inline(always)]
+pub(crate) fn reciprocal_of(d: NonZeroU32) -> (i32, u32) {
+    let zeros = d.leading_zeros();
+    let m = d.get() << zeros; // 31 fractional bits, in [1, 2)
+    let seed = RECIPROCAL[((m >> 24) & 127) as usize];
+    // y with 32 fractional bits, m y and 2 - m y with 31, their product with 31
+    let mut y = u32::from(seed) << 16;
+    y = high(y, high(m, y).wrapping_neg()) << 1;
+    (high(y, high(m, y).wrapping_neg()) as i32, zeros)
 }
 
 /// `1/sqrt(v)` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
@@ -60,8 +70,15 @@ pub fn reciprocal(d: u32) -> (u32, u32) {
 /// Domain: `v > 0` (0 counts as 1). Error: below `2^-28` relative. Cost: 6 multiplications, a table of 512 bytes.
 #[inline]
 pub fn reciprocal_sqrt(v: u64) -> (u32, u32) {
+    let (mantissa, half) = reciprocal_sqrt_of(v);
+    (mantissa as u32, 31 + half)
+}
+
+/// The mantissa of `1/sqrt(v)`, below `2^31`, and `half`, at most 31: `1/sqrt(v)` is `mantissa / 2^(31 + half)`.
+#[inline(always)]
+pub(crate) fn reciprocal_sqrt_of(v: u64) -> (i32, u32) {
     let (m, half) = normal(v);
-    (reciprocal_sqrt_of(m), 31 + half)
+    (newton(m) as i32, half)
 }
 
 /// `floor(sqrt(v))`. Exact. Cost: 9 multiplications.
@@ -70,24 +87,15 @@ pub fn sqrt(v: u64) -> u32 {
         return 0;
     }
     let (m, half) = normal(v);
-    let y = reciprocal_sqrt_of(m);
-    // sqrt(m) with 61 fractional bits, times 2^half
-    let mut root = (u64::from(m) * u64::from(y)) >> (61 - half);
-    root = root.min(u64::from(u32::MAX));
-    // one more Newton step: the remainder times 1 / (2 root)
-    let rest = v.wrapping_sub(root * root) as i64;
-    root = root.wrapping_add(((rest >> half).wrapping_mul(i64::from(y >> 1)) >> 31) as u64);
-    root = root.min(u64::from(u32::MAX));
-    for _ in 0..4 {
-        if root * root > v {
-            root -= 1;
-        } else if root < u64::from(u32::MAX) && (root + 1) * (root + 1) <= v {
-            root += 1;
-        } else {
-            break;
-        }
-    }
-    root as u32
+    let y = newton(m);
+    // sqrt(m) with 61 fractional bits, times 2^half: too large or small by less than 2^5
+    let root = u32::try_from((u64::from(m) * u64::from(y)) >> (61 - half)).unwrap_or(u32::MAX);
+    let rest = |root: u32| v.wrapping_sub(u64::from(root) * u64::from(root)) as i64;
+    // one more Newton step: the remainder, below 2^7 2^half, times 1 / (2 root)
+    let step = (i64::from((rest(root) >> half) as i32) * i64::from(y as i32)) >> 32;
+    let root = root.wrapping_add(step as u32);
+    let left = rest(root);
+    if left < 0 { root.wrapping_sub(1) } else { root.wrapping_add(u32::from(left > 2 * i64::from(root))) }
 }
 
 /// `sqrt(v)` within 1 unit, and `1/sqrt(v)` within `2^-24` of itself as `mantissa / 2^(62 - places)`: for numbers that have been scaled, at a third of
@@ -100,7 +108,7 @@ pub(crate) fn root_and_reciprocal(v: u64) -> (u32, u32, u32) {
     let places = (high_word.leading_zeros() >> 1) & 3;
     // the low word is left to the correction
     let m = high_word << (2 * places);
-    let y = reciprocal_sqrt_of(m);
+    let y = newton(m);
     let root = ((u64::from(m) * u64::from(y)) >> 30) as u32 >> places;
     // one Newton step: the remainder, below 2^38, over twice the root
     let rest = v.wrapping_sub(u64::from(root).wrapping_mul(u64::from(root))) as i64;
@@ -110,22 +118,29 @@ pub(crate) fn root_and_reciprocal(v: u64) -> (u32, u32, u32) {
 }
 
 /// `v` as `m 4^half`, `m` with 30 fractional bits in `[1, 4)`, truncated.
-#[inline]
+#[inline(always)]
 fn normal(v: u64) -> (u32, u32) {
-    let v = v.max(1);
-    let even = v.leading_zeros() & !1;
-    (((v << even) >> 32) as u32, (62 - even) / 2)
+    let low = v as u32;
+    match NonZeroU32::new((v >> 32) as u32) {
+        Some(high) => {
+            let even = high.leading_zeros() & 30;
+            (high.get() << even | (low >> 1) >> (even ^ 31), (even >> 1) ^ 31)
+        }
+        None => {
+            let low = low.max(1);
+            let even = low.leading_zeros() & 30;
+            (low << even, (even >> 1) ^ 15)
+        }
+    }
 }
 
-#[inline]
-fn reciprocal_sqrt_of(m: u32) -> u32 {
-    let seed = RECIPROCAL_SQRT[usize::from((m >> 24) as u8)];
-    let mut y = u32::from(seed) << 15;
-    for _ in 0..2 {
-        let product = high(m, high(y, y, 32), 30);
-        y = high(y, (3 << 30) - product, 31);
-    }
-    y
+/// `1/sqrt(m)` with 31 fractional bits.
+#[inline(always)]
+fn newton(m: u32) -> u32 {
+    // y with 32 fractional bits, m y^2 and 3 - m y^2 with 30; their product is twice the next y, with 30
+    let mut y = u32::from(RECIPROCAL_SQRT[(m >> 24) as usize]) << 16;
+    y = high(y, (3 << 30) - high(m, high(y, y))) << 1;
+    high(y, (3 << 30) - high(m, high(y, y)))
 }
 
 #[cfg(test)]

@@ -1,74 +1,117 @@
 //! The walk through a height field whose nodes have two equal parts along each axis: a quadtree, the ordinary case.
 //!
-//! A plane is never intersected below the root: with the parameters at which the ray crosses a node's near and far planes its middle plane is
-//! crossed half-way between, so that a level costs a shift and an addition an axis. (After J. Revelles, C. Urena, M. Lastra, "An
-//! efficient parametric algorithm for octree traversal", 2000, in 64-bit integers.) Of a node's four parts at most three are tested.
+//! No stack: where the walk stands is two numbers, and the nodes around it are their leading digits. Leaving a part whose last digit says "far" leaves its
+//! parent as well, so that the digits that say so, counted from the last, are the levels to rise. A plane takes one multiplication at whatever level:
+//! `t = middle + whole u`, `u` its place in `[-1/2, 1/2]` along the ray's way across the surface. Of a node's four parts at most three are tested.
+//! (After J. Revelles, C. Urena, M. Lastra, "An efficient parametric algorithm for octree traversal", 2000.)
 //!
-//! Parameters have 24 fractional bits in 32. A ray so nearly parallel to a plane that it crosses the surface's planes farther away than that is left to the
+//! Parameters have 24 fractional bits in 32. A ray so nearly parallel to a plane, or so steep, that it leaves that range above the surface is left to the
 //! general walk; the two find the same leaves.
 
-use heapless::Vec;
+use core::num::NonZeroU32;
 
-use super::height_field::{HeightField, Leaf, Statistics, meets_bits, range};
-use super::ray::{Axis, Footprint, Ray};
+use super::boxes::{meets_bits, range};
+use super::height_field::{HeightField, Leaf, Side};
+use super::ray::{Footprint, Ray, parameters};
+use super::statistics::Count;
 
-/// Where a walk stands along one axis of a node.
+/// When the ray crosses the planes along one axis.
 #[derive(Debug, Clone, Copy)]
-struct Half {
-    /// Parameter at the node's middle plane, and from there to its far plane.
+struct Line {
+    /// Parameter at the middle plane of the surface.
     middle: i32,
-    rest: i32,
-    /// The number of the part where the walk stands.
+    /// Twice what the ray takes across it.
+    twice: i32,
+    /// 1 if the ray comes from above, and the second of two parts is its first.
+    from_above: u32,
+}
+
+/// Where a walk stands along one axis.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// Number of the node: the parts of `q` are `2 q + 1` and `2 q + 2`.
     node: u32,
-    /// Where the ray leaves the part; `i32::MAX` marks the far part.
+    /// The plane at which the ray leaves it, 31 fractional bits, and the parameter there.
+    end: i32,
     next: i32,
 }
 
-/// A walk through the parts of one node, from `t` with the ray's height `z` there, to `t_out`.
-#[derive(Debug, Clone, Copy)]
-struct Frame {
-    x: Half,
-    y: Half,
-    t: i32,
-    z: i32,
-    t_out: i32,
-    /// From this parameter on (16 fractional bits) the node's parts are no wider than the footprint.
-    small: i32,
+/// `u` = 1/2.
+const HALF: i32 = 1 << 30;
+
+impl Line {
+    /// None where a parameter might leave its format.
+    #[inline(always)]
+    fn new(side: &Side<'_>, origin: i32, direction: i32) -> Option<Self> {
+        let distance = (side.origin + side.width / 2).wrapping_sub(origin);
+        let magnitude = direction.unsigned_abs();
+        // distance / magnitude, with 24 and 28 fractional bits, is below 64
+        if magnitude <= distance.unsigned_abs().max(side.width.unsigned_abs()) >> 2 {
+            return None;
+        }
+        let distance = if direction < 0 { distance.wrapping_neg() } else { distance };
+        let [middle, whole] = parameters([distance, side.width], NonZeroU32::new(magnitude)?);
+        Some(Self { middle, twice: whole << 1, from_above: (direction as u32) >> 31 })
+    }
+
+    /// The parameter at the plane `u`.
+    #[inline(always)]
+    fn at(&self, u: i32) -> i32 {
+        self.middle.wrapping_add(((i64::from(self.twice) * i64::from(u)) >> 32) as i32)
+    }
+
+    /// From a node to the one after it.
+    #[inline(always)]
+    fn step(&self) -> u32 {
+        1_u32.wrapping_sub(self.from_above << 1)
+    }
 }
 
-impl Half {
-    /// Enters node `node`, whose near plane is crossed at `near` and whose parts take `rest` each.
+impl Place {
     #[inline(always)]
-    fn enter(axis: &Axis, node: u32, near: i32, rest: i32, t: i32) -> Self {
-        let middle = near + rest;
-        // the near part is the lower one (2 q + 1) unless the ray comes from above
-        let from_above = (axis.direction as u32) >> 31;
-        if middle > t {
-            Self { middle, rest, node: 2 * node + 1 + from_above, next: middle }
+    fn root(line: &Line) -> Self {
+        Self { node: 0, end: HALF, next: line.at(HALF) }
+    }
+
+    /// Into the part, `size` wide, in which the ray is at `t`.
+    #[inline(always)]
+    fn descend(&mut self, line: &Line, size: u32, t: i32) {
+        let middle = self.end.wrapping_sub(size as i32);
+        let next = line.at(middle);
+        self.node = 2 * self.node + 1 + line.from_above;
+        if next > t {
+            (self.end, self.next) = (middle, next);
         } else {
-            Self { middle, rest, node: 2 * node + 2 - from_above, next: i32::MAX }
+            self.node = self.node.wrapping_add(line.step());
         }
     }
 
-    /// The part where the walk stands as a node of its own.
+    /// How many nodes around it end where it ends.
     #[inline(always)]
-    fn descend(&self, axis: &Axis, t: i32) -> Self {
-        let near = if self.next == i32::MAX { self.middle } else { self.middle - self.rest };
-        Self::enter(axis, self.node, near, self.rest >> 1, t)
+    fn ends(&self, line: &Line) -> u32 {
+        ((self.node + 1) ^ line.from_above.wrapping_sub(1)).trailing_zeros()
     }
 
-    /// On to the far part.
+    /// Out to a node around it.
     #[inline(always)]
-    fn advance(&mut self, axis: &Axis) {
-        self.node = self.node.wrapping_add(1 | (axis.direction >> 31) as u32);
-        self.next = i32::MAX;
+    fn rise(&mut self, levels: u32) {
+        self.node = ((self.node + 1) >> (levels & 31)).wrapping_sub(1);
     }
-}
 
-/// Whether sums and differences of two such numbers fit 32 bits, saturated ones excluded.
-#[inline(always)]
-fn fits(t: i32) -> bool {
-    t.wrapping_add(1 << 30) >= 0
+    /// On to the next node of that size.
+    #[inline(always)]
+    fn advance(&mut self, line: &Line, size: u32) {
+        self.node = self.node.wrapping_add(line.step());
+        self.end = self.end.wrapping_add(size as i32);
+        self.next = line.at(self.end);
+    }
+
+    /// The end of a node of that size around the old one.
+    #[inline(always)]
+    fn widen(&mut self, line: &Line, size: u32) {
+        self.end = (self.end.wrapping_sub(1) | size.wrapping_sub(1) as i32).wrapping_add(1);
+        self.next = line.at(self.end);
+    }
 }
 
 /// A footprint made ready for the walk of one surface.
@@ -88,96 +131,81 @@ impl<const STACK: usize> HeightField<'_, STACK> {
 
 impl<'a, const STACK: usize> HeightField<'a, STACK> {
     #[inline(always)]
-    pub(super) fn walk_halves(
-        &self,
-        ray: &Ray,
-        cone: &Cone,
-        statistics: &mut Statistics,
-    ) -> Option<Leaf<'a>> {
-        let planes = |axis: &Axis, low: i32, width: i32| {
-            let (near, far) = if axis.direction < 0 { (low + width, low) } else { (low, low + width) };
-            (axis.crossing(near), axis.crossing(far))
+    pub(super) fn walk_halves(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf<'a>> {
+        let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin, ray.direction);
+        let lines = (Line::new(&self.x, ox, dx), Line::new(&self.y, oy, dy), cone.small);
+        let (Some(line_x), Some(line_y), Some(small)) = lines else {
+            return self.walk_parts(ray, cone.footprint, count);
         };
-        let x = planes(&ray.x, self.x.origin, self.x.width);
-        let y = planes(&ray.y, self.y.origin, self.y.width);
-        let (Some(small), true) = (cone.small, [x.0, x.1, y.0, y.1].into_iter().all(fits)) else {
-            let ray = *ray;
-            return self.walk_parts(&ray, cone.footprint, statistics);
-        };
-        statistics.rays = statistics.rays.wrapping_add(1);
-        statistics.box_tests = statistics.box_tests.wrapping_add(1);
-        let span = (x.0.max(y.0).max(0), x.1.min(y.1));
-        if span.0 > span.1 {
+        let (mut x, mut y) = (Place::root(&line_x), Place::root(&line_y));
+        let z_after = |t: i32| (i64::from(dz) * i64::from(t)) >> 28;
+        let z_at = |t: i32| oz.wrapping_add(z_after(t) as i32);
+        let end = x.next.min(y.next);
+        if i32::try_from(i64::from(oz) + z_after(end)).is_err() {
+            return self.walk_parts(ray, cone.footprint, count);
+        }
+        count.ray();
+        let mut t = line_x.at(-HALF).max(line_y.at(-HALF)).max(0);
+        if t > end {
             return None;
         }
-        let (f, g) = (self.x.cells.first()?, self.y.cells.first()?);
+        let (cells_x, cells_y) = (self.x.cells, self.y.cells);
+        let (mut f, mut g) = (cells_x.first()?, cells_y.first()?);
+        // on to where the ray enters the range of all heights
         let (low, high) = range(f, g);
-        let (t_in, t_out) = ray.z.clip(low, high, span);
-        if t_in > t_out {
+        let (outside, misses) =
+            if dz < 0 { (oz - high, z_at(end) > high) } else { (low - oz, z_at(end) < low) };
+        if outside > 0 {
+            if misses {
+                return None;
+            }
+            let [entry] = parameters([outside], NonZeroU32::new(dz.unsigned_abs())?);
+            t = t.max(entry.min(end));
+        }
+        let mut z = z_at(t);
+        if self.depth() == 0 && !meets_bits(f, g, z, z_at(end)) {
             return None;
         }
-        if self.leaves == 0 || t_in >> 8 >= small {
-            return Some(Leaf { nodes: (0, 0), cells: (f, g), span: (t_in, t_out) });
-        }
-        let mut stack = Vec::<Frame, STACK>::new();
-        let root = Frame {
-            x: Half::enter(&ray.x, 0, x.0, (x.1 - x.0) >> 1, t_in),
-            y: Half::enter(&ray.y, 0, y.0, (y.1 - y.0) >> 1, t_in),
-            t: t_in,
-            z: ray.z.at(t_in),
-            t_out,
-            small: small >> 1,
-        };
-        // never full: at most one frame for each level above the leaves, and depth <= STACK
-        let _ = stack.push(root);
+        let (mut level, mut size) = (0, 1_u32 << 31);
+        let mut next = end;
         loop {
-            statistics.stack = statistics.stack.max(stack.len() as u32);
-            let frame = stack.last_mut()?;
-            // the part where the walk stands, up to the next plane
-            let t_next = frame.x.next.min(frame.y.next).min(frame.t_out);
-            let z_next = ray.z.at(t_next);
-            statistics.box_tests = statistics.box_tests.wrapping_add(1);
-            let f = self.x.cells.get(frame.x.node as usize)?;
-            let g = self.y.cells.get(frame.y.node as usize)?;
-            let (t, z) = (frame.t, frame.z);
-            let finished = t_next >= frame.t_out;
-            if meets_bits(f, g, z, z_next) {
-                let nodes = (frame.x.node, frame.y.node);
-                if nodes.0 >= self.leaves || t >> 8 >= frame.small {
-                    return Some(Leaf { nodes, cells: (f, g), span: (t, t_next) });
+            // the ray meets the node where the walk stands
+            if level >= self.depth() || t >> 8 >= small >> (level & 31) {
+                return Some(Leaf { nodes: (x.node, y.node), cells: (f, g), span: (t, next) });
+            }
+            level += 1;
+            size >>= 1;
+            x.descend(&line_x, size, t);
+            y.descend(&line_y, size, t);
+            count.depth(level);
+            loop {
+                next = x.next.min(y.next);
+                let z_next = z_at(next);
+                (f, g) = (cells_x.get(x.node as usize)?, cells_y.get(y.node as usize)?);
+                count.test();
+                if meets_bits(f, g, z, z_next) {
+                    break;
                 }
-                let part = Frame {
-                    x: frame.x.descend(&ray.x, t),
-                    y: frame.y.descend(&ray.y, t),
-                    t,
-                    z,
-                    t_out: t_next,
-                    small: frame.small >> 1,
-                };
-                if finished {
-                    *frame = part;
+                (t, z) = (next, z_next);
+                // over the plane that comes first
+                let (ahead, aside, line_ahead, line_aside) = if x.next <= y.next {
+                    (&mut x, &mut y, &line_x, &line_y)
                 } else {
-                    frame.advance(ray, t_next, z_next);
-                    let _ = stack.push(part);
+                    (&mut y, &mut x, &line_y, &line_x)
+                };
+                let ends = ahead.ends(line_ahead);
+                if ends > 0 {
+                    if ends >= level {
+                        return None;
+                    }
+                    level -= ends;
+                    size <<= ends & 31;
+                    ahead.rise(ends);
+                    aside.rise(ends);
+                    aside.widen(line_aside, size);
                 }
-            } else if finished {
-                let _ = stack.pop();
-            } else {
-                frame.advance(ray, t_next, z_next);
+                ahead.advance(line_ahead, size);
             }
         }
-    }
-}
-
-impl Frame {
-    /// One part on, along the axis whose plane comes first.
-    #[inline(always)]
-    fn advance(&mut self, ray: &Ray, t: i32, z: i32) {
-        if self.x.next <= self.y.next {
-            self.x.advance(&ray.x);
-        } else {
-            self.y.advance(&ray.y);
-        }
-        (self.t, self.z) = (t, z);
     }
 }

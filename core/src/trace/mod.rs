@@ -4,20 +4,25 @@
 //!
 //! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", 2000, section 4.
 
+mod boxes;
 mod camera;
 mod environment;
 mod halves;
 mod height_field;
 mod material;
 mod outline;
+mod parts;
 mod ray;
 mod ray_caster;
 mod sampling;
+mod statistics;
 
+pub use boxes::meets;
 pub use camera::Camera;
 pub use environment::Environment;
-pub use height_field::{HeightField, Hit, Statistics, meets};
+pub use height_field::{HeightField, Hit};
 pub use material::{Light, Material};
 pub use ray::Ray;
 pub use ray_caster::{RayCaster, Row, Tone};
 pub use sampling::{Filter, Sampling};
+pub use statistics::Statistics;

@@ -1,6 +1,8 @@
-//! A ray `eye + t d`, made ready for many intersections with axis-parallel planes.
+//! A ray `eye + t d`, and when it crosses planes across an axis.
 
-use crate::num::{Real, Unit, Vec3, reciprocal};
+use core::num::NonZeroU32;
+
+use crate::num::{Real, Unit, Vec3, reciprocal, reciprocal_of};
 
 /// One coordinate of a ray: origin, direction, and the direction's reciprocal.
 #[derive(Debug, Clone, Copy)]
@@ -9,49 +11,56 @@ pub(crate) struct Axis {
     pub(crate) origin: i32,
     /// 28 fractional bits.
     pub(crate) direction: i32,
-    /// `1 / direction` as a signed mantissa of 30 bits and a right shift that gives `t` 24 fractional bits.
+    /// `1 / direction` as a signed mantissa of 29 bits and a power of two.
     mantissa: i32,
-    /// From 2 to 31, because a direction's magnitude is from 1 to `2^30`.
-    shift: u32,
-    /// `32 - shift`.
-    rest: u32,
-    /// `shift - 1`: bits from there on must be the sign's.
-    over: u32,
+    zeros: u32,
+}
+
+/// `distance / 2^zeros` for a reciprocal's `zeros` below 32 and mantissa less 2 bits: the parameter after that distance, 24 fractional bits.
+#[inline(always)]
+fn joined(product: i64, zeros: u32) -> i32 {
+    // product >> (32 - zeros) by halves: a 64-bit shift by a variable takes twice as long
+    let (high, low) = ((product >> 32) as i32, product as u32);
+    high << zeros | ((low >> 1) >> (zeros ^ 31)) as i32
+}
+
+/// What a ray with a direction of this magnitude (28 fractional bits) takes for each distance (24 fractional bits), 24 fractional bits:
+/// the caller knows that these are less than `2^31`.
+#[inline(always)]
+pub(super) fn parameters<const N: usize>(distances: [i32; N], magnitude: NonZeroU32) -> [i32; N] {
+    let (mantissa, zeros) = reciprocal_of(magnitude);
+    distances.map(|distance| joined(i64::from(distance) * i64::from(mantissa >> 2), zeros))
 }
 
 impl Axis {
     /// A component of 0 counts as `2^-28`: a ray parallel to a plane leans by less than a direction's resolution, and every plane is crossed.
-    #[inline(always)]
-    fn new(origin: i32, direction: i32) -> Self {
-        let direction = if direction == 0 { 1 } else { direction };
-        let (mantissa, shift) = reciprocal(direction.unsigned_abs());
-        let mantissa = (mantissa >> 1) as i32;
-        // distance / 2^24 * 2^28 / direction, with 24 fractional bits; the mantissa has lost one
-        let shift = shift - 29;
-        let mantissa = if direction < 0 { -mantissa } else { mantissa };
-        Self { origin, direction, mantissa, shift, rest: 32 - shift, over: shift - 1 }
+    pub(super) fn new(origin: i32, direction: i32) -> Self {
+        let (mantissa, zeros) =
+            reciprocal_of(NonZeroU32::new(direction.unsigned_abs()).unwrap_or(NonZeroU32::MIN));
+        let mantissa = if direction < 0 { -(mantissa >> 2) } else { mantissa >> 2 };
+        Self { origin, direction: if direction == 0 { 1 } else { direction }, mantissa, zeros }
     }
 
     /// The parameter at which the ray crosses the plane at `plane` (24 fractional bits), saturated.
-    #[inline(always)]
     pub(crate) fn crossing(&self, plane: i32) -> i32 {
-        // |plane|, |origin| < 64: the difference fits 32 bits
+        // |plane|, |origin| <= 64: the difference fits 32 bits
         let product = i64::from(plane.wrapping_sub(self.origin)) * i64::from(self.mantissa);
-        // by halves: a 64-bit shift by a variable takes twice as long
-        let (high, low) = ((product >> 32) as i32, product as u32);
-        let t = (low >> (self.shift & 31)) | ((high as u32) << (self.rest & 31));
+        let high = (product >> 32) as i32;
         let sign = high >> 31;
-        if (high >> (self.over & 31)) == sign { t as i32 } else { sign ^ i32::MAX }
+        if (high >> ((self.zeros & 31) ^ 31)) == sign {
+            joined(product, self.zeros & 31)
+        } else {
+            sign ^ i32::MAX
+        }
     }
 
-    /// The coordinate at parameter `t`, saturated by the caller's choice of `t` inside the scene.
+    /// The coordinate at parameter `t`; the caller knows that it stays inside the scene.
     #[inline]
     pub(crate) fn at(&self, t: i32) -> i32 {
         self.origin.wrapping_add(((i64::from(self.direction) * i64::from(t)) >> 28) as i32)
     }
 
     /// The part of `[t_in, t_out]` in which the coordinate lies between `low` and `high`; empty if `t_in > t_out` in the result.
-    #[inline(always)]
     pub(crate) fn clip(&self, low: i32, high: i32, (t_in, t_out): (i32, i32)) -> (i32, i32) {
         let (near, far) = if self.direction > 0 { (low, high) } else { (high, low) };
         (t_in.max(self.crossing(near)), t_out.min(self.crossing(far)))
@@ -84,7 +93,6 @@ impl Footprint {
     }
 
     /// From where on the cone is at least `width` wide (both 24 fractional bits).
-    #[inline(always)]
     pub(crate) fn reaches(self, width: i32) -> i64 {
         let (mantissa, shift) = self.reciprocal;
         // per_t has 30 fractional bits
@@ -95,9 +103,10 @@ impl Footprint {
 /// A ray `origin + t d`, `t >= 0`; `d` need not be of unit length.
 #[derive(Debug, Clone, Copy)]
 pub struct Ray {
-    pub(crate) x: Axis,
-    pub(crate) y: Axis,
-    pub(crate) z: Axis,
+    /// 24 fractional bits.
+    pub(super) origin: [i32; 3],
+    /// 28 fractional bits.
+    pub(super) direction: [i32; 3],
 }
 
 impl Ray {
@@ -112,7 +121,14 @@ impl Ray {
 
     /// Origin with 24, direction with 28 fractional bits.
     #[inline(always)]
-    pub(crate) fn from_bits([ox, oy, oz]: [i32; 3], [dx, dy, dz]: [i32; 3]) -> Self {
-        Self { x: Axis::new(ox, dx), y: Axis::new(oy, dy), z: Axis::new(oz, dz) }
+    pub(crate) fn from_bits(origin: [i32; 3], direction: [i32; 3]) -> Self {
+        Self { origin, direction }
+    }
+
+    /// Its coordinates along x, y and z, ready for many planes.
+    pub(super) fn axes(&self) -> [Axis; 3] {
+        let [ox, oy, oz] = self.origin;
+        let [dx, dy, dz] = self.direction;
+        [Axis::new(ox, dx), Axis::new(oy, dy), Axis::new(oz, dz)]
     }
 }

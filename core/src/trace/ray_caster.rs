@@ -10,11 +10,12 @@ use embedded_graphics_core::geometry::Size;
 use super::Camera;
 use super::environment::Environment;
 use super::halves::Cone;
-use super::height_field::{HeightField, Statistics};
+use super::height_field::HeightField;
 use super::material::{Light, Material};
 use super::outline::Outline;
 use super::ray::{Footprint, Ray};
 use super::sampling::{Filter, Pattern, Sampling};
+use super::statistics::{Statistics, Uncounted};
 use crate::Error;
 use crate::num::{Unit, Vec3, Wide, nth, reciprocal_sqrt};
 use crate::picture::{Field, checked_size};
@@ -197,7 +198,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     #[inline]
     fn tone(&self, direction: [i32; 3], visible: bool) -> Unit {
         let leaf = if visible {
-            self.surface.leaf(&Ray::from_bits(self.eye(), direction), &self.cone)
+            self.surface.leaf(&Ray::from_bits(self.eye(), direction), &self.cone, &mut Uncounted)
         } else {
             None
         };

@@ -1,0 +1,57 @@
+//! The box test: whether a ray passes through the box of a node.
+//!
+//! The ray is cut to the part over the node already: what is left to compare are two heights and the range of `f g` (eq. 49-50). No plane of constant
+//! height is intersected. Formats: 24 fractional bits.
+
+use crate::fif::Cell;
+use crate::num::Real;
+
+/// Whether a ray that runs from height `z_in` to `z_out` over a part of the surface meets the part's box: the test of which a walk consists.
+///
+/// Heights of magnitude below 64, and so the products of the ranges' ends.
+#[inline]
+pub fn meets(f: &Cell, g: &Cell, z_in: Real, z_out: Real) -> bool {
+    meets_bits(f, g, z_in.to_bits(), z_out.to_bits())
+}
+
+#[inline(always)]
+pub(super) fn meets_bits(f: &Cell, g: &Cell, z_in: i32, z_out: i32) -> bool {
+    let (z_low, z_high) = if z_in < z_out { (z_in, z_out) } else { (z_out, z_in) };
+    let [a, b, c, d] = [f.min, f.max, g.min, g.max].map(Real::to_bits);
+    if (b | d | a & c) < 0 {
+        return meets_any(f, g, z_low, z_high);
+    }
+    // no maximum is negative and at most one minimum: the maximum is that of the maxima
+    let top = product(f.max, g.max) + 1;
+    if z_low > top {
+        return false;
+    }
+    if z_high >= top {
+        return true;
+    }
+    if a | c < 0 { meets_any(f, g, z_low, z_high) } else { z_high >= product(f.min, g.min) }
+}
+
+/// The same whatever the signs.
+#[inline(never)]
+fn meets_any(f: &Cell, g: &Cell, z_low: i32, z_high: i32) -> bool {
+    let (low, high) = range(f, g);
+    z_low <= high && z_high >= low
+}
+
+#[inline(always)]
+fn product(a: Real, b: Real) -> i32 {
+    // HeightField::new has checked that the products stay below 64
+    ((i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24) as i32
+}
+
+/// Bounds of the product of two ranges (eq. 49), 24 fractional bits, outward by at most one unit more than need be.
+#[inline(never)]
+pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
+    let ends = [product(f.min, g.min), product(f.min, g.max), product(f.max, g.min), product(f.max, g.max)];
+    let (mut low, mut high) = (ends[0], ends[0]);
+    for end in ends {
+        (low, high) = (low.min(end), high.max(end));
+    }
+    (low, high + 1)
+}

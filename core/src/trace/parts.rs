@@ -1,0 +1,179 @@
+//! The walk through a height field whose nodes have any number of parts of any width: Algorithm 3 of the paper without recursion.
+//!
+//! Inside a node the ray's projection walks its parts from plane to plane in the order in which it crosses them (which contains the four cases of
+//! figure 5: the walk steps up or down along each axis by the sign of the direction), so that only parts under the ray are ever tested and the first leaf
+//! found is the nearest. One frame a level holds where the walk of that level stands: the stack is as deep as the tree.
+
+use heapless::Vec;
+
+use super::boxes::{meets_bits, range};
+use super::height_field::{HeightField, Leaf, Side};
+use super::ray::{Axis, Footprint, Ray};
+use super::statistics::Count;
+
+/// The extent of a node along one axis. Nodes are numbered level by level: the parts of node `q` are `n q + 1` to `n q + n`.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
+    node: u32,
+    low: i32,
+    width: i32,
+}
+
+/// Where a walk stands along one axis of a node.
+#[derive(Debug, Clone, Copy)]
+struct Along {
+    /// The extent of the node that is walked.
+    low: i32,
+    width: i32,
+    /// The part where the walk stands, 0 at the low end, and its number.
+    part: u32,
+    node: u32,
+    /// Where the ray leaves the part along this axis; the greatest number for the last part, which the node's own end limits.
+    next: i32,
+}
+
+/// A walk through the parts of one node, from `t` with the ray's height `z` there, to `t_out`.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    x: Along,
+    y: Along,
+    t: i32,
+    z: i32,
+    t_out: i32,
+}
+
+impl Side<'_> {
+    fn whole(&self) -> Extent {
+        Extent { node: 0, low: self.origin, width: self.width }
+    }
+
+    fn parts(&self) -> u32 {
+        self.starts.len() as u32
+    }
+
+    /// The left end of part `k` of a node; that of part `n` is the node's right end.
+    #[inline(never)]
+    fn plane(&self, low: i32, width: i32, k: u32) -> i32 {
+        let offset = match self.starts.get(k as usize) {
+            Some(start) => ((i64::from(*start) * i64::from(width)) >> 31) as i32,
+            None => width,
+        };
+        low + offset
+    }
+
+    /// Where the ray leaves part `part` of an extent; the greatest number for the last, which the node's own end limits.
+    #[inline(never)]
+    fn leaves(&self, axis: &Axis, low: i32, width: i32, part: u32) -> i32 {
+        let up = axis.direction > 0;
+        let last = if up { part + 1 >= self.parts() } else { part == 0 };
+        if last { i32::MAX } else { axis.crossing(self.plane(low, width, part + u32::from(up))) }
+    }
+
+    /// The part in which the walk begins at `t`: the first that the ray has not left.
+    #[inline(never)]
+    fn enter(&self, axis: &Axis, extent: Extent, t: i32) -> Along {
+        let Extent { node, low, width } = extent;
+        let mut part = if axis.direction > 0 { 0 } else { self.parts() - 1 };
+        loop {
+            let next = self.leaves(axis, low, width, part);
+            if next > t {
+                return Along { low, width, part, node: node * self.parts() + 1 + part, next };
+            }
+            part = part.wrapping_add(step(axis));
+        }
+    }
+
+    /// One part on. Never past the last one, whose `next` no parameter reaches.
+    fn advance(&self, axis: &Axis, along: &mut Along) {
+        along.part = along.part.wrapping_add(step(axis));
+        along.node = along.node.wrapping_add(step(axis));
+        along.next = self.leaves(axis, along.low, along.width, along.part);
+    }
+
+    fn part(&self, along: &Along) -> Extent {
+        let low = self.plane(along.low, along.width, along.part);
+        Extent { node: along.node, low, width: self.plane(along.low, along.width, along.part + 1) - low }
+    }
+}
+
+fn step(axis: &Axis) -> u32 {
+    if axis.direction > 0 { 1 } else { u32::MAX }
+}
+
+impl<'a, const STACK: usize> HeightField<'a, STACK> {
+    /// The first leaf that the ray meets.
+    #[inline(never)]
+    pub(super) fn walk_parts(
+        &self,
+        ray: &Ray,
+        footprint: Footprint,
+        count: &mut impl Count,
+    ) -> Option<Leaf<'a>> {
+        count.ray();
+        let axes = ray.axes();
+        let [ax, ay, az] = &axes;
+        let (x, y) = (self.x.whole(), self.y.whole());
+        let span = ax.clip(x.low, x.low + x.width, (0, i32::MAX));
+        let span = ay.clip(y.low, y.low + y.width, span);
+        if span.0 > span.1 {
+            return None;
+        }
+        let (f, g) = (self.x.cells.first()?, self.y.cells.first()?);
+        let (low, high) = range(f, g);
+        let (t_in, t_out) = az.clip(low, high, span);
+        if t_in > t_out || t_out == i32::MAX {
+            return None;
+        }
+        if self.leaves == 0 || is_small(&x, &y, t_in, footprint) {
+            return Some(Leaf { nodes: (0, 0), cells: (f, g), span: (t_in, t_out) });
+        }
+        let mut stack = Vec::<Frame, STACK>::new();
+        let mut frame = self.enter(&axes, (x, y), t_in, az.at(t_in), t_out);
+        loop {
+            // the part where the walk stands, up to the next plane
+            let t_next = frame.x.next.min(frame.y.next).min(frame.t_out);
+            let z_next = az.at(t_next);
+            count.test();
+            let f = self.x.cells.get(frame.x.node as usize)?;
+            let g = self.y.cells.get(frame.y.node as usize)?;
+            let finished = t_next >= frame.t_out;
+            if meets_bits(f, g, frame.z, z_next) {
+                let (x, y) = (self.x.part(&frame.x), self.y.part(&frame.y));
+                let (t, z) = (frame.t, frame.z);
+                if x.node >= self.leaves || is_small(&x, &y, t, footprint) {
+                    return Some(Leaf { nodes: (x.node, y.node), cells: (f, g), span: (t, t_next) });
+                }
+                if !finished {
+                    self.advance(&axes, &mut frame, t_next, z_next);
+                    // never full: at most one frame for each level above the leaves, and depth <= STACK
+                    let _ = stack.push(frame);
+                }
+                count.depth(stack.len() as u32 + 1);
+                frame = self.enter(&axes, (x, y), t, z, t_next);
+            } else if finished {
+                frame = stack.pop()?;
+            } else {
+                self.advance(&axes, &mut frame, t_next, z_next);
+            }
+        }
+    }
+
+    fn enter(&self, [ax, ay, _]: &[Axis; 3], (x, y): (Extent, Extent), t: i32, z: i32, t_out: i32) -> Frame {
+        Frame { x: self.x.enter(ax, x, t), y: self.y.enter(ay, y, t), t, z, t_out }
+    }
+
+    /// One part on, along the axis whose plane comes first.
+    fn advance(&self, [ax, ay, _]: &[Axis; 3], frame: &mut Frame, t: i32, z: i32) {
+        if frame.x.next <= frame.y.next {
+            self.x.advance(ax, &mut frame.x);
+        } else {
+            self.y.advance(ay, &mut frame.y);
+        }
+        (frame.t, frame.z) = (t, z);
+    }
+}
+
+/// Whether a node is no wider than the footprint at `t`.
+fn is_small(x: &Extent, y: &Extent, t: i32, footprint: Footprint) -> bool {
+    i64::from(t) >= footprint.reaches(x.width.max(y.width))
+}
