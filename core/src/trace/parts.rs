@@ -101,7 +101,7 @@ fn step(axis: &Axis) -> u32 {
     if axis.direction > 0 { 1 } else { u32::MAX }
 }
 
-impl<'a, const STACK: usize> HeightField<'a, STACK> {
+impl<const STACK: usize> HeightField<'_, STACK> {
     /// The first leaf that the ray meets.
     #[inline(never)]
     pub(super) fn walk_parts(
@@ -109,7 +109,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
         ray: &Ray,
         footprint: Footprint,
         count: &mut impl Count,
-    ) -> Option<Leaf<'a>> {
+    ) -> Option<Leaf> {
         count.ray();
         let axes = ray.axes();
         let [ax, ay, az] = &axes;
@@ -126,7 +126,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
             return None;
         }
         if self.leaves == 0 || is_small(&x, &y, t_in, footprint) {
-            return Some(Leaf { nodes: (0, 0), cells: (f, g), span: (t_in, t_out) });
+            return Some(Leaf { nodes: (0, 0), span: (t_in, t_out) });
         }
         let mut stack = Vec::<Frame, STACK>::new();
         let mut frame = self.enter(&axes, (x, y), t_in, az.at(t_in), t_out);
@@ -142,7 +142,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
                 let (x, y) = (self.x.part(&frame.x), self.y.part(&frame.y));
                 let (t, z) = (frame.t, frame.z);
                 if x.node >= self.leaves || is_small(&x, &y, t, footprint) {
-                    return Some(Leaf { nodes: (x.node, y.node), cells: (f, g), span: (t, t_next) });
+                    return Some(Leaf { nodes: (x.node, y.node), span: (t, t_next) });
                 }
                 if !finished {
                     self.advance(&axes, &mut frame, t_next, z_next);
