@@ -10,7 +10,7 @@
 
 use core::num::NonZeroU32;
 
-use super::boxes::{meets_bits, range};
+use super::boxes::meets_bits;
 use super::height_field::{HeightField, Leaf, Side};
 use super::ray::{Footprint, Ray, parameters};
 use super::statistics::Count;
@@ -60,6 +60,12 @@ impl Line {
         self.middle.wrapping_add(((i64::from(self.twice) * i64::from(u)) >> 32) as i32)
     }
 
+    /// The parameter at the surface's near plane.
+    #[inline(always)]
+    fn near(&self) -> i32 {
+        self.middle.wrapping_add(self.twice.wrapping_neg() >> 2)
+    }
+
     /// From the first of two parts to the second.
     #[inline(always)]
     fn step(&self) -> u32 {
@@ -70,7 +76,7 @@ impl Line {
 impl Place {
     #[inline(always)]
     fn root(line: &Line) -> Self {
-        Self { node: 0, end: HALF, next: line.at(HALF) }
+        Self { node: 0, end: HALF, next: line.middle.wrapping_add(line.twice >> 2) }
     }
 
     /// Into the part, `size` wide, in which the ray is at `t`.
@@ -133,23 +139,23 @@ impl<const STACK: usize> HeightField<'_, STACK> {
             return self.walk_parts(ray, cone.footprint, count);
         };
         let (mut x, mut y) = (Place::root(&line_x), Place::root(&line_y));
-        let z_after = |t: i32| (i64::from(dz) * i64::from(t)) >> 28;
-        let z_at = |t: i32| oz.wrapping_add(z_after(t) as i32);
+        let z_at = |t: i32| oz.wrapping_add(((i64::from(dz) * i64::from(t)) >> 28) as i32);
         let end = x.next.min(y.next);
-        if i32::try_from(i64::from(oz) + z_after(end)).is_err() {
+        if !(-1 << 26..1 << 26).contains(&((i64::from(dz) * i64::from(end)) >> 32)) {
+            // 64 or more upwards or downwards
             return self.walk_parts(ray, cone.footprint, count);
         }
         count.ray();
-        let mut t = line_x.at(-HALF).max(line_y.at(-HALF)).max(0);
+        let mut t = line_x.near().max(line_y.near()).max(0);
         if t > end {
             return None;
         }
-        let (cells_x, cells_y) = (self.x.cells, self.y.cells);
-        let (f, g) = (cells_x.first()?, cells_y.first()?);
         // on to where the ray enters the range of all heights
-        let (low, high) = range(f, g);
-        let (outside, misses) =
-            if dz < 0 { (oz - high, z_at(end) > high) } else { (low - oz, z_at(end) < low) };
+        let (low, high) = self.heights;
+        let (z_end, outside, misses) = match z_at(end) {
+            z if dz < 0 => (z, oz - high, z > high),
+            z => (z, low - oz, z < low),
+        };
         if outside > 0 {
             if misses {
                 return None;
@@ -158,9 +164,10 @@ impl<const STACK: usize> HeightField<'_, STACK> {
             t = t.max(entry.min(end));
         }
         let mut z = z_at(t);
-        if self.depth() == 0 && !meets_bits(f, g, z, z_at(end)) {
+        if z.max(z_end) < low || z.min(z_end) > high {
             return None;
         }
+        let (cells_x, cells_y) = (self.x.cells, self.y.cells);
         let (mut size, last) = (1_u32 << 31, (1 << 31) >> self.depth());
         let small = (small << 1) as u32;
         let mut next = end;

@@ -25,6 +25,8 @@ pub struct HeightField<'a, const STACK: usize = 16> {
     pub(super) leaves: u32,
     /// Whether nodes have two equal parts along both axes.
     halved: bool,
+    /// Bounds of all heights, 24 fractional bits.
+    pub(super) heights: (i32, i32),
 }
 
 /// One factor: its pyramid and its domain with 24 fractional bits.
@@ -144,7 +146,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
         };
         let (x, y) = (Side::new("domain along x", x)?, Side::new("domain along y", y)?);
         let halved = x.is_halved() && y.is_halved();
-        Ok(Self { x, y, depth, leaves, halved })
+        Ok(Self { x, y, depth, leaves, halved, heights: range(&f, &g) })
     }
 
     /// The depth of the tree: no more than this many frames are on the stack.
@@ -154,16 +156,13 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
 
     /// Rigorous bounds of the heights.
     pub fn heights(&self) -> (Real, Real) {
-        let cell = |side: &Side<'_>| side.cells.first().copied().unwrap_or_default();
-        let (low, high) = range(&cell(&self.x), &cell(&self.y));
-        (Real::from_bits(low), Real::from_bits(high))
+        (Real::from_bits(self.heights.0), Real::from_bits(self.heights.1))
     }
 
     /// The surface's box, 24 fractional bits: both ends along x, y and z.
     pub(super) fn extent(&self) -> [[i32; 2]; 3] {
-        let (low, high) = self.heights();
         let side = |s: &Side<'_>| [s.origin, s.origin + s.width];
-        [side(&self.x), side(&self.y), [low.to_bits(), high.to_bits()]]
+        [side(&self.x), side(&self.y), [self.heights.0, self.heights.1]]
     }
 
     /// The first leaf that the ray meets. A node is a leaf at the deepest level, or where it is no wider than `footprint` times the ray's parameter.

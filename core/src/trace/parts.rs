@@ -6,7 +6,7 @@
 
 use heapless::Vec;
 
-use super::boxes::{meets_bits, range};
+use super::boxes::meets_bits;
 use super::height_field::{HeightField, Leaf, Side};
 use super::ray::{Axis, Footprint, Ray};
 use super::statistics::Count;
@@ -119,9 +119,7 @@ impl<const STACK: usize> HeightField<'_, STACK> {
         if span.0 > span.1 {
             return None;
         }
-        let (f, g) = (self.x.cells.first()?, self.y.cells.first()?);
-        let (low, high) = range(f, g);
-        let (t_in, t_out) = az.clip(low, high, span);
+        let (t_in, t_out) = az.clip(self.heights.0, self.heights.1, span);
         if t_in > t_out || t_out == i32::MAX {
             return None;
         }
