@@ -140,13 +140,27 @@ impl Field for Rp2040 {
 
     fn row(&self, y: u32, x: Range<u32>) -> Rp2040Row<'_> {
         const DOWN: i64 = Wide::lit("2").to_bits();
-        Rp2040Row { set: &self.0, columns: x, im: Wide::from_bits((DOWN >> 1) - DOWN * i64::from(y) / 480) }
+        // the numerator is a multiple of 128: 3 2^48 / 640 = 3 2^41 / 5
+        let across = FIFTHS * i64::from(x.start);
+        Rp2040Row {
+            set: &self.0,
+            columns: x,
+            re: LEFT + across / 5,
+            fifths: across % 5,
+            im: Wide::from_bits((DOWN >> 1) - DOWN * i64::from(y) / 480),
+        }
     }
 }
 
+const LEFT: i64 = Wide::lit("-2").to_bits();
+const FIFTHS: i64 = Wide::lit("3").to_bits() >> 7;
+
+/// The real part is carried along as a quotient and its remainder in fifths of a bit.
 struct Rp2040Row<'a> {
     set: &'a Mandelbrot,
     columns: Range<u32>,
+    re: i64,
+    fifths: i64,
     im: Wide,
 }
 
@@ -154,12 +168,15 @@ impl Iterator for Rp2040Row<'_> {
     type Item = Dwell;
 
     fn next(&mut self) -> Option<Dwell> {
-        const ACROSS: i64 = Wide::lit("3").to_bits();
-        const LEFT: i64 = Wide::lit("-2").to_bits();
-        // the numerator is a multiple of 128: 3 2^48 / 640 = 3 2^41 / 5
-        let i = i64::from(self.columns.next()?);
-        let re = Wide::from_bits(LEFT + (ACROSS >> 7) * i / 5);
-        Some(self.set.dwell_at(Complex::new(re, self.im)))
+        self.columns.next()?;
+        let dwell = self.set.dwell_at(Complex::new(Wide::from_bits(self.re), self.im));
+        self.re += FIFTHS / 5;
+        self.fifths += FIFTHS % 5;
+        if self.fifths >= 5 {
+            self.fifths -= 5;
+            self.re += 1;
+        }
+        Some(dwell)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Vectors of three [`Real`] components: positions and directions in the set-up of a camera.
 
-use super::{Real, Unit, reciprocal_sqrt};
+use super::{Real, Unit, reciprocal_sqrt_of, scaled};
 
 /// A vector in space; `z` points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -32,21 +32,26 @@ impl Vec3<Real> {
     }
 
     /// The unit vector in this direction, none for the zero vector. Error: below `2^-27` in each component.
+    #[inline]
     pub fn normalised(self) -> Option<Vec3<Unit>> {
         let bits = [self.x.to_bits(), self.y.to_bits(), self.z.to_bits()];
-        let largest = bits.iter().map(|b| b.unsigned_abs()).max().unwrap_or(0);
-        if largest == 0 {
-            return None;
-        }
-        // Scale the largest component into [2^29, 2^30): the squares then add up to less than 2^62.
-        let up = i64::from(largest.leading_zeros()) - 2;
-        let scaled = bits.map(|b| if up >= 0 { i64::from(b) << up } else { i64::from(b) >> -up });
-        let square: i64 = scaled.iter().map(|s| s * s).sum();
-        let (mantissa, shift) = reciprocal_sqrt(square as u64);
-        // scaled * mantissa / 2^shift, with 30 fractional bits
-        let unit = |s: i64| Unit::from_bits(((s * i64::from(mantissa)) >> (shift - 30)) as i32);
-        Some(Vec3::new(unit(scaled[0]), unit(scaled[1]), unit(scaled[2])))
+        if bits == [0; 3] { None } else { Some(unit(bits)) }
     }
+}
+
+/// The unit vector in a direction of any format. Error: below `2^-27` in each component; the zero vector stays one.
+#[inline]
+pub(crate) fn unit(v: [i32; 3]) -> Vec3<Unit> {
+    // with 31 + half bits below the root, and 30 fractional bits wanted
+    let root = reciprocal_sqrt_of(square(v));
+    let [x, y, z] = v.map(|c| Unit::from_bits(scaled(c, root)));
+    Vec3::new(x, y, z)
+}
+
+/// The square of a vector's length, below `2^64`.
+#[inline(always)]
+pub(crate) fn square(v: [i32; 3]) -> u64 {
+    v.iter().fold(0, |sum, c| sum.wrapping_add((i64::from(*c) * i64::from(*c)) as u64))
 }
 
 impl Vec3<Unit> {

@@ -34,6 +34,14 @@ pub fn mul_high_u(a: u64, b: u64) -> u64 {
     ah * bh + (cross1 >> 32) + (cross2 >> 32)
 }
 
+/// `v mantissa / 2^(half + 1)` towards minus infinity, for `half` at most 31: a number scaled by a reciprocal square root.
+#[inline(always)]
+pub(crate) fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
+    // by halves: a 64-bit shift by a variable takes twice as long
+    let product = i64::from(v) * i64::from(mantissa);
+    ((((product as u32) >> (half & 31)) >> 1) | ((product >> 32) as u32) << ((half & 31) ^ 31)) as i32
+}
+
 /// `value / 2^shift`, rounded to nearest (halves up). Shifts of 63 and more give 0 or -1 rounded, that is 0.
 #[inline]
 pub const fn round_shift(value: i64, shift: u32) -> i64 {

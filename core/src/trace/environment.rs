@@ -1,7 +1,7 @@
 //! What surrounds a scene, infinitely far away: a tone for every direction.
 
 use crate::Error;
-use crate::num::{Real, Unit, Vec3, Wide, reciprocal};
+use crate::num::{Real, Unit, Vec3, Wide, reciprocal, reciprocal_sqrt_of, scaled, square};
 
 /// A tone for every direction: seen by rays that miss, and in a mirror.
 ///
@@ -72,41 +72,62 @@ impl Environment {
     /// The tone in direction `e`, a unit vector. Result: in `[0, 1]`. Error: below `2^-26`, and a square's edge is off by less than `2^-15` of a square.
     #[inline]
     pub fn tone(&self, e: Vec3<Unit>) -> Unit {
+        self.seen([e.x, e.y, e.z].map(Unit::to_bits), |z| z)
+    }
+
+    /// The tone in a direction of any length.
+    #[inline]
+    pub(super) fn towards(&self, e: [i32; 3]) -> Unit {
+        self.seen(e, |z| scaled(z, reciprocal_sqrt_of(square(e))))
+    }
+
+    /// The tone in a direction that `unit` brings to length 1, component by component: a gradient asks for one alone.
+    #[inline(always)]
+    fn seen(&self, e: [i32; 3], unit: impl Fn(i32) -> i32) -> Unit {
         match *self {
             Self::Plain(tone) => tone,
             Self::Gradient { zenith, horizon, nadir } => {
-                let (pole, part) = if e.z < 0 { (nadir, -e.z) } else { (zenith, e.z) };
-                mix(horizon, pole, part)
+                let pole = if e[2] < 0 { nadir } else { zenith };
+                mix(horizon, pole, unit(e[2]).wrapping_abs())
             }
             Self::Checkerboard { bright, dark, horizon, scale, fade } => {
-                let elevation = e.z.to_bits().unsigned_abs();
-                if elevation < 1 << 12 {
-                    // so near the horizon that less than 2^-12 of a square's tone is left
-                    return horizon;
-                }
-                let (mantissa, shift) = reciprocal(elevation);
-                let squares = |c: Unit| {
-                    // c / |e_z| with 16 fractional bits is below 2^34, times the scale with 16 bits below 2^57
-                    let ratio = (i64::from(c.to_bits()) * i64::from(mantissa)) >> (shift - 16);
-                    (ratio * i64::from(scale.to_bits() >> 8)) >> 32
-                };
-                let tone = if (squares(e.x) + squares(e.y)) & 1 == 0 { bright } else { dark };
-                if elevation >= fade.to_bits().unsigned_abs() {
-                    return tone;
-                }
-                let (mantissa, shift) = reciprocal(fade.to_bits().unsigned_abs());
-                let part = (i64::from(elevation) * i64::from(mantissa)) >> (shift - 30);
-                mix(horizon, tone, Unit::from_bits(part.min(1 << 30) as i32))
+                let [x, y, z] = e.map(unit);
+                let elevation = z.unsigned_abs();
+                let tone = if is_even(x, y, elevation, scale) { bright } else { dark };
+                mix(horizon, tone, part(elevation, fade))
             }
         }
     }
 }
 
+/// Whether the square in a direction is an even one; any where its tone does not count.
+#[inline(never)]
+fn is_even(x: i32, y: i32, elevation: u32, scale: Real) -> bool {
+    // below 2^-18 the horizon is so near that less than 2^-11 of a square's tone is left
+    let (mantissa, shift) = reciprocal(elevation.max(1 << 12));
+    let squares = |c: i32| {
+        // c / |e_z| with 16 fractional bits is below 2^34, times the scale with 16 bits below 2^57
+        let ratio = (i64::from(c) * i64::from(mantissa)) >> (shift - 16);
+        (ratio * i64::from(scale.to_bits() >> 8)) >> 32
+    };
+    (squares(x) + squares(y)) & 1 == 0
+}
+
+/// `elevation / fade`, at most 1; 0 below `2^-18`.
+#[inline(never)]
+fn part(elevation: u32, fade: Unit) -> i32 {
+    if elevation < 1 << 12 {
+        return 0;
+    }
+    let (mantissa, shift) = reciprocal(fade.to_bits().unsigned_abs());
+    ((i64::from(elevation) * i64::from(mantissa)) >> (shift - 30)).min(1 << 30) as i32
+}
+
 /// `from + (to - from) part`.
 #[inline]
-fn mix(from: Unit, to: Unit, part: Unit) -> Unit {
-    let difference = i64::from(to.to_bits()) - i64::from(from.to_bits());
-    from + Unit::from_bits(((difference * i64::from(part.to_bits())) >> 30) as i32)
+fn mix(from: Unit, to: Unit, part: i32) -> Unit {
+    let difference = to.to_bits() - from.to_bits();
+    from + Unit::from_bits(((i64::from(difference) * i64::from(part)) >> 30) as i32)
 }
 
 pub(crate) fn between(

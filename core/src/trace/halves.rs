@@ -10,7 +10,7 @@
 
 use core::num::NonZeroU32;
 
-use super::boxes::{meets_bits, range};
+use super::boxes::meets_bits;
 use super::height_field::{HeightField, Leaf, Side};
 use super::ray::{Footprint, Ray, parameters};
 use super::statistics::Count;
@@ -60,7 +60,13 @@ impl Line {
         self.middle.wrapping_add(((i64::from(self.twice) * i64::from(u)) >> 32) as i32)
     }
 
-    /// From a node to the one after it.
+    /// The parameter at the surface's near plane.
+    #[inline(always)]
+    fn near(&self) -> i32 {
+        self.middle.wrapping_add(self.twice.wrapping_neg() >> 2)
+    }
+
+    /// From the first of two parts to the second.
     #[inline(always)]
     fn step(&self) -> u32 {
         1_u32.wrapping_sub(self.from_above << 1)
@@ -70,7 +76,7 @@ impl Line {
 impl Place {
     #[inline(always)]
     fn root(line: &Line) -> Self {
-        Self { node: 0, end: HALF, next: line.at(HALF) }
+        Self { node: 0, end: HALF, next: line.middle.wrapping_add(line.twice >> 2) }
     }
 
     /// Into the part, `size` wide, in which the ray is at `t`.
@@ -86,31 +92,26 @@ impl Place {
         }
     }
 
-    /// How many nodes around it end where it ends.
+    /// Over the plane at its end, into the next node, and out of the nodes that end there too. None at the end of the surface.
     #[inline(always)]
-    fn ends(&self, line: &Line) -> u32 {
-        ((self.node + 1) ^ line.from_above.wrapping_sub(1)).trailing_zeros()
-    }
-
-    /// Out to a node around it.
-    #[inline(always)]
-    fn rise(&mut self, levels: u32) {
-        self.node = ((self.node + 1) >> (levels & 31)).wrapping_sub(1);
-    }
-
-    /// On to the next node of that size.
-    #[inline(always)]
-    fn advance(&mut self, line: &Line, size: u32) {
+    fn advance(&mut self, line: &Line, aside: &mut Self, line_aside: &Line, size: &mut u32) -> Option<()> {
+        // the last digit that does not say "far"
+        let near = (self.node + 1) ^ line.from_above.wrapping_sub(1);
+        if near & 1 == 0 {
+            let levels = near.trailing_zeros() & 31;
+            *size <<= levels;
+            if *size as i32 <= 0 {
+                return None;
+            }
+            self.node = ((self.node + 1) >> levels).wrapping_sub(1);
+            aside.node = ((aside.node + 1) >> levels).wrapping_sub(1);
+            aside.end = (aside.end.wrapping_sub(1) | size.wrapping_sub(1) as i32).wrapping_add(1);
+            aside.next = line_aside.at(aside.end);
+        }
         self.node = self.node.wrapping_add(line.step());
-        self.end = self.end.wrapping_add(size as i32);
+        self.end = self.end.wrapping_add(*size as i32);
         self.next = line.at(self.end);
-    }
-
-    /// The end of a node of that size around the old one.
-    #[inline(always)]
-    fn widen(&mut self, line: &Line, size: u32) {
-        self.end = (self.end.wrapping_sub(1) | size.wrapping_sub(1) as i32).wrapping_add(1);
-        self.next = line.at(self.end);
+        Some(())
     }
 }
 
@@ -129,32 +130,32 @@ impl<const STACK: usize> HeightField<'_, STACK> {
     }
 }
 
-impl<'a, const STACK: usize> HeightField<'a, STACK> {
-    #[inline(always)]
-    pub(super) fn walk_halves(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf<'a>> {
+impl<const STACK: usize> HeightField<'_, STACK> {
+    #[inline(never)]
+    pub(super) fn walk_halves(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf> {
         let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin, ray.direction);
         let lines = (Line::new(&self.x, ox, dx), Line::new(&self.y, oy, dy), cone.small);
         let (Some(line_x), Some(line_y), Some(small)) = lines else {
             return self.walk_parts(ray, cone.footprint, count);
         };
         let (mut x, mut y) = (Place::root(&line_x), Place::root(&line_y));
-        let z_after = |t: i32| (i64::from(dz) * i64::from(t)) >> 28;
-        let z_at = |t: i32| oz.wrapping_add(z_after(t) as i32);
+        let z_at = |t: i32| oz.wrapping_add(((i64::from(dz) * i64::from(t)) >> 28) as i32);
         let end = x.next.min(y.next);
-        if i32::try_from(i64::from(oz) + z_after(end)).is_err() {
+        if !(-1 << 26..1 << 26).contains(&((i64::from(dz) * i64::from(end)) >> 32)) {
+            // 64 or more upwards or downwards
             return self.walk_parts(ray, cone.footprint, count);
         }
         count.ray();
-        let mut t = line_x.at(-HALF).max(line_y.at(-HALF)).max(0);
+        let mut t = line_x.near().max(line_y.near()).max(0);
         if t > end {
             return None;
         }
-        let (cells_x, cells_y) = (self.x.cells, self.y.cells);
-        let (mut f, mut g) = (cells_x.first()?, cells_y.first()?);
         // on to where the ray enters the range of all heights
-        let (low, high) = range(f, g);
-        let (outside, misses) =
-            if dz < 0 { (oz - high, z_at(end) > high) } else { (low - oz, z_at(end) < low) };
+        let (low, high) = self.heights;
+        let (z_end, outside, misses) = match z_at(end) {
+            z if dz < 0 => (z, oz - high, z > high),
+            z => (z, low - oz, z < low),
+        };
         if outside > 0 {
             if misses {
                 return None;
@@ -163,48 +164,36 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
             t = t.max(entry.min(end));
         }
         let mut z = z_at(t);
-        if self.depth() == 0 && !meets_bits(f, g, z, z_at(end)) {
+        if z.max(z_end) < low || z.min(z_end) > high {
             return None;
         }
-        let (mut level, mut size) = (0, 1_u32 << 31);
+        let (cells_x, cells_y) = (self.x.cells, self.y.cells);
+        let (mut size, last) = (1_u32 << 31, (1 << 31) >> self.depth());
+        let small = (small << 1) as u32;
         let mut next = end;
         loop {
             // the ray meets the node where the walk stands
-            if level >= self.depth() || t >> 8 >= small >> (level & 31) {
-                return Some(Leaf { nodes: (x.node, y.node), cells: (f, g), span: (t, next) });
+            if size <= last || t >> 8 >= ((u64::from(small) * u64::from(size)) >> 32) as i32 {
+                return Some(Leaf { nodes: (x.node, y.node), span: (t, next) });
             }
-            level += 1;
             size >>= 1;
             x.descend(&line_x, size, t);
             y.descend(&line_y, size, t);
-            count.depth(level);
+            count.depth(size.leading_zeros());
             loop {
                 next = x.next.min(y.next);
                 let z_next = z_at(next);
-                (f, g) = (cells_x.get(x.node as usize)?, cells_y.get(y.node as usize)?);
+                let (f, g) = (cells_x.get(x.node as usize)?, cells_y.get(y.node as usize)?);
                 count.test();
                 if meets_bits(f, g, z, z_next) {
                     break;
                 }
                 (t, z) = (next, z_next);
-                // over the plane that comes first
-                let (ahead, aside, line_ahead, line_aside) = if x.next <= y.next {
-                    (&mut x, &mut y, &line_x, &line_y)
+                if x.next <= y.next {
+                    x.advance(&line_x, &mut y, &line_y, &mut size)?;
                 } else {
-                    (&mut y, &mut x, &line_y, &line_x)
-                };
-                let ends = ahead.ends(line_ahead);
-                if ends > 0 {
-                    if ends >= level {
-                        return None;
-                    }
-                    level -= ends;
-                    size <<= ends & 31;
-                    ahead.rise(ends);
-                    aside.rise(ends);
-                    aside.widen(line_aside, size);
+                    y.advance(&line_y, &mut x, &line_x, &mut size)?;
                 }
-                ahead.advance(line_ahead, size);
             }
         }
     }

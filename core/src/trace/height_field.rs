@@ -25,6 +25,8 @@ pub struct HeightField<'a, const STACK: usize = 16> {
     pub(super) leaves: u32,
     /// Whether nodes have two equal parts along both axes.
     halved: bool,
+    /// Bounds of all heights, 24 fractional bits.
+    pub(super) heights: (i32, i32),
 }
 
 /// One factor: its pyramid and its domain with 24 fractional bits.
@@ -56,28 +58,22 @@ impl Hit {
     }
 }
 
-/// A leaf as the walk finds it: its nodes along x and y, their cells, the ray's part above it.
-pub(crate) struct Leaf<'a> {
+/// A leaf as the walk finds it: its nodes along x and y, the ray's part above it.
+pub(super) struct Leaf {
     pub(super) nodes: (u32, u32),
-    pub(super) cells: (&'a Cell, &'a Cell),
     pub(super) span: (i32, i32),
 }
 
-impl Leaf<'_> {
-    /// The mean normal over the leaf, 24 fractional bits, saturated at ±64.
-    #[inline(always)]
-    pub(crate) fn normal(&self) -> [i32; 3] {
-        normal(self.cells.0, self.cells.1)
-    }
-}
-
+/// The mean normal over a leaf, 24 fractional bits, saturated at ±64.
 #[inline(always)]
 fn normal(f: &Cell, g: &Cell) -> [i32; 3] {
-    let product = |a: Real, b: Real| {
-        let p = (i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24;
-        -(p.clamp(-(1 << 30), 1 << 30) as i32)
+    let minus_product = |a: Real, b: Real| {
+        let product = i64::from(a.to_bits()) * i64::from(b.to_bits());
+        let high = (product >> 32) as i32;
+        let saturated = ((high >> 31) | 1).wrapping_neg() << 30;
+        if (-1 << 22..1 << 22).contains(&high) { -((product >> 24) as i32) } else { saturated }
     };
-    [product(f.slope, g.mean), product(f.mean, g.slope), 1 << 24]
+    [minus_product(f.slope, g.mean), minus_product(f.mean, g.slope), 1 << 24]
 }
 
 impl<'a> Side<'a> {
@@ -151,7 +147,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
         };
         let (x, y) = (Side::new("domain along x", x)?, Side::new("domain along y", y)?);
         let halved = x.is_halved() && y.is_halved();
-        Ok(Self { x, y, depth, leaves, halved })
+        Ok(Self { x, y, depth, leaves, halved, heights: range(&f, &g) })
     }
 
     /// The depth of the tree: no more than this many frames are on the stack.
@@ -161,16 +157,13 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
 
     /// Rigorous bounds of the heights.
     pub fn heights(&self) -> (Real, Real) {
-        let cell = |side: &Side<'_>| side.cells.first().copied().unwrap_or_default();
-        let (low, high) = range(&cell(&self.x), &cell(&self.y));
-        (Real::from_bits(low), Real::from_bits(high))
+        (Real::from_bits(self.heights.0), Real::from_bits(self.heights.1))
     }
 
     /// The surface's box, 24 fractional bits: both ends along x, y and z.
     pub(super) fn extent(&self) -> [[i32; 2]; 3] {
-        let (low, high) = self.heights();
         let side = |s: &Side<'_>| [s.origin, s.origin + s.width];
-        [side(&self.x), side(&self.y), [low.to_bits(), high.to_bits()]]
+        [side(&self.x), side(&self.y), [self.heights.0, self.heights.1]]
     }
 
     /// The first leaf that the ray meets. A node is a leaf at the deepest level, or where it is no wider than `footprint` times the ray's parameter.
@@ -179,12 +172,13 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
     ///
     /// Error: the leaf is the exact one unless the ray passes a box within `2^-22` (tests/pictures.rs). Cost: about 30 Cortex-M4 instructions a box test.
     pub fn intersect(&self, ray: &Ray, footprint: Unit) -> Option<Hit> {
-        self.leaf(ray, &self.cone(Footprint::new(footprint)), &mut Uncounted).map(|leaf| self.hit(ray, leaf))
+        self.leaf(ray, &self.cone(Footprint::new(footprint)), &mut Uncounted)
+            .and_then(|leaf| self.hit(ray, &leaf))
     }
 
     /// The leaf alone: all that shading needs.
     #[inline(always)]
-    pub(super) fn leaf(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf<'a>> {
+    pub(super) fn leaf(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf> {
         if self.halved {
             self.walk_halves(ray, cone, count)
         } else {
@@ -194,17 +188,31 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
 
     /// As [`HeightField::intersect`], and adds to `statistics` what it took.
     pub fn intersect_counted(&self, ray: &Ray, footprint: Unit, statistics: &mut Statistics) -> Option<Hit> {
-        self.leaf(ray, &self.cone(Footprint::new(footprint)), statistics).map(|leaf| self.hit(ray, leaf))
+        self.leaf(ray, &self.cone(Footprint::new(footprint)), statistics)
+            .and_then(|leaf| self.hit(ray, &leaf))
     }
 
-    fn hit(&self, ray: &Ray, leaf: Leaf<'_>) -> Hit {
-        let (f, g) = leaf.cells;
+    /// The cells of a leaf along x and y.
+    #[inline(always)]
+    fn cells(&self, leaf: &Leaf) -> Option<(&'a Cell, &'a Cell)> {
+        Some((self.x.cells.get(leaf.nodes.0 as usize)?, self.y.cells.get(leaf.nodes.1 as usize)?))
+    }
+
+    /// The mean normal over a leaf.
+    #[inline(always)]
+    pub(super) fn normal(&self, leaf: &Leaf) -> [i32; 3] {
+        // a walk's nodes have cells
+        self.cells(leaf).map_or([0, 0, 1 << 24], |(f, g)| normal(f, g))
+    }
+
+    fn hit(&self, ray: &Ray, leaf: &Leaf) -> Option<Hit> {
+        let (f, g) = self.cells(leaf)?;
         let (low, high) = range(f, g);
         let [_, _, z] = ray.axes();
         let (t_in, t_out) = z.clip(low, high, leaf.span);
         // a ray that only touches the box may round to an empty part
         let t = if t_in <= t_out { t_in + (t_out - t_in) / 2 } else { leaf.span.0 };
         let ((level, i), (_, j)) = (self.x.place(leaf.nodes.0), self.y.place(leaf.nodes.1));
-        Hit { level, index: (i, j), t: Real::from_bits(t), cells: (*f, *g) }
+        Some(Hit { level, index: (i, j), t: Real::from_bits(t), cells: (*f, *g) })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::environment::{Environment, between};
 use crate::Error;
-use crate::num::{Unit, Vec3, Wide};
+use crate::num::{Unit, Vec3, Wide, unit};
 
 /// A light infinitely far away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,34 +70,65 @@ impl Material {
 
     /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points away is turned round.
     ///
-    /// Result: in `[0, 1]`. Error: below `2^-24` for diffuse light, `2^-22` for Phong's with an exponent up to 64.
+    /// Result: in `[0, 1]`. Error: below `2^-24` for diffuse and Phong light with an exponent up to 64.
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
-        let along = n.dot(d);
-        let (n, along) = if along > 0 { (Vec3::new(-n.x, -n.y, -n.z), -along) } else { (n, along) };
-        let lit = n.dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
+        match self.answer(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
+            Answer::Tone(tone) => tone,
+            // a mirrored unit vector is one, but for its last bits
+            Answer::Towards(e) => {
+                let [x, y, z] = e.map(|c| Unit::from_bits(c.clamp(-(1 << 30), 1 << 30)));
+                environment.tone(Vec3::new(x, y, z))
+            }
+        }
+    }
+
+    /// What there is to see along a direction of any length below `2^31`.
+    #[inline]
+    pub(super) fn answer(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light) -> Answer {
+        let along = dot(n, d);
+        let lit = || {
+            let lit = n.dot(light.towards);
+            (if along > 0 { -lit } else { lit }).clamp(Unit::ZERO, Unit::ONE)
+        };
         let tone = match *self {
-            Self::Diffuse { ambient } => ambient + times(Unit::ONE - ambient, lit),
+            Self::Diffuse { ambient } => ambient + times(Unit::ONE - ambient, lit()),
             Self::Phong { ambient, diffuse, specular, shininess } => {
-                let highlight = mirrored(n, d, along).dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
+                let highlight = unit(mirrored(n, d, along)).dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
                 // three parts of at most 1 each would leave the format
-                let matt = (ambient + times(diffuse, lit)).min(Unit::ONE);
+                let matt = (ambient + times(diffuse, lit())).min(Unit::ONE);
                 matt.saturating_add(times(specular, power(highlight, shininess)))
             }
-            Self::Mirror => environment.tone(mirrored(n, d, along)),
+            Self::Mirror => return Answer::Towards(mirrored(n, d, along)),
         };
-        tone.clamp(Unit::ZERO, Unit::ONE)
+        Answer::Tone(tone.clamp(Unit::ZERO, Unit::ONE))
     }
 }
 
-/// `d - 2 (d . n) n`, each component inside ±1.
+/// What a surface shows.
+pub(super) enum Answer {
+    /// A tone.
+    Tone(Unit),
+    /// What its surroundings show in this direction, of any length.
+    Towards([i32; 3]),
+}
+
+/// `n . d` in the format of `d`.
 #[inline]
-fn mirrored(n: Vec3<Unit>, d: Vec3<Unit>, along: Unit) -> Vec3<Unit> {
-    let component = |d: Unit, n: Unit| {
-        let twice = (i64::from(along.to_bits()) * i64::from(n.to_bits())) >> 29;
-        Unit::from_bits((i64::from(d.to_bits()) - twice).clamp(-(1 << 30), 1 << 30) as i32)
+fn dot(n: Vec3<Unit>, [x, y, z]: [i32; 3]) -> i32 {
+    let product = |n: Unit, d: i32| i64::from(n.to_bits()) * i64::from(d);
+    ((product(n.x, x) + product(n.y, y) + product(n.z, z)) >> 30) as i32
+}
+
+/// `d - 2 (d . n) n`, as long as `d`.
+#[inline]
+fn mirrored(n: Vec3<Unit>, [x, y, z]: [i32; 3], along: i32) -> [i32; 3] {
+    let component = |d: i32, n: Unit| {
+        let twice = (i64::from(along) * i64::from(n.to_bits())) >> 29;
+        // as long as `d`: what wraps on the way comes back
+        d.wrapping_sub(twice as i32)
     };
-    Vec3::new(component(d.x, n.x), component(d.y, n.y), component(d.z, n.z))
+    [component(x, n.x), component(y, n.y), component(z, n.z)]
 }
 
 /// `base^exponent` by squaring, for a base in `[0, 1]`.

@@ -6,7 +6,7 @@
 
 use heapless::Vec;
 
-use super::boxes::{meets_bits, range};
+use super::boxes::meets_bits;
 use super::height_field::{HeightField, Leaf, Side};
 use super::ray::{Axis, Footprint, Ray};
 use super::statistics::Count;
@@ -100,15 +100,10 @@ fn step(axis: &Axis) -> u32 {
     if axis.direction > 0 { 1 } else { u32::MAX }
 }
 
-impl<'a, const STACK: usize> HeightField<'a, STACK> {
+impl<const STACK: usize> HeightField<'_, STACK> {
     /// The first leaf that the ray meets.
     #[inline(never)]
-    pub(super) fn walk_parts(
-        &self,
-        ray: &Ray,
-        footprint: Footprint,
-        count: &mut impl Count,
-    ) -> Option<Leaf<'a>> {
+    pub(super) fn walk_parts(&self, ray: &Ray, footprint: Footprint, count: &mut impl Count) -> Option<Leaf> {
         count.ray();
         let axes = ray.axes();
         let [ax, ay, az] = &axes;
@@ -118,14 +113,12 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
         if span.0 > span.1 {
             return None;
         }
-        let (f, g) = (self.x.cells.first()?, self.y.cells.first()?);
-        let (low, high) = range(f, g);
-        let (t_in, t_out) = az.clip(low, high, span);
+        let (t_in, t_out) = az.clip(self.heights.0, self.heights.1, span);
         if t_in > t_out || t_out == i32::MAX {
             return None;
         }
         if self.leaves == 0 || is_small(&x, &y, t_in, footprint) {
-            return Some(Leaf { nodes: (0, 0), cells: (f, g), span: (t_in, t_out) });
+            return Some(Leaf { nodes: (0, 0), span: (t_in, t_out) });
         }
         let mut stack = Vec::<Frame, STACK>::new();
         let mut frame = self.enter(&axes, (x, y), t_in, az.at(t_in), t_out);
@@ -141,7 +134,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
                 let (x, y) = (self.x.part(&frame.x), self.y.part(&frame.y));
                 let (t, z) = (frame.t, frame.z);
                 if x.node >= self.leaves || is_small(&x, &y, t, footprint) {
-                    return Some(Leaf { nodes: (x.node, y.node), cells: (f, g), span: (t, t_next) });
+                    return Some(Leaf { nodes: (x.node, y.node), span: (t, t_next) });
                 }
                 if !finished {
                     self.advance(&axes, &mut frame, t_next, z_next);

@@ -1,6 +1,6 @@
 //! The picture of a height field as a field of tones, row by row.
 //!
-//! The direction of a row's rays is carried along the row by addition, with 16 bits more than a ray uses.
+//! The direction of a row's rays is carried along the row by addition, with 32 bits more than a ray uses.
 
 use core::iter::FusedIterator;
 use core::ops::Range;
@@ -11,14 +11,17 @@ use super::Camera;
 use super::environment::Environment;
 use super::halves::Cone;
 use super::height_field::HeightField;
-use super::material::{Light, Material};
+use super::material::{Answer, Light, Material};
 use super::outline::Outline;
 use super::ray::{Footprint, Ray};
 use super::sampling::{Filter, Pattern, Sampling};
 use super::statistics::{Statistics, Uncounted};
 use crate::Error;
-use crate::num::{Unit, Vec3, Wide, nth, reciprocal_sqrt};
+use crate::num::{Unit, Vec3, Wide, nth, unit};
 use crate::picture::{Field, checked_size};
+
+/// Half a unit of a ray's direction, 60 fractional bits.
+const HALF: i64 = 1 << 31;
 
 /// Brightness of a pixel: 0 is black, 65535 white.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -55,7 +58,7 @@ pub struct RayCaster<'a, const STACK: usize = 16> {
     light: Light,
     environment: Environment,
     pattern: Pattern,
-    /// Direction through the centre of the top left pixel, steps to the right and downwards: 44 fractional bits.
+    /// Direction through the centre of the top left pixel, and half a unit of what a ray uses; steps to the right and downwards: 60 fractional bits.
     corner: [i64; 3],
     right: [i64; 3],
     down: [i64; 3],
@@ -75,13 +78,13 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
         let size = checked_size(size)?;
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
         in_reach(&camera, cols, rows, 0)?;
-        // one pixel: 2 k / rows, with 28 + 30 - 14 = 44 fractional bits for a direction cosine of 30
+        // one pixel: 2 k / rows, with 28 + 30 + 2 = 60 fractional bits for a direction cosine of 30
         let step =
-            |cosine: Unit| nth(i64::from(camera.tangent) * i64::from(cosine.to_bits()), size.height) >> 13;
+            |cosine: Unit| nth((i64::from(camera.tangent) * i64::from(cosine.to_bits())) << 3, size.height);
         let components = |v: Vec3<Unit>| [v.x, v.y, v.z];
         let right = components(camera.right).map(step);
         let down = components(camera.up).map(|c| -step(c));
-        let mut corner = components(camera.forward).map(|c| i64::from(c.to_bits()) << 14);
+        let mut corner = components(camera.forward).map(|c| (i64::from(c.to_bits()) << 30) + HALF);
         for ((c, r), d) in corner.iter_mut().zip(right).zip(down) {
             *c -= (r * (cols - 1) + d * (rows - 1)) / 2;
         }
@@ -173,7 +176,7 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
         [self.camera.eye.x, self.camera.eye.y, self.camera.eye.z].map(|c| c.to_bits())
     }
 
-    /// The direction through the centre of pixel `(x, y)`, 44 fractional bits.
+    /// The direction through the centre of pixel `(x, y)`, 60 fractional bits.
     fn direction(&self, x: u32, y: u32) -> [i64; 3] {
         let mut direction = self.corner;
         for ((c, r), d) in direction.iter_mut().zip(self.right).zip(self.down) {
@@ -187,8 +190,8 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
     fn offset(&self, mut direction: [i64; 3], dx: i32, dy: i32) -> [i32; 3] {
         if (dx, dy) != (0, 0) {
             for ((c, r), d) in direction.iter_mut().zip(self.right).zip(self.down) {
-                // a step has at most 46 bits, an offset is at most 2 pixels
-                *c += ((r >> 8) * i64::from(dx) + (d >> 8) * i64::from(dy)) >> 16;
+                // a step has at most 62 bits, an offset is at most 2 pixels
+                *c = c.wrapping_add((r >> 24) * i64::from(dx)).wrapping_add((d >> 24) * i64::from(dy));
             }
         }
         direction.map(narrow)
@@ -202,33 +205,32 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
         } else {
             None
         };
-        // |d| < 4 in each component: the squares stay below 2^62
-        let square: i64 = direction.iter().map(|d| i64::from(*d) * i64::from(*d)).sum();
-        let d = unit(direction, square as u64);
-        match leaf {
-            None => self.environment.tone(d),
+        let towards = match leaf {
+            None => direction,
             Some(leaf) => {
-                let bits = leaf.normal();
-                // |n| <= 64 in x and y
-                let square: i64 = bits.iter().map(|c| i64::from(*c) * i64::from(*c)).sum();
-                self.material.tone(unit(bits, square as u64), d, &self.light, &self.environment)
+                match self.material.answer(unit(self.surface.normal(&leaf)), direction, &self.light) {
+                    Answer::Tone(tone) => return tone,
+                    Answer::Towards(mirrored) => mirrored,
+                }
             }
-        }
+        };
+        self.environment.towards(towards)
     }
 
     #[inline]
     fn pixel(&self, x: u32, y: u32, direction: [i64; 3], visible: bool) -> Tone {
         let tone = if self.pattern.is_centre() {
-            i64::from(self.tone(direction.map(narrow), visible).to_bits())
+            self.tone(direction.map(narrow), visible).to_bits() as u32
         } else {
             let mut sum = 0_i64;
             for (dx, dy, weight) in self.pattern.samples(x, y) {
                 sum += i64::from(self.tone(self.offset(direction, dx, dy), visible).to_bits())
                     * i64::from(weight);
             }
-            (sum >> 30).clamp(0, 1 << 30)
+            (sum >> 30).clamp(0, 1 << 30) as u32
         };
-        Tone(((tone * 65535 + (1 << 29)) >> 30) as u16)
+        // times 65535 / 2^30, rounded
+        Tone(((tone - (tone >> 16) + (1 << 13)) >> 14) as u16)
     }
 }
 
@@ -250,15 +252,7 @@ fn in_reach(camera: &Camera, cols: i64, rows: i64, margin: i64) -> Result<(), Er
 
 #[inline]
 fn narrow(direction: i64) -> i32 {
-    ((direction + (1 << 15)) >> 16) as i32
-}
-
-/// `v / sqrt(square)` with 30 fractional bits.
-#[inline]
-fn unit(v: [i32; 3], square: u64) -> Vec3<Unit> {
-    let (mantissa, shift) = reciprocal_sqrt(square);
-    let [x, y, z] = v.map(|c| Unit::from_bits(((i64::from(c) * i64::from(mantissa)) >> (shift - 30)) as i32));
-    Vec3::new(x, y, z)
+    (direction >> 32) as i32
 }
 
 /// The tones of one row from left to right.
