@@ -119,14 +119,17 @@ impl Place {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cone {
     pub(super) footprint: Footprint,
-    /// From where on the whole surface is small, 16 fractional bits; none where that does not fit.
-    small: Option<i32>,
+    /// From where on the whole surface is small: twice that parameter less its last `shift` bits.
+    small: u32,
+    shift: u32,
 }
 
 impl<const STACK: usize> HeightField<'_, STACK> {
     pub(super) fn cone(&self, footprint: Footprint) -> Cone {
-        let small = footprint.reaches(self.x.width.max(self.y.width)) >> 8;
-        Cone { footprint, small: if small < 1 << 30 { Some(small as i32) } else { None } }
+        let small = footprint.reaches(self.x.width.max(self.y.width)).max(0);
+        // at most 31: a width has 31 bits, the reciprocal of a footprint 32
+        let shift = 33_u32.saturating_sub(small.leading_zeros());
+        Cone { footprint, small: ((small >> shift) << 1) as u32, shift }
     }
 }
 
@@ -134,8 +137,7 @@ impl<const STACK: usize> HeightField<'_, STACK> {
     #[inline(never)]
     pub(super) fn walk_halves(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf> {
         let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin, ray.direction);
-        let lines = (Line::new(&self.x, ox, dx), Line::new(&self.y, oy, dy), cone.small);
-        let (Some(line_x), Some(line_y), Some(small)) = lines else {
+        let (Some(line_x), Some(line_y)) = (Line::new(&self.x, ox, dx), Line::new(&self.y, oy, dy)) else {
             return self.walk_parts(ray, cone.footprint, count);
         };
         let (mut x, mut y) = (Place::root(&line_x), Place::root(&line_y));
@@ -169,11 +171,11 @@ impl<const STACK: usize> HeightField<'_, STACK> {
         }
         let (cells_x, cells_y) = (self.x.cells, self.y.cells);
         let (mut size, last) = (1_u32 << 31, (1 << 31) >> self.depth());
-        let small = (small << 1) as u32;
         let mut next = end;
         loop {
             // the ray meets the node where the walk stands
-            if size <= last || t >> 8 >= ((u64::from(small) * u64::from(size)) >> 32) as i32 {
+            let small = ((u64::from(cone.small) * u64::from(size)) >> 32) as i32;
+            if size <= last || t >> (cone.shift & 31) >= small {
                 return Some(Leaf { nodes: (x.node, y.node), span: (t, next) });
             }
             size >>= 1;
