@@ -1,6 +1,6 @@
 //! What follows from the maps of a function: its values at the ends, the range of all its values, the length of its longest address.
 //!
-//! Loops over slices, out of line: a function of two maps would else have every one of them twice.
+//! A map is summed up without its polynomial, so that the rest is there once for all degrees.
 
 use super::function::{Map, twice_high, wide};
 use crate::Error;
@@ -12,15 +12,43 @@ const LIMIT: i64 = 1 << (FRACTION + 7);
 /// The magnitudes of a map's coefficients add up to less than `2^8`.
 const COEFFICIENTS: i64 = i64::MAX;
 
-/// What a map makes of the range: a scaling with 63, both ends of the range of its polynomial with 16 fractional bits.
+/// What a map makes of ranges and of its fixed points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Image {
+    /// 63 fractional bits.
     scaling: i64,
+    width: u64,
+    /// Ends of the range of its polynomial, its values at the ends, the sum of its coefficients' magnitudes: 55 fractional bits.
     low: i64,
     high: i64,
+    first: i64,
+    last: i64,
+    norm: i64,
+}
+
+impl Image {
+    #[inline(never)]
+    pub(super) fn of<const D: usize>(map: &Map<D>) -> Self {
+        let (low, high) = map.q.range();
+        Self {
+            scaling: map.scaling,
+            width: map.width,
+            low,
+            high,
+            first: map.q.constant,
+            last: map.q.powers.iter().fold(map.q.constant, |sum, c| sum.wrapping_add(*c)),
+            norm: map.q.norm(),
+        }
+    }
+
+    /// Where the map's fixed point lies if its polynomial is `q` there: `q / (1 - scaling)`.
+    fn fixed_point(&self, q: i64) -> i64 {
+        quotient(q, 63, ONE.wrapping_sub(self.scaling as u64))
+    }
 }
 
 /// What follows from the maps.
+#[derive(Default)]
 pub(super) struct Bounds {
     /// `y_0` and `y_N`, 55 fractional bits.
     pub(super) first: i64,
@@ -32,40 +60,30 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Checks coefficients and range. A single map becomes that of its fixed point. `images` are as many as the maps.
+    /// Checks coefficients and range.
     #[inline(never)]
-    pub(super) fn of<const D: usize>(maps: &mut [Map<D>], images: &mut [Image]) -> Result<Self, Error> {
-        if let [only] = maps {
-            // N = 1: f = alpha f + q at the same abscissa, so f = q / (1 - alpha)
-            let rest = less(only.scaling);
-            for c in only.q.powers.iter_mut().chain([&mut only.q.constant]) {
-                *c = quotient(*c, 63, rest);
-            }
-            only.scaling = 0;
-        }
+    pub(super) fn of(images: &[Image]) -> Result<Self, Error> {
+        let mut bounds = Self::default();
         let (mut widest, mut steepest) = (0, 0);
-        for (index, (map, image)) in maps.iter().zip(images.iter_mut()).enumerate() {
-            if map.q.norm() == COEFFICIENTS {
-                return Err(limit("coefficients of map", index, COEFFICIENTS, COEFFICIENTS));
+        for (index, image) in images.iter().enumerate() {
+            if image.norm == COEFFICIENTS {
+                return Err(too_large(index));
             }
-            let (low, high) = map.q.range();
-            *image = Image { scaling: map.scaling, low: low >> COARSE, high: (high >> COARSE) + 1 };
-            widest = map.width.max(widest);
-            steepest = map.scaling.unsigned_abs().max(steepest);
+            widest = image.width.max(widest);
+            steepest = image.scaling.unsigned_abs().max(steepest);
+            if index == 0 {
+                bounds.first = image.fixed_point(image.first);
+            }
+            bounds.last = image.fixed_point(image.last);
         }
-        let range = hull(images, steepest);
-        for extreme in [range.0, range.1] {
+        bounds.range = hull(images, steepest);
+        for extreme in [bounds.range.0, bounds.range.1] {
             if extreme.saturating_abs() >= LIMIT {
                 return Err(limit("range of the function", 0, extreme, LIMIT));
             }
         }
-        let fixed_point = |map: &Map<D>, u: u64| quotient(map.q.at(u), 63, less(map.scaling));
-        Ok(Self {
-            first: maps.first().map_or(0, |map| fixed_point(map, 0)),
-            last: maps.last().map_or(0, |map| fixed_point(map, ONE)),
-            range,
-            levels: levels(widest, steepest),
-        })
+        bounds.levels = levels(widest, steepest);
+        Ok(bounds)
     }
 }
 
@@ -80,11 +98,6 @@ fn limit(what: &'static str, index: usize, got: i64, allowed: i64) -> Error {
     Error::OutOfRange { what, index, value: wide(got), min: wide(-allowed), max: wide(allowed) }
 }
 
-/// `1 - scaling`, 63 fractional bits.
-fn less(scaling: i64) -> u64 {
-    ONE.wrapping_sub(scaling as u64)
-}
-
 /// The range is found with 16 fractional bits, because the first root may be large.
 const COARSE: u32 = FRACTION - 16;
 
@@ -97,14 +110,14 @@ fn hull(images: &[Image], steepest: u64) -> (i64, i64) {
         largest = image.low.unsigned_abs().max(image.high.unsigned_abs()).max(largest);
     }
     let rest = (ONE - steepest) >> 32; // at least 1: scalings have 31 bits, or come from a contraction of such
-    let root = ratio(largest + 1, 31, rest.max(1)).min(1 << 56) as i64;
+    let root = ratio((largest >> COARSE) + 2, 31, rest.max(1)).min(1 << 56) as i64;
     let (mut min, mut max) = (-root, root);
     for _ in 0..4096 {
         let (mut low, mut high) = (i64::MAX, i64::MIN);
         for image in images {
             let (a, b) = (twice_high(min << 4, image.scaling), twice_high(max << 4, image.scaling));
-            low = low.min(((a.min(b) - 2) >> 4) + image.low);
-            high = high.max(((a.max(b) + 2 + 15) >> 4) + image.high);
+            low = low.min(((a.min(b) - 2) >> 4) + (image.low >> COARSE));
+            high = high.max(((a.max(b) + 2 + 15) >> 4) + (image.high >> COARSE) + 1);
         }
         let settled = low <= min && high >= max;
         (min, max) = (min.max(low), max.min(high));

@@ -79,6 +79,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     }
 
     /// The mean value over the domain, `sum of a_n mean(q_n) / (1 - sum of a_n alpha_n)`, 55 fractional bits.
+    #[inline(never)]
     pub(crate) fn mean(&self) -> i64 {
         let mut sum = 0_i64;
         let mut rest = ONE; // stays inside (0, 2): |sum of a_n alpha_n| < 1
@@ -90,6 +91,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     }
 
     /// `value * (x_N - x_0)`; an error where it leaves 64 bits.
+    #[inline(never)]
     fn times_width(&self, v: i64) -> Result<i64, Error> {
         let high = mul_high_u(v as u64, self.width).wrapping_sub(if v < 0 { self.width } else { 0 }) as i64;
         let low = (v as u64).wrapping_mul(self.width);

@@ -4,7 +4,7 @@ use heapless::Vec;
 
 use super::bounds::{Bounds, Image, too_large};
 use crate::Error;
-use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, mul_high, ratio};
+use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, mul_high, quotient, ratio};
 
 /// A point that the graph passes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -194,13 +194,22 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 
     /// From maps in the unit abscissa: finds end values, range and levels.
     pub(crate) fn from_maps(mut maps: Vec<Map<D>, N>, x0: i64, width: u64) -> Result<Self, Error> {
-        let mut images = [Image::default(); N];
-        let Bounds { first, last, range, levels } = Bounds::of(&mut maps, &mut images)?;
+        if let [only] = maps.as_mut_slice() {
+            // N = 1: f = alpha f + q at the same abscissa, so f = q / (1 - alpha)
+            let rest = ONE.wrapping_sub(only.scaling as u64);
+            for c in only.q.powers.iter_mut().chain([&mut only.q.constant]) {
+                *c = quotient(*c, 63, rest);
+            }
+            only.scaling = 0;
+        }
+        let mut images = Vec::<_, N>::new();
         let mut starts = Vec::new();
         for map in &maps {
             // as many as maps: never full
+            let _ = images.push(Image::of(map));
             let _ = starts.push((map.start >> 32) as u32);
         }
+        let Bounds { first, last, range, levels } = Bounds::of(&images)?;
         Ok(Self { maps, starts, x0, width, first, last, range, levels })
     }
 

@@ -40,6 +40,7 @@ impl<const D: usize> Polynomial<D> {
     }
 
     /// The sum of the magnitudes of the coefficients, saturated.
+    #[inline(never)]
     pub(crate) fn norm(&self) -> i64 {
         self.powers
             .iter()
