@@ -1,7 +1,7 @@
 //! What the target runs and the host runs again: a table of scenes, a table of kernels, and the sink that both draw into.
 //!
-//! - [`scenes::all`]: pictures of core, drawn row by row into a [`Sink`](sink::Sink) that keeps a CRC-32 and no pixel;
-//! - [`kernels::all`]: inner loops, each in fixed point and, beside it, in f32 and in f64 as a competent C programmer would write them.
+//! - [`scenes::ALL`]: pictures of core, drawn row by row into a [`Sink`](sink::Sink) that keeps a CRC-32 and no pixel;
+//! - [`kernels::ALL`]: inner loops, each in fixed point and, beside it, in f32 and in f64 as a competent C programmer would write them.
 //!
 //! Nothing here knows a processor. What a processor can do, count instructions and measure its stack, is a [`Machine`].
 #![no_std]

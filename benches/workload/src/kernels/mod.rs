@@ -1,7 +1,7 @@
 //! Inner loops, counted by the unit of work.
 //!
 //! To add one: write its loops beside those of its room and add a line to [`ALL`]. A loop builds what it needs and hands the work to
-//! [`Watch::time`], or to [`Watch::over`] for a table of inputs; only that is counted. It returns a checksum of everything it computed
+//! [`Watch::time`], or to `Watch::over` for a table of inputs; only that is counted. It returns a checksum of everything it computed
 //! (so that nothing is optimised away, and so that host and target can be compared) and how many units of work it did.
 
 mod escape;
