@@ -19,7 +19,9 @@ mod julia;
 mod julia_set;
 mod law;
 mod mandelbrot;
+mod motion;
 mod nested;
+mod orbit;
 mod plot;
 mod polyline;
 mod random_curve;
@@ -44,6 +46,7 @@ use crate::fail::Fail;
 use crate::source::Source;
 
 pub(crate) use graph::Graph;
+pub(crate) use motion::Motion;
 
 /// What can be measured of a scene.
 #[derive(Debug)]
@@ -155,6 +158,29 @@ impl Scene {
         match &self.kind {
             Kind::FifCurve(scene) => Some(Subject::Graph(scene.graph())),
             Kind::Ifs(scene) => Some(Subject::Set(scene.ifs())),
+            _ => None,
+        }
+    }
+
+    /// Moves about on a display of this size; the message says why not.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window moves about"))]
+    pub(crate) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        let reason = match &mut self.kind {
+            Kind::Mandelbrot(scene) => return scene.go(size, motion),
+            Kind::Julia(scene) => return scene.go(size, motion),
+            Kind::FifSurface(scene) => return scene.go(size, motion),
+            _ => "this kind of scene shows all there is",
+        };
+        Err(Fail::new(format_args!("{}: {reason}", self.name)))
+    }
+
+    /// Where the viewer stands, as lines of a scene file; nothing for a kind in which nobody moves.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window moves about"))]
+    pub(crate) fn place(&self, size: Size) -> Option<String> {
+        match &self.kind {
+            Kind::Mandelbrot(scene) => scene.place(size).ok(),
+            Kind::Julia(scene) => scene.place(size).ok(),
+            Kind::FifSurface(scene) => scene.place(),
             _ => None,
         }
     }
