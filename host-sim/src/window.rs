@@ -166,7 +166,7 @@ mod with_sdl {
             // an eighth of the shorter side
             let step = (self.size.width.min(self.size.height) / 8).max(1) as i32;
             let pan = |right: i32, up: i32| Some(Wish::Go(Motion::Pan { right, up }));
-            let zoom = |about: Point, closer: bool| Some(Wish::Go(Motion::Zoom { about, closer }));
+            let zoom = |about: Option<Point>, closer: bool| Some(Wish::Go(Motion::Zoom { about, closer }));
             match event {
                 SimulatorEvent::Quit => Some(Wish::Close),
                 SimulatorEvent::MouseMove { point } => {
@@ -178,15 +178,15 @@ mod with_sdl {
                 }
                 SimulatorEvent::MouseWheel { scroll_delta, direction } => {
                     let up = scroll_delta.y * if direction == MouseWheelDirection::Flipped { -1 } else { 1 };
-                    if up == 0 { None } else { zoom(self.pointer, up > 0) }
+                    if up == 0 { None } else { zoom(Some(self.pointer), up > 0) }
                 }
                 SimulatorEvent::KeyDown { keycode, .. } => match keycode {
                     Keycode::Left | Keycode::A => pan(-step, 0),
                     Keycode::Right | Keycode::D => pan(step, 0),
                     Keycode::Up | Keycode::W => pan(0, step),
                     Keycode::Down | Keycode::S => pan(0, -step),
-                    Keycode::Plus | Keycode::Equals | Keycode::KpPlus => zoom(middle, true),
-                    Keycode::Minus | Keycode::KpMinus => zoom(middle, false),
+                    Keycode::Plus | Keycode::Equals | Keycode::KpPlus => zoom(None, true),
+                    Keycode::Minus | Keycode::KpMinus => zoom(None, false),
                     Keycode::RightBracket => Some(Wish::Go(Motion::Iterate { more: true })),
                     Keycode::LeftBracket => Some(Wish::Go(Motion::Iterate { more: false })),
                     Keycode::R => Some(Wish::Reload),

@@ -96,7 +96,7 @@ mod tests {
             assert!(orbit.camera().is_ok());
         }
         // nearer and nearer: refused when the numbers end, never a panic
-        let closer = Motion::Zoom { about: embedded_graphics::geometry::Point::zero(), closer: true };
+        let closer = Motion::Zoom { about: None, closer: true };
         for _ in 0..200 {
             orbit = orbit.after(closer, Size::new(240, 240));
         }
