@@ -107,9 +107,9 @@ pub(crate) fn load(scene: &str) -> Result<Scene, Fail> {
     let path = Path::new(scene);
     let looks_like_a_path = path.components().count() > 1 || path.extension().is_some() || path.exists();
     if !looks_like_a_path {
-        let nearest = builtin::nearest(scene);
+        let hint = builtin::nearest(scene).map(|name| format!("; did you mean {name}?")).unwrap_or_default();
         return Err(Fail::new(format_args!(
-            "SCENE = {scene}: no such scene is built in and no such file is there; did you mean {nearest}? (`attractor list` names all)"
+            "SCENE = {scene}: no such scene is built in and no such file is there{hint} (`attractor list` names all)"
         )));
     }
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
