@@ -319,6 +319,14 @@ fn lengths_and_norms_stop_as_in_the_texts() {
             assert!(worst(got, &want) < 4.0 * ULP, "{seed}");
             assert!(want.len() > 100);
         }
+        // the elbow of the course unit: `fract`, down to a minimum length
+        let sigma = random_curve::elbow_deviations(0.25, 2.5, 32);
+        let elbow = Elbow::new(Unit::from_num(0.25), Real::from_num(2.5), seed).unwrap();
+        let stop = Stop::Length(Real::from_num(limit));
+        let got = stroke(Subdivision::<_, 31>::new(&elbow, &knots, stop).unwrap());
+        let reference = Law::OneVariable(&|level| sigma[level as usize]);
+        let want = random_curve::curve(&reference, &f64_of(r), &length, (0.0, 1.0), a, b);
+        assert!(worst(got, &want) < 24.0 * ULP && want.len() > 100, "{seed}");
     }
 }
 
