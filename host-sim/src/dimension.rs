@@ -1,7 +1,7 @@
 //! `attractor dimension`: the dimension of a scene, measured in one or two ways, and what theory says.
 //!
 //! Boxes (sets, paths, points; see `boxes`). Of attractors (`ifs`, `copier`) all cells of a grid of 4096 a side that the set meets, no matter which
-//! points a chaos game would visit, or most of 2048 where the maps overlap too much; curves are refined until their pieces are shorter than half a cell;
+//! points a chaos game would visit; of 2048, or most of them, where the maps overlap; curves are refined until their pieces are shorter than half a cell;
 //! Julia sets are taken from the pruned backward iteration. With `--boundary` only cells with an empty neighbour count: the boundary of a set with an inside.
 //! What is systematic: boxes across the rim count in full, the more so the larger they are, which lowers the slope: by 0.005 for the gasket, 0.015 for the carpet,
 //! 0.06 for the pentigree, by 0.04 (Hilbert's curve) to 0.17 (Levy's) for sets of dimension 2. Inlets narrower than a cell are closed, which the small boxes
@@ -119,20 +119,23 @@ fn ways(subject: Subject<'_>, boundary: bool) -> Result<(Vec<Measured>, Option<F
     }
 }
 
+/// What large boxes do to a set, cells to a boundary, double points to a random curve.
+const RIM: &str = "low where large boxes reach across a rim: 0.005 for the gasket, 0.015 for the carpet, 0.04 to 0.17 at dimension 2";
+const INLETS: &str =
+    "low where cells close inlets: 0.02 for Heighway's dragon and Gosper's island, 0.03 for the terdragon";
+const DOUBLE_POINTS: &str = "low where the curve has double points: a box that it passes twice counts once";
+
 /// Boxes on a grid.
-fn by_boxes(grid: &Grid, boundary: bool, theory: Option<Theory>) -> Result<Measured, Fail> {
+fn by_boxes(
+    grid: &Grid,
+    boundary: bool,
+    systematic: &'static str,
+    theory: Option<Theory>,
+) -> Result<Measured, Fail> {
     let counts = grid.counts(boundary).ok_or_else(|| Fail::new(POINT))?;
     let (method, words, systematic) = match boundary {
-        true => (
-            "boundary",
-            "boxes that meet cells with an empty neighbour",
-            "low where cells close inlets: 0.02 for Heighway's dragon and Gosper's island, 0.03 for the terdragon",
-        ),
-        false => (
-            "boxes",
-            "boxes that meet the set",
-            "low where large boxes reach across a rim: 0.005 for the gasket, 0.015 for the carpet, 0.04 to 0.17 at dimension 2",
-        ),
+        true => ("boundary", "boxes that meet cells with an empty neighbour", INLETS),
+        false => ("boxes", "boxes that meet the set", systematic),
     };
     let words = words.to_owned();
     let range = grid.range();
@@ -140,14 +143,21 @@ fn by_boxes(grid: &Grid, boundary: bool, theory: Option<Theory>) -> Result<Measu
 }
 
 fn of_set(ifs: &Ifs<MAX_MAPS>, boundary: bool) -> Result<Measured, Fail> {
-    let grid = Grid::of_attractor(ifs, GRIDS[0], if boundary { 0.5 } else { 0.9 });
-    let grid = grid.or_else(|| Grid::of_orbits(ifs, GRIDS[1])).ok_or_else(|| Fail::new(POINT))?;
+    const TOO_MANY: &str = "its maps overlap so much that its boundary cannot be told in reasonable time";
+    let covered =
+        GRIDS[..2].iter().find_map(|side| Grid::of_attractor(ifs, *side, if boundary { 0.5 } else { 0.9 }));
+    let grid = match covered {
+        Some(grid) => grid,
+        // what orbits miss would count as boundary
+        None if boundary => return Err(Fail::new(TOO_MANY)),
+        None => Grid::of_orbits(ifs, GRIDS[1]).ok_or_else(|| Fail::new(POINT))?,
+    };
     let named = || catalogue::ALL.iter().find(|attractor| attractor.maps == ifs.maps());
     let theory = match boundary {
         true => named().and_then(|attractor| boundary_of(attractor.name)),
         false => similarity(ifs.maps()),
     };
-    by_boxes(&grid, boundary, theory)
+    by_boxes(&grid, boundary, RIM, theory)
 }
 
 fn of_trail(trail: Trail<'_>, boundary: bool) -> Result<Measured, Fail> {
@@ -175,7 +185,8 @@ fn of_trail(trail: Trail<'_>, boundary: bool) -> Result<Measured, Fail> {
         }
     }
     let grid = found.map_err(Fail::new)?.ok_or_else(too_many)?;
-    by_boxes(&grid, boundary, if boundary { trail.boundary } else { trail.theory })
+    let systematic = if trail.law.is_some() { DOUBLE_POINTS } else { RIM };
+    by_boxes(&grid, boundary, systematic, if boundary { trail.boundary } else { trail.theory })
 }
 
 fn by_chords(law: &Law) -> Result<Measured, Fail> {

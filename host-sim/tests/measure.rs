@@ -297,6 +297,7 @@ fn maps_that_overlap_are_followed_by_orbits() {
         let text = good(directory, &["dimension", file]);
         let got = value(&text, "boxes", "dimension").unwrap();
         assert!((got - 1.0).abs() < 0.03, "{text}");
+        assert!(bad(directory, &["dimension", file, "--boundary"]).contains("boundary cannot be told"));
     });
 }
 
