@@ -176,7 +176,11 @@ fn probabilities_add_up_to_one() {
     assert!(system(&[500, 500]).is_ok());
     assert_eq!(text(system(&[500, 250])), "the probabilities add up to 0.75, not to 1");
     assert!(matches!(system(&[750, 500]), Err(Error::Probabilities { sum }) if sum == 1.25));
-    assert_eq!(text(system(&[1500, -500])), "probability [1] is -0.5, it must lie between 0 and 1");
+    let limits = "it must lie between 0.000000000931323 and 1";
+    assert_eq!(text(system(&[1500, -500])), format!("probability [1] is -0.5, {limits}"));
+    // a map that is never chosen would be missing from the picture without a word
+    assert_eq!(text(system(&[1000, 0])), format!("probability [1] is 0, {limits}"));
+    assert!(matches!(system(&[0, 0]), Err(Error::OutOfRange { what: "probability", index: 0, .. })));
     assert_eq!(text(system(&[1000])), "1 probabilities given, 2 expected");
     assert!(matches!(system(&[1000, 0, 0]), Err(Error::LengthMismatch { given: 3, expected: 2, .. })));
 }

@@ -55,9 +55,9 @@ pub(crate) enum Command {
     Sample(Sample),
     /// Measure the kernels against the f64 reference, beside the bounds that they promise
     Accuracy(Accuracy),
-    /// Measure the box-counting dimension of an attractor or of a graph, with theory beside it
+    /// Measure the dimension of an attractor, a curve or a graph, with theory beside it
     Dimension(Dimension),
-    /// Measure the spectral exponent of a graph, with theory beside it
+    /// Measure the spectral exponent of a graph or a random curve, with theory beside it
     Spectrum(Spectrum),
     /// Show scenes in a window, row by row as they are computed (feature `window`)
     Window(Window),
@@ -135,28 +135,49 @@ pub(crate) struct Accuracy {
 }
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "ifs: boxes on a grid of up to 4096 cells a side; fif-curve: oscillations of columns above their chords.
-The error is the standard error of the fitted slope."
-)]
+#[command(after_help = "What is measured:
+  ifs, copier          the attractor: boxes of 64 to 512 a side
+  curve                what the refinements tend to, whatever order is drawn: the same
+  julia-set, julia     the Julia set, the boundary of the filled one: the same
+  random-curve         chords: 2^k chords of mean length L, D = log 2^k / log(1/L) (Carpenter's similarity ratio), and boxes
+  line-to-line, fif-curve    a graph: oscillations of columns above their chords
+
+The error is the standard error of the fitted slope. The drift, the slope of the smaller sizes less that of the larger, shows what it does not know of.
+
+Examples:
+  attractor dimension koch-snowflake
+  attractor dimension heighway-dragon --boundary
+  attractor dimension carpenter-1 --csv > log-log.csv")]
 pub(crate) struct Dimension {
     /// Name of a built-in scene, or path of a TOML file
     #[arg(value_name = "SCENE")]
     pub(crate) scene: String,
-    /// Of the boundary of the set (ifs)
+    /// Of the boundary of a set or a curve with an inside
     #[arg(long)]
     pub(crate) boundary: bool,
+    /// The points of the fit as CSV: method,log_inverse_size,log_count (natural logarithms)
+    #[arg(long)]
+    pub(crate) csv: bool,
 }
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "fif-curve: the power of the ordinate falls as 1/f^beta; beta is fitted to the mean power of octaves.
-The error is the standard error of the fitted slope."
-)]
+#[command(after_help = "The power falls as 1/f^beta; beta is fitted to the mean power of octaves.
+  fif-curve            the ordinate
+  line-to-line         the ordinate, mean power of 64 functions of the scene's law
+  random-curve         both coordinates over the parameter, mean power of 64 curves of the scene's law
+
+The error is the standard error of the fitted slope.
+
+Examples:
+  attractor spectrum elbow
+  attractor spectrum mountain-line --csv > log-log.csv")]
 pub(crate) struct Spectrum {
     /// Name of a built-in scene, or path of a TOML file
     #[arg(value_name = "SCENE")]
     pub(crate) scene: String,
+    /// The points of the fit as CSV: log_frequency,log_power (natural logarithms)
+    #[arg(long)]
+    pub(crate) csv: bool,
 }
 
 /// What the window understands.

@@ -26,6 +26,13 @@ impl Fit {
         let rest: f64 = points.iter().map(|p| (p.1 - y - slope * (p.0 - x)).powi(2)).sum();
         Some(Self { slope, error: (rest / (n - 2.0) / spread).sqrt() })
     }
+
+    /// The slope of the second half of the points less that of the first half, the middle one in both: what is systematic shows there. None with fewer than six.
+    pub(crate) fn drift(points: &[(f64, f64)]) -> Option<f64> {
+        let n = points.len();
+        let (first, second) = (points.get(..n.div_ceil(2))?, points.get(n / 2..)?);
+        (n >= 6).then_some(Self::of(second)?.slope - Self::of(first)?.slope)
+    }
 }
 
 #[cfg(test)]
@@ -41,5 +48,10 @@ mod tests {
         assert!(noisy.slope.abs() < 1e-12 && (noisy.error - 3.0_f64.sqrt()).abs() < 1e-12);
         assert!(Fit::of(&[(0.0, 1.0), (1.0, 3.0)]).is_none() && Fit::of(&[(1.0, 1.0); 3]).is_none());
         assert!(Fit::of(&[(0.0, 1.0), (1.0, f64::NEG_INFINITY), (2.0, 1.0)]).is_none());
+        // a parabola: slopes 3 and 9 from 0 to 3 and from 3 to 6
+        let bent: Vec<(f64, f64)> = (0..5).map(|i| (f64::from(i), f64::from(i * i))).collect();
+        assert!(Fit::drift(&bent).is_none());
+        let bent: Vec<(f64, f64)> = (0..7).map(|i| (f64::from(i), f64::from(i * i))).collect();
+        assert!((Fit::drift(&bent).unwrap() - 6.0).abs() < 1e-12);
     }
 }

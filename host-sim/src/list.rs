@@ -32,8 +32,8 @@ Commands
   attractor dump [SCENE...] [-o FILE.png|DIR] [--size WxH] [--color rgb565|rgb888|gray8|gray4|gray2|mono] [--scale N]
   attractor sample SCENE --points N       the numbers as CSV, fixed point beside the f64 reference
   attractor accuracy [--csv]              errors measured beside the bounds promised
-  attractor dimension SCENE [--boundary]  the box-counting dimension of kinds ifs and fif-curve, theory beside it
-  attractor spectrum SCENE                the spectral exponent of kind fif-curve, theory beside it
+  attractor dimension SCENE [--boundary]  the dimension of attractors, curves and graphs, theory beside it
+  attractor spectrum SCENE                the spectral exponent of graphs and random curves, theory beside it
   attractor window SCENE                  in a window (feature `window`)
   attractor help COMMAND                  all options, with examples
 ";

@@ -3,6 +3,7 @@
 //! Bad input is one line on standard error and exit code 2; a reader that closes the pipe is no error.
 
 mod accuracy;
+mod boxes;
 mod builtin;
 mod canvas;
 mod cli;
@@ -19,6 +20,7 @@ mod sample;
 mod scene;
 mod source;
 mod spectrum;
+mod theory;
 mod window;
 
 use std::process::ExitCode;

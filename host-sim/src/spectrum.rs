@@ -1,12 +1,11 @@
-//! `attractor spectrum`: how the power of a curve's ordinate falls with the frequency, `P ~ 1/f^beta`, measured, and what theory says.
+//! `attractor spectrum`: how the power of a curve's coordinates falls with the frequency, `P ~ 1/f^beta`, measured, and what theory says.
 //!
-//! 2^16 ordinates at equal distances, less the chord between both ends (a jump from the end back to the start would add `1/f^2`), times a Hann window,
+//! `2^n` values at equal distances, less the chord between both ends (a jump from the end back to the start would add `1/f^2`), times a Hann window,
 //! through a discrete Fourier transform; the mean power of each octave; a line through the logarithms from 8 periods to a 16th of the sampling rate.
 //! Lower octaves feel the window, higher ones the aliases of what lies above the sampling rate. The periodogram is A. Schuster, 1898; the window J. von Hann's
 //! (F. J. Harris, "On the use of windows for harmonic analysis", 1978).
-//!
-//! Theory, for affine maps on `N` equal intervals: second differences at distance `h / N` are `alpha_j` times those at `h`, so that their mean square scales by
-//! `sum alpha_j^2 / N` and `beta = 2 - log(sum alpha_j^2) / log N` as long as that is between 1 and 3; with all `|alpha_j|` alike it is `5 - 2 D`.
+//! Functions (`fif-curve`): 2^16 ordinates. Random curves: 2^14 points at equal parameters of each of 64 curves of the law, powers added up, those of both
+//! coordinates too where the curve lies in the plane: displacements begin along one coordinate and end in all directions.
 
 use std::f64::consts::TAU;
 use std::io::Write as _;
@@ -14,61 +13,93 @@ use std::io::Write as _;
 use crate::cli::Spectrum;
 use crate::fail::Fail;
 use crate::fit::Fit;
-use crate::scene::{self, Graph, Subject};
+use crate::scene::{self, Subject};
+use crate::theory::Theory;
 
-/// Logarithm of the number of ordinates.
-const LOG: u32 = 16;
-/// Octaves that are fitted: periods from `2^FIRST` to `2^LAST`.
+/// Logarithm of the number of ordinates of a function, and of the points of a random curve.
+const ORDINATES: u32 = 16;
+const POINTS: u32 = 14;
+/// Octaves that are fitted: periods from `2^FIRST` to `2^(n - LAST)` of `2^n` values.
 const FIRST: u32 = 3;
-const LAST: u32 = LOG - 4;
+const LAST: u32 = 4;
 
 /// Prints it.
 pub(crate) fn run(args: &Spectrum) -> Result<(), Fail> {
     let scene = scene::load(&args.scene)?;
     let fail = |reason: &str| Fail::new(format_args!("{}: kind = {}: {reason}", args.scene, scene.kind()));
-    let Some(Subject::Graph(graph)) = scene.subject() else {
-        return Err(fail("no spectrum is measured of this kind, only of fif-curve"));
+    const REFUSED: &str = "a spectrum is measured of kinds fif-curve and random-curve";
+    let (what, signals, theory) = match scene.subject() {
+        Ok(Subject::Graph(graph)) => {
+            let signals = graph.ordinates(ORDINATES);
+            let what = match signals.len() {
+                1 => "ordinates above the chord".to_owned(),
+                n => format!("ordinates of each of {n} functions of the law"),
+            };
+            (what, signals, graph.spectrum)
+        }
+        Ok(Subject::Trail(trail)) => {
+            let law = trail.law.ok_or_else(|| fail(REFUSED))?;
+            coordinates(law)?
+        }
+        Ok(Subject::Set(_)) | Err(Fail::Message(_)) => return Err(fail(REFUSED)),
+        Err(other) => return Err(other),
     };
-    let count = 1_u64 << LOG;
-    let ordinates: Vec<f64> = (0..count).map(|i| graph.at(i, count - 1)).collect();
-    let fit = beta(&ordinates).ok_or_else(|| fail("its graph is flat: it has no spectrum"))?;
+    let count = signals.first().map_or(0, Vec::len).saturating_sub(1);
+    let octaves = octaves(&signals).ok_or_else(|| fail("it is flat: it has no spectrum"))?;
+    let fit = Fit::of(&octaves).ok_or_else(|| fail("it is flat: it has no spectrum"))?;
     let mut out = std::io::stdout().lock();
+    if args.csv {
+        writeln!(out, "log_frequency,log_power")?;
+        for (frequency, power) in &octaves {
+            writeln!(out, "{frequency:?},{power:?}")?;
+        }
+        return Ok(());
+    }
     writeln!(out, "scene      {} ({})", scene.name, scene.kind())?;
-    writeln!(
-        out,
-        "method     periodogram of {count} ordinates above the chord, Hann window, mean power of octaves"
-    )?;
-    writeln!(out, "fit range  {} to {} periods, {} octaves", 1 << FIRST, 1 << LAST, LAST - FIRST)?;
-    writeln!(out, "beta       {:.3} +- {:.3}", fit.slope, fit.error)?;
-    match theory(&graph) {
-        Some(beta) => writeln!(out, "theory     {beta:.3} (2 - log(sum alpha_j^2) / log N)")?,
+    writeln!(out, "method     periodogram: {count} {what}, Hann window, mean power of octaves")?;
+    writeln!(out, "fit range  {} to {} periods, {} octaves", 1 << FIRST, count >> LAST, octaves.len())?;
+    writeln!(out, "beta       {:.3} +- {:.3}", -fit.slope, fit.error)?;
+    match theory {
+        Some(theory) => writeln!(out, "theory     {:.3} ({})", theory.value, theory.source)?,
         None => writeln!(out, "theory     none known for this scene")?,
     }
     Ok(())
 }
 
-fn theory(graph: &Graph<'_>) -> Option<f64> {
-    let (scalings, n) = graph.scalings.as_ref().zip(graph.equal_intervals)?;
-    let beta = 2.0 - scalings.iter().map(|a| a * a).sum::<f64>().ln() / (n as f64).ln();
-    (1.0..3.0).contains(&beta).then_some(beta)
+/// What they are, in words, the signals, and the exponent that theory gives them.
+type Signals = (String, Vec<Vec<f64>>, Option<Theory>);
+
+/// Both coordinates of a law's curves.
+fn coordinates(law: &scene::Law) -> Result<Signals, Fail> {
+    let curves = law.curves(POINTS)?;
+    let what = format!("points in both coordinates of each of {} curves of the law", curves.len());
+    let split = |curve: &Vec<(f64, f64)>| {
+        let (x, y): (Vec<f64>, Vec<f64>) = curve.iter().copied().unzip();
+        [x, y]
+    };
+    Ok((what, curves.iter().flat_map(split).collect(), law.spectrum()))
 }
 
-/// The exponent of a signal of `2^LOG` values.
-pub(crate) fn beta(ordinates: &[f64]) -> Option<Fit> {
-    let n = ordinates.len();
-    let (first, last) = (*ordinates.first()?, *ordinates.last()?);
-    let windowed = ordinates.iter().enumerate().map(|(i, y)| {
-        let t = i as f64 / (n - 1) as f64;
-        ((y - first - (last - first) * t) * (1.0 - (TAU * t).cos()) / 2.0, 0.0)
-    });
-    let transformed = fourier(windowed.collect());
+/// `(log f, log P)` of each octave that is fitted, the powers of all signals added up. Each has `2^n + 1` values, of which the last is left out.
+fn octaves(signals: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
+    let n = signals.first()?.len() - 1;
+    let mut power = vec![0.0; n];
+    for signal in signals {
+        let (first, last) = (*signal.first()?, *signal.last()?);
+        let windowed = signal.iter().take(n).enumerate().map(|(i, y)| {
+            let t = i as f64 / n as f64;
+            ((y - first - (last - first) * t) * (1.0 - (TAU * t).cos()) / 2.0, 0.0)
+        });
+        for (sum, (re, im)) in power.iter_mut().zip(fourier(windowed.collect())) {
+            *sum += re * re + im * im;
+        }
+    }
     let octave = |k: u32| {
         let periods = 1_usize << k..1 << (k + 1);
-        let count = periods.len() as f64;
-        let power: f64 = transformed.get(periods)?.iter().map(|(re, im)| re * re + im * im).sum();
-        Some((-(1.5 * f64::from(1 << k)).ln(), (power / count).ln()))
+        let mean = power.get(periods.clone())?.iter().sum::<f64>() / periods.len() as f64;
+        Some(((1.5 * periods.start as f64).ln(), mean.ln()))
     };
-    Fit::of(&(FIRST..LAST).map(octave).collect::<Option<Vec<_>>>()?)
+    (FIRST..n.ilog2() - LAST).map(octave).collect()
 }
 
 /// The discrete Fourier transform of `2^n` complex values, by decimation in time (J. W. Cooley, J. W. Tukey, 1965).
@@ -117,8 +148,8 @@ mod tests {
     #[test]
     fn a_power_law_is_found_again() {
         // phases by the golden ratio
+        let n = 1 << ORDINATES;
         for request in [1.0, 1.5, 2.0, 2.5] {
-            let n = 1 << LOG;
             let mut z = vec![(0.0, 0.0); n];
             for k in 1..n / 2 {
                 let (sin, cos) = (TAU * (k as f64 * k as f64 * 0.618_033_988_749_895).fract()).sin_cos();
@@ -126,10 +157,11 @@ mod tests {
                 z[k] = (amplitude * cos, amplitude * sin);
                 z[n - k] = (amplitude * cos, -amplitude * sin);
             }
-            let signal: Vec<f64> = fourier(z).into_iter().map(|z| z.0).collect();
-            let fit = beta(&signal).unwrap();
-            assert!((fit.slope - request).abs() < 0.1, "{request}: {fit:?}");
+            let mut signal: Vec<f64> = fourier(z).into_iter().map(|z| z.0).collect();
+            signal.push(signal[0]);
+            let fit = Fit::of(&octaves(&[signal]).unwrap()).unwrap();
+            assert!((fit.slope + request).abs() < 0.1, "{request}: {fit:?}");
         }
-        assert!(beta(&[1.0; 1 << LOG]).is_none());
+        assert!(Fit::of(&octaves(&[vec![1.0; n + 1]]).unwrap()).is_none());
     }
 }

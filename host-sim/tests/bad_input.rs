@@ -125,6 +125,10 @@ fn numbers_outside_the_format_are_refused() {
 fn a_system_that_is_none_is_refused() {
     refused(IFS, "0, 0, 0.5]", "0, 0, 0.4]", &["maps", "add up to"]);
     refused(IFS, "0, 0, 0.5]", "0, 0, -0.5]", &["maps[0][6]", "-0.5"]);
+    for none in ["0", "0.0", "\"1e-12\""] {
+        let words = [":3:", "maps[0][6]", "probability [0] is 0, it must lie between"];
+        refused(IFS, "0, 0, 0.5]", &format!("0, 0, {none}]"), &words);
+    }
     refused(
         IFS,
         "[0.5, 0, 0, 0.5, 0.5",

@@ -40,8 +40,8 @@ impl<const N: usize> Ifs<N> {
     ///
     /// # Errors
     /// [`Error::TooFew`] without maps, [`Error::Capacity`] for more than `N` or 256, [`Error::LengthMismatch`] unless there is one probability for each map,
-    /// [`Error::NotContractive`] with the first map that is no contraction, [`Error::OutOfRange`] for a negative probability, or when a fixed point or
-    /// the invariant disc leaves `-64 .. 64`, [`Error::Probabilities`] when they do not add up to 1 within `10^-6` each.
+    /// [`Error::NotContractive`] with the first map that is no contraction, [`Error::OutOfRange`] for a probability of 0, which would leave a part of the
+    /// attractor out, or a negative one, or when a fixed point or the invariant disc leaves `-64 .. 64`, [`Error::Probabilities`] when they do not add up to 1 within `10^-6` each.
     pub fn new(maps: &[Affine], probabilities: &[Unit]) -> Result<Self, Error> {
         Self::check_count(maps)?;
         if probabilities.len() != maps.len() {
@@ -51,13 +51,13 @@ impl<const N: usize> Ifs<N> {
                 expected: maps.len(),
             });
         }
-        if let Some((index, value)) = probabilities.iter().enumerate().find(|(_, p)| **p < Unit::ZERO) {
+        if let Some((index, value)) = probabilities.iter().enumerate().find(|(_, p)| **p <= Unit::ZERO) {
             let value = Wide::from(*value);
             return Err(Error::OutOfRange {
                 what: "probability",
                 index,
                 value,
-                min: Wide::ZERO,
+                min: Wide::from(Unit::DELTA),
                 max: Wide::ONE,
             });
         }
@@ -101,7 +101,7 @@ impl<const N: usize> Ifs<N> {
         }
     }
 
-    /// With as many probabilities as maps, at most `N`, none negative.
+    /// With as many probabilities as maps, at most `N`, all positive.
     fn build(given: &[Affine], shares: &[Unit]) -> Result<Self, Error> {
         let mut maps = [Affine::default(); N];
         let mut probabilities = [Unit::ZERO; N];

@@ -89,6 +89,11 @@ impl CopierScene {
         Ok(scene)
     }
 
+    /// The system, whose attractor the copies tend to.
+    pub(super) fn ifs(&self) -> &Ifs<MAX_MAPS> {
+        &self.ifs
+    }
+
     fn path(&self, order: u32) -> Result<CopiedPath<'_, MAX_MAPS, DEPTH>, Fail> {
         Ok(self.ifs.copier(&self.shape, order).map_err(Fail::new)?.path())
     }

@@ -15,6 +15,7 @@ use toml::Spanned;
 use super::area::Area;
 use super::plot::{Extent, Pencil, inner, pitch};
 use super::polyline::{self, Points};
+use super::trail::Trail;
 use super::{Request, Watch};
 use crate::cli::MAX_POINTS;
 use crate::color::Depth;
@@ -22,6 +23,7 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Source};
+use crate::theory::{Theory, boundary_of};
 
 /// Room for segments of a generator and for orders.
 const SEGMENTS: usize = 64;
@@ -92,6 +94,21 @@ impl CurveScene {
 
     fn refined(&self, order: u32) -> Result<Refined<'_, SEGMENTS, DEPTH>, Error> {
         self.generator.refined(&self.base, order)
+    }
+
+    /// What measurements need of it: the curve that the refinements tend to, whatever order is drawn.
+    pub(super) fn trail(&self) -> Trail<'_> {
+        let finer_than = |length: Real| {
+            let path = self.generator.refined_to::<DEPTH>(&self.base, length)?;
+            Ok(Box::new(path) as Box<dyn Iterator<Item = Step>>)
+        };
+        let theory = Theory::new(
+            self.generator.dimension().to_num(),
+            "similarity dimension of the generator: sum r_j^D = 1, unless copies overlap",
+        );
+        let named = catalogue::ALL.iter().find(|curve| curve.generator().as_ref() == Ok(&*self.generator));
+        let boundary = named.and_then(|curve| boundary_of(curve.name));
+        Trail { finer_than: Box::new(finer_than), theory: Some(theory), boundary, law: None }
     }
 
     /// The path on a display of this size, and what it takes.

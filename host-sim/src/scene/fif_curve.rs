@@ -85,7 +85,7 @@ impl FifCurve {
 
     /// What measurements need of it.
     pub(super) fn graph(&self) -> Graph<'_> {
-        Graph::new(&self.function)
+        Graph::of_function(&self.function)
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

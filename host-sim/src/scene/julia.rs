@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::escape::{Complex, Julia, View};
+use attractor::escape::{Complex, Julia, JuliaSet, View};
 use attractor::num::Wide;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -12,7 +12,9 @@ use toml::Spanned;
 
 use super::coloring::{self, Coloring};
 use super::escape::{self, Escape, Grey, Keys};
+use super::julia_set;
 use super::motion::Motion;
+use super::trail::Trail;
 use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -74,6 +76,11 @@ impl JuliaScene {
         Julia::new(view, c, 1).map_err(|error| source.fail(file.c.span(), "c", error))?;
         let float = (re.to_num(), im.to_num());
         Ok(Self { escape: Escape::load(source, &keys, HOME)?, c, float })
+    }
+
+    /// What measurements need of it: its boundary, the Julia set itself, whatever part of it is in view.
+    pub(super) fn trail(&self) -> Result<Trail<'_>, Fail> {
+        JuliaSet::new(self.c).map(julia_set::trail).map_err(Fail::new)
     }
 
     fn picture(&self, request: &Request) -> Result<Julia, Fail> {

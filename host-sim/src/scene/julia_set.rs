@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::escape::{Complex, JuliaSet};
+use attractor::escape::{Complex, JuliaSet, SimpleCase};
 use attractor::num::{Real, Wide};
 use attractor::picture::{Point2, Step, Window};
 use embedded_graphics::draw_target::DrawTarget;
@@ -15,6 +15,7 @@ use super::chart::PAPER;
 use super::density;
 use super::ifs::density_color;
 use super::plot::{Extent, inner, pitch};
+use super::trail::Trail;
 use super::{Request, Watch, draw_field};
 use crate::cli::MAX_POINTS;
 use crate::color::{Depth, ground};
@@ -22,6 +23,7 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Source};
+use crate::theory::Theory;
 
 /// Points that show how large the set is.
 const SCOUTS: usize = 1 << 14;
@@ -29,6 +31,8 @@ const SCOUTS: usize = 1 << 14;
 const HITS: u8 = 12;
 /// The grid covers the square of side 4; finer than this it would only be larger.
 const CELLS: i64 = 1 << 12;
+/// The same where the set is measured.
+const FINEST: i64 = 1 << 13;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -76,6 +80,11 @@ impl JuliaSetScene {
             points: points.transpose()?,
             palette: file.palette.unwrap_or(Named::Fire),
         })
+    }
+
+    /// What measurements need of it.
+    pub(super) fn trail(&self) -> Trail<'_> {
+        trail(self.set)
     }
 
     fn window(&self, request: &Request) -> Result<Window, Fail> {
@@ -135,4 +144,21 @@ impl JuliaSetScene {
         }
         Ok(())
     }
+}
+
+/// The points of a Julia set as measurements need them: one in each cell of a grid that the pruned iteration reaches.
+pub(super) fn trail<'a>(set: JuliaSet) -> Trail<'a> {
+    let finer_than = move |length: Real| {
+        let cells = ((4 << 24) / i64::from(length.to_bits().max(1))).clamp(1, FINEST);
+        let side = cells as usize;
+        let mut hits = vec![0; side * side];
+        let points: Vec<Point2> = set.pruned_iteration(side, HITS, &mut hits)?.collect();
+        Ok(Box::new(points.into_iter().map(Step::MoveTo)) as Box<dyn Iterator<Item = Step>>)
+    };
+    let theory = match set.simple_case() {
+        Some(SimpleCase::UnitCircle) => Some(Theory::new(1.0, "the unit circle")),
+        Some(SimpleCase::Segment) => Some(Theory::new(1.0, "the segment from -2 to 2")),
+        None => None,
+    };
+    Trail { finer_than: Box::new(finer_than), theory, boundary: None, law: None }
 }

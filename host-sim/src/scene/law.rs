@@ -31,31 +31,34 @@ pub(super) enum Name {
     TwoVariable,
 }
 
-/// Any of the laws.
+/// Any of the laws, with the number that theory needs.
 #[derive(Debug, Clone)]
-pub(super) enum Law {
-    Elbow(Elbow),
-    LineToLine(LineToLine),
+pub(crate) enum Law {
+    /// And its spectral exponent.
+    Elbow(Elbow, f64),
+    /// And its spectral exponent.
+    LineToLine(LineToLine, f64),
     OneVariable(OneVariable),
-    TwoVariable(TwoVariable),
+    /// And its offset.
+    TwoVariable(TwoVariable, f64),
 }
 
 impl Displacement for Law {
     fn check(&self, knots: &[Point2]) -> Result<(), Error> {
         match self {
-            Self::Elbow(law) => law.check(knots),
-            Self::LineToLine(law) => law.check(knots),
+            Self::Elbow(law, _) => law.check(knots),
+            Self::LineToLine(law, _) => law.check(knots),
             Self::OneVariable(law) => law.check(knots),
-            Self::TwoVariable(law) => law.check(knots),
+            Self::TwoVariable(law, _) => law.check(knots),
         }
     }
 
     fn midpoint(&self, part: &Part) -> Point2 {
         match self {
-            Self::Elbow(law) => law.midpoint(part),
-            Self::LineToLine(law) => law.midpoint(part),
+            Self::Elbow(law, _) => law.midpoint(part),
+            Self::LineToLine(law, _) => law.midpoint(part),
             Self::OneVariable(law) => law.midpoint(part),
-            Self::TwoVariable(law) => law.midpoint(part),
+            Self::TwoVariable(law, _) => law.midpoint(part),
         }
     }
 }
@@ -109,18 +112,18 @@ pub(super) fn law(source: &Source, file: &Parameters) -> Result<Law, Fail> {
                 None => Elbow::self_similar(beta, seed),
                 Some(deviation) => Elbow::new(source.fixed::<Unit>(deviation, "deviation")?, beta, seed),
             }
-            .map(Law::Elbow)
+            .map(|law| Law::Elbow(law, beta.to_num()))
         }
         Name::LineToLine => {
             let beta = real(&file.beta, "beta", three)?;
-            LineToLine::with_spectrum(offset, beta, seed).map(Law::LineToLine)
+            LineToLine::with_spectrum(offset, beta, seed).map(|law| Law::LineToLine(law, beta.to_num()))
         }
         Name::OneVariable => match &file.ratio {
             None => OneVariable::new(offset, seed),
             Some(ratio) => OneVariable::with_ratio(source.fixed::<Real>(ratio, "ratio")?, seed),
         }
         .map(Law::OneVariable),
-        Name::TwoVariable => TwoVariable::new(offset, seed).map(Law::TwoVariable),
+        Name::TwoVariable => TwoVariable::new(offset, seed).map(|law| Law::TwoVariable(law, offset.to_num())),
     }
     .map_err(refused)
 }

@@ -14,6 +14,7 @@ mod fif_curve;
 mod fif_surface;
 mod function;
 mod graph;
+mod halving;
 mod ifs;
 mod julia;
 mod julia_set;
@@ -26,6 +27,7 @@ mod plot;
 mod polyline;
 mod random_curve;
 mod system;
+mod trail;
 
 use std::convert::Infallible;
 use std::io::Write;
@@ -46,13 +48,17 @@ use crate::fail::Fail;
 use crate::source::Source;
 
 pub(crate) use graph::Graph;
+pub(crate) use halving::Chords;
+pub(crate) use law::Law;
 pub(crate) use motion::Motion;
+pub(crate) use trail::Trail;
 
 /// What can be measured of a scene.
-#[derive(Debug)]
 pub(crate) enum Subject<'a> {
     /// An attractor in the plane.
     Set(&'a attractor::ifs::Ifs<{ attractor::ifs::MAX_MAPS }>),
+    /// A path, or points, as dense as one likes.
+    Trail(Trail<'a>),
     /// The graph of a function.
     Graph(Graph<'a>),
 }
@@ -153,13 +159,27 @@ impl Scene {
         }
     }
 
-    /// What can be measured of it; nothing of most kinds.
-    pub(crate) fn subject(&self) -> Option<Subject<'_>> {
-        match &self.kind {
-            Kind::FifCurve(scene) => Some(Subject::Graph(scene.graph())),
-            Kind::Ifs(scene) => Some(Subject::Set(scene.ifs())),
-            _ => None,
-        }
+    /// What can be measured of it.
+    pub(crate) fn subject(&self) -> Result<Subject<'_>, Fail> {
+        Ok(match &self.kind {
+            Kind::Ifs(scene) => Subject::Set(scene.ifs()),
+            Kind::Copier(scene) => Subject::Set(scene.ifs()),
+            Kind::Curve(scene) => Subject::Trail(scene.trail()),
+            Kind::RandomCurve(scene) => match scene.law() {
+                law @ Law::LineToLine(..) => Subject::Graph(Graph::of_law(law)?),
+                _ => Subject::Trail(scene.trail()),
+            },
+            Kind::Julia(scene) => Subject::Trail(scene.trail()?),
+            Kind::JuliaSet(scene) => Subject::Trail(scene.trail()),
+            Kind::FifCurve(scene) => Subject::Graph(scene.graph()),
+            Kind::FifSurface(_) => {
+                return Err(Fail::new("a surface is not measured, only its profiles as fif-curve"));
+            }
+            Kind::Mandelbrot(_) => {
+                let reason = "the boundary of the Mandelbrot set has dimension 2 (M. Shishikura, 1998), which boxes of no practical size show";
+                return Err(Fail::new(reason));
+            }
+        })
     }
 
     /// Moves about on a display of this size; the message says why not.

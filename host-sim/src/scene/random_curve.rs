@@ -17,6 +17,7 @@ use super::curve::vertices;
 use super::law::{Law, Name, Parameters, law};
 use super::plot::{Extent, Pencil, inner, pitch};
 use super::polyline::{self, Points};
+use super::trail::Trail;
 use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -112,10 +113,26 @@ impl RandomCurve {
         Subdivision::new(&self.law, &self.knots, stop)
     }
 
+    /// The law.
+    pub(super) fn law(&self) -> &Law {
+        &self.law
+    }
+
+    /// What measurements need of it, unless it is a graph.
+    pub(super) fn trail(&self) -> Trail<'_> {
+        // as often as the parameter allows: few parts need it
+        let finer_than = |length: Real| {
+            let curve = Subdivision::<_, 31>::new(&self.law, &self.knots, Stop::Length(length))?;
+            Ok(Box::new(curve) as Box<dyn Iterator<Item = Step>>)
+        };
+        let theory = self.law.similarity();
+        Trail { finer_than: Box::new(finer_than), theory, boundary: None, law: Some(&self.law) }
+    }
+
     fn window(&self, extent: &Extent, size: Size) -> Result<Window, Fail> {
         let (room, size) = (extent.room(), inner(size).size);
         match self.law {
-            Law::LineToLine(_) => Window::stretch(room, size),
+            Law::LineToLine(..) => Window::stretch(room, size),
             _ => Window::fit(room, size),
         }
         .map_err(Fail::new)
