@@ -1,7 +1,7 @@
 //! A whole picture in a lent buffer: half of a symmetric one is copied, and what stays in sight while panning is moved.
 //!
 //! Conjugate points have conjugate orbits and the same dwell: rows at `y` and `-y` are equal. A view that is panned by whole pixels shows the same points
-//! ([`View::pan`](super::View::pan)), so that neither the mirror nor panning changes a pixel.
+//! ([`View::pan`](super::View::pan), [`DeepView::pan`](super::DeepView::pan)), so that neither the mirror nor panning changes a pixel.
 
 use core::ops::Range;
 
@@ -67,7 +67,7 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
     /// # Errors
     /// As [`View::pan`](super::View::pan); the picture is then unchanged.
     pub fn pan(&mut self, right: i32, up: i32) -> Result<(), Error> {
-        self.picture = self.picture.with_view(self.picture.view().pan(right, up)?);
+        self.picture = self.picture.panned(right, up)?;
         self.computed = 0;
         let size = self.picture.size();
         let (width, height) = (size.width as usize, size.height as usize);
@@ -99,7 +99,7 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
         let size = self.picture.size();
         let (width, all) = (size.width as usize, 0..size.width);
         for y in rows.clone() {
-            match self.mirror_image(y) {
+            match self.picture.mirror_image(y) {
                 // an upper row that has been computed already, or was kept
                 Some(image) if image < y && rows.contains(&image) => {
                     let from = image as usize * width;
@@ -117,25 +117,6 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
         for (slot, dwell) in slots.iter_mut().zip(self.picture.row(y, columns)) {
             *slot = dwell.count as u16;
         }
-    }
-
-    /// The row at the conjugate points, if the view has it.
-    fn mirror_image(&self, y: u32) -> Option<u32> {
-        if !self.picture.is_mirrored() {
-            return None;
-        }
-        let view = self.picture.view();
-        let ordinate = |row: u32| view.point(0, row).im.to_bits();
-        // rows are equally spaced: the sum of the indices is the same for all pairs
-        let (first, last) = (ordinate(0), ordinate(self.picture.size().height - 1));
-        let pitch = view.pitch().to_bits();
-        if last >= 0 || first <= 0 || ordinate(y) >= 0 {
-            return None;
-        }
-        // (first - -y) / pitch, to nearest
-        let steps = (first.wrapping_add(ordinate(y)) + pitch / 2).checked_div_euclid(pitch)?;
-        let image = u32::try_from(steps).ok()?;
-        (image < self.picture.size().height && ordinate(image) == -ordinate(y)).then_some(image)
     }
 }
 

@@ -6,10 +6,13 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::block::Block;
+use super::deep_view::Pixels;
+use super::escape_time::{Ending, EscapeTime, follow, period};
+use super::period::{MAX_PERIOD, Period};
 use super::perturbation::{OrbitPoint, Reference};
-use super::{Complex, DeepView, Dwell, checked_max, wide_dwell};
+use super::wide_dwell::{self, WideOrbit, WideWord};
+use super::{DeepView, Dwell, checked_max};
 use crate::Error;
-use crate::num::Limbs;
 use crate::picture::Field;
 
 /// How the orbits of a deep view are computed.
@@ -85,11 +88,18 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
         orbit: &'a mut [OrbitPoint],
     ) -> Result<Self, Error> {
         let max = checked_max(max_dwell)?;
+        let half_pitch = view.half_pitch_block();
         let reference = match arithmetic {
-            Arithmetic::Perturbed => Some(Reference::new(view.centre(), max, orbit)?),
+            Arithmetic::Perturbed => {
+                // a corner, and as much again to pan
+                let part = |side: u32| i64::from(side) * i64::from(half_pitch.re);
+                let corner =
+                    Block::<i32>::new(part(view.size().width), part(view.size().height), half_pitch.exponent);
+                Some(Reference::new(view.centre(), max, corner.above() + 1, orbit)?)
+            }
             _ => None,
         };
-        Ok(Self { view, max, arithmetic, reference, half_pitch: view.half_pitch_block() })
+        Ok(Self { view, max, arithmetic, reference, half_pitch })
     }
 
     /// How many points a picture of this view takes from the lent orbit.
@@ -117,37 +127,112 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
 
     /// The length of the reference orbit, which ends where it escapes; 0 without one.
     pub fn reference_len(&self) -> usize {
-        self.reference.map_or(0, |reference| reference.len())
+        self.reference.as_ref().map_or(0, Reference::len)
     }
 
     /// The dwell at the middle of a pixel.
     ///
     /// Domain: inside the view; others count as the nearest pixel.
     pub fn dwell_at(&self, column: u32, row: u32) -> Dwell {
-        let count = match (self.reference, self.arithmetic) {
-            (Some(reference), _) => {
-                let (across, up) = self.view.steps(column, row);
-                let mantissa = i64::from(self.half_pitch.re);
-                let offset = Block::new(
-                    i64::from(across) * mantissa,
-                    i64::from(up) * mantissa,
-                    self.half_pitch.exponent,
-                );
-                reference.dwell(offset, self.max)
-            }
-            (None, Arithmetic::Word64) => {
-                let c = self.view.point(column, row);
-                let nearest = |v: i128| ((v + (1 << 63)) >> 64) as i64;
-                let c = (nearest(c.re.top128()), nearest(c.im.top128()));
-                wide_dwell::dwell(c, c, self.max)
-            }
-            (None, _) => {
-                let c: Complex<Limbs<LIMBS>> = self.view.point(column, row);
-                let c = (c.re.top128(), c.im.top128());
-                wide_dwell::dwell(c, c, self.max)
+        let count = match self.orbit(column, row) {
+            Orbit::Word64(c) => wide_dwell::dwell(c, c, self.max),
+            Orbit::Word128(c) => wide_dwell::dwell(c, c, self.max),
+            Orbit::Perturbed(reference, g) => {
+                reference.ending::<false>(g, self.max).map_or(self.max, |ending| ending.steps)
             }
         };
         Dwell { count, max: self.max }
+    }
+
+    fn orbit(&self, column: u32, row: u32) -> Orbit<'_> {
+        let (across, up) = self.view.steps(column, row);
+        // conjugate points have the same dwell: the picture is symmetric to the last bit
+        let steps = (across, if self.view.is_mirrored() { up.abs() } else { up });
+        match (&self.reference, self.arithmetic) {
+            (Some(reference), _) => {
+                let part = |steps: i32| i64::from(steps) * i64::from(self.half_pitch.re); // below 2^47
+                let g = Block::<i32>::new(part(steps.0), part(steps.1), self.half_pitch.exponent);
+                Orbit::Perturbed(reference, g)
+            }
+            (None, Arithmetic::Word64) => {
+                let c = self.view.point_at(steps);
+                let nearest = |v: i128| ((v + (1 << 63)) >> 64) as i64;
+                Orbit::Word64((nearest(c.re.top128()), nearest(c.im.top128())))
+            }
+            (None, _) => {
+                let c = self.view.point_at(steps);
+                Orbit::Word128((c.re.top128(), c.im.top128()))
+            }
+        }
+    }
+
+    fn ending_of<const DERIVATIVE: bool>(&self, (column, row): (u32, u32)) -> Option<Ending> {
+        match self.orbit(column, row) {
+            Orbit::Word64(c) => self.follow::<DERIVATIVE, _>(c),
+            Orbit::Word128(c) => self.follow::<DERIVATIVE, _>(c),
+            Orbit::Perturbed(reference, g) => reference.ending::<DERIVATIVE>(g, self.max),
+        }
+    }
+
+    fn follow<const DERIVATIVE: bool, W: WideWord>(&self, c: (W, W)) -> Option<Ending> {
+        let dwell = wide_dwell::dwell(c, c, self.max);
+        (dwell < self.max).then(|| follow::<DERIVATIVE, _>(WideOrbit { z: c, c }, dwell, Block::<i32>::ONE))
+    }
+}
+
+/// What a pixel's orbit is computed from.
+enum Orbit<'a> {
+    Word64((i64, i64)),
+    Word128((i128, i128)),
+    Perturbed(&'a Reference<'a>, Block),
+}
+
+impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
+    /// Column and row.
+    type Point = (u32, u32);
+    type Line = Pixels;
+
+    fn line(&self, row: u32, columns: Range<u32>) -> Pixels {
+        self.view.line(row, columns)
+    }
+
+    fn max_dwell(&self) -> u32 {
+        self.max
+    }
+
+    fn dwell_at(&self, (column, row): (u32, u32)) -> Dwell {
+        self.dwell_at(column, row)
+    }
+
+    fn ending(&self, pixel: (u32, u32)) -> Option<Ending> {
+        self.ending_of::<false>(pixel)
+    }
+
+    fn ending_with_derivative(&self, pixel: (u32, u32)) -> Option<Ending> {
+        self.ending_of::<true>(pixel)
+    }
+
+    fn period_at(&self, (column, row): (u32, u32)) -> Period {
+        if !self.dwell_at(column, row).is_inside() {
+            return Period(0);
+        }
+        Period(match self.orbit(column, row) {
+            Orbit::Word64(c) => period(WideOrbit { z: c, c }, self.max, MAX_PERIOD),
+            Orbit::Word128(c) => period(WideOrbit { z: c, c }, self.max, MAX_PERIOD),
+            Orbit::Perturbed(reference, g) => reference.period(g, self.max, MAX_PERIOD),
+        })
+    }
+
+    fn pitch(&self) -> (u32, i32) {
+        (self.half_pitch.re.unsigned_abs(), self.half_pitch.exponent + 1)
+    }
+
+    fn mirror_image(&self, row: u32) -> Option<u32> {
+        self.view.mirror_image(row)
+    }
+
+    fn panned(self, right: i32, up: i32) -> Result<Self, Error> {
+        Ok(Self { view: self.view.pan(right, up)?, ..self })
     }
 }
 
@@ -199,9 +284,12 @@ impl<const LIMBS: usize> FusedIterator for DeepRow<'_, LIMBS> {}
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
     use super::*;
-    use crate::escape::{Mandelbrot, Precision, View};
+    use crate::escape::{Canvas, Complex, Distance, Interior, Mandelbrot, Precision, Smooth, View};
     use crate::num::Wide;
+    use core::cell::Cell;
+    use fixed::types::U21F11;
 
     #[test]
     fn every_arithmetic_shows_the_same_picture_of_a_shallow_view() {
@@ -220,6 +308,92 @@ mod tests {
                 .map(|y| picture.row(y, 0..40).zip(narrow.row(y, 0..40)).filter(|(a, b)| a != b).count());
             assert!(differ.sum::<usize>() <= 4, "{arithmetic:?}");
         }
+    }
+
+    /// A view, the same in 32 bits, and the picture of it in each arithmetic.
+    fn compare(
+        [re, im, width]: [&str; 3],
+        max: u32,
+        check: impl Fn(&Mandelbrot, &DeepMandelbrot<'_, 4>, (u32, u32), Complex<Wide>),
+    ) {
+        let size = Size::new(48, 36);
+        let view = DeepView::<4>::parse(re, im, width, size).unwrap();
+        let centre = Complex::new(view.centre().re.to_wide(), view.centre().im.to_wide());
+        let narrow = View::new(centre, view.width().to_wide(), size).unwrap();
+        let narrow = Mandelbrot::new(narrow, max).unwrap().with_precision(Precision::Fine29);
+        let mut orbit = std::vec![OrbitPoint::default(); max as usize];
+        for arithmetic in [Arithmetic::Word64, Arithmetic::Word128, Arithmetic::Perturbed] {
+            let picture = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut orbit).unwrap();
+            for (column, row) in (0..36).flat_map(|row| (0..48).map(move |column| (column, row))) {
+                check(&narrow, &picture, (column, row), narrow.view().point(column, row));
+            }
+        }
+    }
+
+    #[test]
+    fn fractional_dwells_and_distances_are_those_of_a_shallow_picture() {
+        let checked = Cell::new(0);
+        compare(["-0.7", "0.3", "0.6"], 300, |narrow, picture, pixel, point| {
+            let (shallow, deep) = (Smooth(*narrow).value_at(point), Smooth(*picture).value_at(pixel));
+            // later the orbits part
+            if shallow.dwell > 25 {
+                return;
+            }
+            checked.set(checked.get() + 1);
+            let apart = shallow.dwell.abs_diff(deep.dwell);
+            assert!(apart <= U21F11::DELTA * 4, "{:?} {pixel:?}: {shallow:?} {deep:?}", picture.arithmetic());
+            let distances = (Distance(*narrow).value_at(point), Distance(*picture).value_at(pixel));
+            let (Some(shallow), Some(deep)) = distances else { panic!("{distances:?}") };
+            let allowed = shallow.to_bits() / 256 + 1;
+            assert!(shallow.to_bits().abs_diff(deep.to_bits()) <= allowed as u32, "{shallow} {deep}");
+        });
+        assert!(checked.get() > 1000, "{checked:?}");
+    }
+
+    #[test]
+    fn periods_are_those_of_a_shallow_picture() {
+        let (found, differ) = (Cell::new(0), Cell::new(0));
+        compare(["-1.2", "0", "0.5"], 2000, |narrow, picture, pixel, point| {
+            let (shallow, deep) = (Interior(*narrow).value_at(point), Interior(*picture).value_at(pixel));
+            found.set(found.get() + u32::from(shallow.0 > 1 && shallow == deep));
+            // on the edge of a component one of them may find none, or a multiple
+            if shallow.0 != 0 && deep.0 != 0 && shallow != deep {
+                assert_eq!(deep.0.max(shallow.0) % deep.0.min(shallow.0), 0, "{pixel:?}");
+                differ.set(differ.get() + 1);
+            }
+        });
+        assert!(found.get() > 1000 && differ.get() * 1000 <= found.get(), "{found:?} {differ:?}");
+    }
+
+    #[test]
+    fn a_deep_canvas_is_mirrored_and_panned_without_a_change() {
+        // a copy of period 3 on the real axis, and one beside it
+        for (im, arithmetic) in [
+            ("0", Arithmetic::Word64),
+            ("0", Arithmetic::Word128),
+            ("0", Arithmetic::Perturbed),
+            ("1e-22", Arithmetic::Perturbed),
+        ] {
+            let view =
+                DeepView::<4>::parse("-1.7548776662466927601", im, "1e-15", Size::new(20, 15)).unwrap();
+            let mut orbit = [OrbitPoint::default(); 300];
+            let picture = DeepMandelbrot::with_arithmetic(view, 300, arithmetic, &mut orbit).unwrap();
+            let mut counts = [0; 300];
+            let mut canvas = Canvas::new(picture, &mut counts).unwrap();
+            assert_eq!(canvas.computed(), if im == "0" { 20 * 8 } else { 300 });
+            for (right, up) in [(0, 0), (3, 1), (-9, 4), (0, -15), (40, -2)] {
+                canvas.pan(right, up).unwrap();
+                let (moved, size) = (canvas.picture(), canvas.size());
+                for y in 0..size.height {
+                    assert!(canvas.row(y, 0..20).eq(moved.row(y, 0..20)), "{arithmetic:?} {y}");
+                }
+            }
+            assert!(canvas.pan(40_000, 0).is_err());
+            // the same point, whichever way it came
+            let (once, twice) = (view.pan(5, -3).unwrap(), view.pan(7, 0).unwrap().pan(-2, -3).unwrap());
+            assert_eq!((once, once.point(2, 9)), (twice, view.point(7, 12)));
+        }
+        assert!(DeepView::<4>::parse("-2", "0", "4e-2", Size::new(8, 8)).unwrap().pan(1000, 0).is_err());
     }
 
     #[test]
