@@ -14,6 +14,36 @@ pub(super) struct Block<M = i32> {
     pub(super) exponent: i32,
 }
 
+/// A block of either width, for who computes in both.
+pub(super) trait Number: Copy + PartialEq + core::fmt::Debug {
+    /// Of a mantissa.
+    const BITS: i32;
+    /// 0, smaller than everything else.
+    const ZERO: Self;
+    /// 1.
+    const ONE: Self;
+    /// The product.
+    fn times(self, other: Self) -> Self;
+    /// The sum.
+    fn plus(self, other: Self) -> Self;
+    /// The number with the other sign.
+    fn negated(self) -> Self;
+    /// Twice the number.
+    fn doubled(self) -> Self;
+    /// Whether `|self| > 2`.
+    fn is_beyond_two(self) -> bool;
+    /// Whether `|self| < |other|`.
+    fn is_less(self, other: Self) -> bool;
+    /// An exponent of 2 that `|self|` is below.
+    fn above(self) -> i32;
+    /// An exponent of 2 that `|self|` reaches.
+    fn reached(self) -> i32;
+    /// The nearest block of 30 bits.
+    fn short(self) -> Block;
+    /// The nearest of this width.
+    fn nearest(long: Block<i64>) -> Self;
+}
+
 /// The arithmetic of both widths: `BITS` of a mantissa leave its word a sign and a sum of two.
 macro_rules! arithmetic {
     ($word:ty, $double:ty, $unsigned:ty, $bits:literal) => {
@@ -42,21 +72,33 @@ macro_rules! arithmetic {
                 }
             }
 
-            /// The product.
+            /// `|self|^2` as a mantissa, 4 times from end to end (0 for 0), and an exponent.
             #[inline]
-            pub(super) fn times(self, other: Self) -> Self {
+            pub(super) fn square(self) -> ($unsigned, i32) {
+                let (a, b) = (<$double>::from(self.re), <$double>::from(self.im));
+                ((a * a + b * b) as $unsigned, 2 * self.exponent)
+            }
+        }
+
+        impl Number for Block<$word> {
+            const BITS: i32 = $bits;
+            const ZERO: Self = Self::ZERO;
+            const ONE: Self = Self::ONE;
+
+            #[inline(always)]
+            fn times(self, other: Self) -> Self {
                 let (a, b) = (<$double>::from(self.re), <$double>::from(self.im));
                 let (x, y) = (<$double>::from(other.re), <$double>::from(other.im));
                 // two products of 2 BITS each
                 Self::new(a * x - b * y, a * y + b * x, self.exponent + other.exponent)
             }
 
-            /// The sum. What is more than `2^(BITS + 1)` times smaller does not count.
-            #[inline]
-            pub(super) fn plus(self, other: Self) -> Self {
+            #[inline(always)]
+            fn plus(self, other: Self) -> Self {
                 let (large, small) =
                     if self.exponent >= other.exponent { (self, other) } else { (other, self) };
                 let apart = (large.exponent - small.exponent) as u32;
+                // what is as small as this does not count
                 if apart > $bits + 1 {
                     return large;
                 }
@@ -66,22 +108,59 @@ macro_rules! arithmetic {
                 Self::new(sum(large.re, small.re), sum(large.im, small.im), small.exponent)
             }
 
-            /// Twice the number.
-            #[inline]
-            pub(super) const fn doubled(self) -> Self {
+            #[inline(always)]
+            fn negated(self) -> Self {
+                Self { re: -self.re, im: -self.im, ..self }
+            }
+
+            #[inline(always)]
+            fn doubled(self) -> Self {
                 Self { exponent: self.exponent + 1, ..self }
             }
 
-            /// An exponent of 2 that `|self|` is below: the larger part is at most `2^BITS`, the modulus 3/2 of it.
-            #[inline]
-            pub(super) const fn above(self) -> i32 {
+            #[inline(always)]
+            fn is_beyond_two(self) -> bool {
+                // the larger part, at most 2^BITS 2^exponent, decides but for three exponents
+                if self.exponent < 1 - $bits {
+                    return false;
+                }
+                if self.exponent > 3 - $bits {
+                    return true;
+                }
+                let (mantissa, exponent) = self.square();
+                mantissa > (1 as $unsigned) << ((2 - exponent) as u32 & (<$double>::BITS - 1))
+            }
+
+            #[inline(always)]
+            fn is_less(self, other: Self) -> bool {
+                let apart = self.exponent - other.exponent;
+                // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
+                if !(-1..=1).contains(&apart) {
+                    return apart < 0;
+                }
+                let ((a, _), (b, _)) = (self.square(), other.square());
+                if apart >= 0 { a << (2 * apart) < b } else { a < b << (-2 * apart) }
+            }
+
+            #[inline(always)]
+            fn above(self) -> i32 {
+                // the larger part is at most 2^BITS, the modulus 3/2 of it
                 self.exponent + $bits + 1
             }
 
-            /// An exponent of 2 that `|self|` reaches.
-            #[inline]
-            pub(super) const fn reached(self) -> i32 {
+            #[inline(always)]
+            fn reached(self) -> i32 {
                 self.exponent + $bits - 1
+            }
+
+            #[inline]
+            fn short(self) -> Block {
+                Block::<i32>::new(self.re.into(), self.im.into(), self.exponent)
+            }
+
+            #[inline]
+            fn nearest(long: Block<i64>) -> Self {
+                Self::new(long.re.into(), long.im.into(), long.exponent)
             }
         }
     };
@@ -90,21 +169,7 @@ macro_rules! arithmetic {
 arithmetic!(i32, i64, u64, 30);
 arithmetic!(i64, i128, u128, 62);
 
-impl Block<i64> {
-    /// The nearest block of 30 bits.
-    pub(super) fn short(self) -> Block {
-        Block::<i32>::new(self.re, self.im, self.exponent)
-    }
-}
-
 impl Block {
-    /// `|self|^2` as a mantissa, `2^58` to `2^61` (0 for 0), and an exponent.
-    #[inline]
-    pub(super) fn square(self) -> (u64, i32) {
-        let (a, b) = (i64::from(self.re), i64::from(self.im));
-        ((a * a + b * b) as u64, 2 * self.exponent)
-    }
-
     /// The parts with `bits` fractional bits, towards minus infinity. Domain: parts below `2^(62 - bits)`.
     #[inline]
     pub(super) fn fixed(self, bits: i32) -> (i64, i64) {
@@ -114,33 +179,6 @@ impl Block {
             if places >= 0 { v << (places & 63) } else { v >> places.unsigned_abs().min(63) }
         };
         (part(self.re), part(self.im))
-    }
-
-    /// Whether `|self| > 2`.
-    #[inline]
-    pub(super) fn is_beyond_two(self) -> bool {
-        // 2^30 2^exponent is the largest part: below 1 up to an exponent of -31
-        if self.exponent < -29 {
-            return false;
-        }
-        if self.exponent > -27 {
-            return true;
-        }
-        let (mantissa, exponent) = self.square();
-        // 4 = 2^2; the exponent is between -58 and -54
-        mantissa > 1_u64 << ((2 - exponent) & 63)
-    }
-
-    /// Whether `|self| < |other|`.
-    #[inline]
-    pub(super) fn is_less(self, other: Self) -> bool {
-        let apart = self.exponent - other.exponent;
-        // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
-        if !(-1..=1).contains(&apart) {
-            return apart < 0;
-        }
-        let ((a, _), (b, _)) = (self.square(), other.square());
-        if apart >= 0 { a << ((2 * apart as u32) & 3) < b } else { a < b << ((2 * apart.unsigned_abs()) & 3) }
     }
 }
 

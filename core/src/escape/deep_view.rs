@@ -8,7 +8,7 @@ use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
 
-use super::block::Block;
+use super::block::{Block, Number};
 use super::{Complex, MAX_PAN};
 use crate::Error;
 use crate::num::{Limbs, Wide};
@@ -26,6 +26,8 @@ pub struct DeepView<const LIMBS: usize> {
     /// `W / (2 cols)`: quotient and remainder.
     half_pitch: Limbs<LIMBS>,
     rest: u32,
+    /// The same as a real block. Error: `2^-61` of it.
+    half_pitch_block: Block<i64>,
     /// Pixels by which the view was panned, to the right and up.
     panned: (i32, i32),
 }
@@ -72,7 +74,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
             return Err(Error::Capacity { what, needed: needed.max(LIMBS + 1), capacity: LIMBS });
         }
         let (half_pitch, rest) = width.divided(2 * size.width);
-        Ok(Self { centre, width, size, half_pitch, rest, panned: (0, 0) })
+        let half_pitch_block = half_pitch_block(&width, size);
+        Ok(Self { centre, width, size, half_pitch, rest, half_pitch_block, panned: (0, 0) })
     }
 
     /// [`DeepView::new`] with coordinates in decimal.
@@ -183,15 +186,31 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         Pixels { columns: columns.start.min(self.size.width)..columns.end.min(self.size.width), row }
     }
 
-    /// Half a pitch as a real block. Error: `2^-30` of it.
-    pub(super) fn half_pitch_block(&self) -> Block {
-        let Some(highest) = self.width.highest_bit() else { return Block::<i32>::ZERO };
-        // 62 bits of the width over 2 cols
-        let bits = (u64::from(self.width.window(highest)) << 30)
-            | u64::from(highest.checked_sub(32).map_or(0, |p| self.width.window(p)) >> 2);
-        let quotient = bits.checked_div(2 * u64::from(self.size.width)).unwrap_or(0);
-        Block::<i32>::new(quotient as i64, 0, highest as i32 - 61 - Limbs::<LIMBS>::FRACTION as i32)
+    /// The distance of two neighbouring pixels.
+    pub(super) fn pitch_block(&self) -> Block<i64> {
+        self.half_pitch_block.doubled()
     }
+
+    /// So many half pitches.
+    pub(super) fn distance(&self, (across, up): (i32, i32)) -> Block<i64> {
+        let Block { re, exponent, .. } = self.half_pitch_block;
+        let part = |steps: i32| i128::from(steps) * i128::from(re);
+        Block::<i64>::new(part(across), part(up), exponent)
+    }
+
+    /// An exponent of 2 that the distance of a pixel from the centre is below, also after panning by half the picture.
+    pub(super) fn reach(&self) -> i32 {
+        self.distance((self.size.width as i32, self.size.height as i32)).above() + 1
+    }
+}
+
+fn half_pitch_block<const LIMBS: usize>(width: &Limbs<LIMBS>, size: Size) -> Block<i64> {
+    let Some(highest) = width.highest_bit() else { return Block::<i64>::ZERO };
+    // 96 bits of the width over 2 cols
+    let word = |down| u128::from(highest.checked_sub(down).map_or(0, |p| width.window(p)));
+    let bits = (word(0) << 64) | (word(32) << 32) | word(64);
+    let quotient = bits.checked_div(u128::from(2 * size.width)).unwrap_or(0);
+    Block::<i64>::new(quotient as i128, 0, highest as i32 - 95 - Limbs::<LIMBS>::FRACTION as i32)
 }
 
 /// Column and row of the pixels of a part of a row, from left to right.
@@ -245,9 +264,9 @@ mod tests {
                         && (a.im - b.im.to_wide()).abs() <= Wide::DELTA
                 );
             }
-            let pitch =
-                2.0 * f64::from(deep.half_pitch_block().re) * 2_f64.powi(deep.half_pitch_block().exponent);
-            assert!((pitch / (0.25 / f64::from(w)) - 1.0).abs() < 2e-9);
+            let half = deep.half_pitch_block;
+            let pitch = 2.0 * half.re as f64 * 2_f64.powi(half.exponent);
+            assert!((pitch / (0.25 / f64::from(w)) - 1.0).abs() < 1e-15);
             assert_eq!(deep.pitch_exponent(), (0.25 / f64::from(w)).log2().floor() as i32);
         }
     }

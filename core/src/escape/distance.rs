@@ -8,6 +8,7 @@ use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
 
+use super::block::Number;
 use super::escape_time::{Ending, EscapeTime};
 use crate::num::{Real, log2, sqrt};
 use crate::picture::Field;

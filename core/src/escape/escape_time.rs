@@ -5,7 +5,7 @@ use core::iter::FusedIterator;
 use core::ops::Range;
 
 use super::Dwell;
-use super::block::Block;
+use super::block::{Block, Number};
 use super::period::Period;
 use crate::Error;
 use crate::picture::Field;

@@ -5,56 +5,53 @@
 //! rebased to the start of the reference, so that all maps start at its first point `C`; a few of them, for the sizes that distances have there, are enough.
 //! The derivative by `g` takes the same map.
 //!
-//! Format: products of 62 bits, rounded to 30 at the end. Error of a map: each neglected square is below `2^-29` of its step, the last ones matter only,
-//! as distances grow; and three roundings.
+//! Format: products of 62 bits, rounded at the end to as many as distances have. Error of a map: each neglected square is below two units of its step, the
+//! last ones matter only, as distances grow; and three roundings.
 
-use super::block::Block;
+use super::block::{Block, Number};
 
 /// How many maps are kept: with 400 instead of 16 a pixel takes 8 to 14 % fewer steps.
 const LEVELS: usize = 16;
-/// What a square may be of its step: `2^-29`, a half for `A d` and a half for `B g`.
-const NEGLIGIBLE: i32 = -29 - 1;
-
 /// From the first point of the reference to another.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Jump {
-    a: Block,
-    b: Block,
+pub(super) struct Jump<N> {
+    a: N,
+    b: N,
     /// The exponent of 2 that the distance at the first point must be below.
     below: i32,
     /// Where it leads: the index of a point.
     pub(super) to: u32,
 }
 
-impl Jump {
-    const NONE: Self = Self { a: Block::<i32>::ONE, b: Block::<i32>::ZERO, below: i32::MIN, to: 1 };
+impl<N: Number> Jump<N> {
+    const NONE: Self = Self { a: N::ONE, b: N::ZERO, below: i32::MIN, to: 1 };
 
     /// `a v + b w`.
     #[inline]
-    pub(super) fn apply(&self, v: Block, w: Block) -> Block {
+    pub(super) fn apply(&self, v: N, w: N) -> N {
         self.a.times(v).plus(self.b.times(w))
     }
 
     /// `a v + b`: of a derivative.
     #[inline]
     pub(super) fn slope(&self, v: Block) -> Block {
-        self.a.times(v).plus(self.b)
+        self.a.short().times(v).plus(self.b.short())
     }
 }
 
 /// The maps of a reference, the longest last.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Jumps {
-    maps: [Jump; LEVELS],
+pub(super) struct Jumps<N> {
+    maps: [Jump<N>; LEVELS],
     known: usize,
     /// The exponent of 2 that `|g|` must be below.
     reach: i32,
 }
 
-impl Jumps {
+impl<N: Number> Jumps<N> {
     /// The longest map for the distance `d` at the first point.
     #[inline]
-    pub(super) fn find(&self, d: Block, g: Block) -> Option<&Jump> {
+    pub(super) fn find(&self, d: N, g: N) -> Option<&Jump<N>> {
         let size = d.above();
         let maps = self.maps.get(..self.known).filter(|_| g.above() <= self.reach)?;
         maps.iter().rev().find(|jump| size <= jump.below)
@@ -63,8 +60,8 @@ impl Jumps {
 
 /// Follows a reference as it is computed.
 #[derive(Debug)]
-pub(super) struct Builder {
-    jumps: Jumps,
+pub(super) struct Builder<N> {
+    jumps: Jumps<N>,
     a: Block<i64>,
     b: Block<i64>,
     /// The exponent of 2 below which distances may come as far as this.
@@ -74,7 +71,10 @@ pub(super) struct Builder {
     index: u32,
 }
 
-impl Builder {
+impl<N: Number> Builder<N> {
+    /// What a square may be of its step, `2^(1 - BITS)`: a half for `A d` and a half for `B g`.
+    const NEGLIGIBLE: i32 = -N::BITS;
+
     /// For pixels whose `|g|` is below `2^reach`.
     pub(super) const fn new(reach: i32) -> Self {
         Self {
@@ -95,7 +95,7 @@ impl Builder {
             return;
         }
         // a step from here doubles and squares
-        let room = z.reached() + 1 + NEGLIGIBLE;
+        let room = z.reached() + 1 + Self::NEGLIGIBLE;
         let fits = self.b.above() + self.jumps.reach <= room;
         let next = if fits { self.below.min(room - self.a.above()) } else { i32::MIN };
         let before = self.level;
@@ -105,7 +105,7 @@ impl Builder {
         // nothing is gained by a jump to the next point
         if self.level > before && index > 2 {
             if let Some(slot) = self.jumps.maps.get_mut(self.jumps.known) {
-                *slot = Jump { a: self.a.short(), b: self.b.short(), below: self.below, to: index };
+                *slot = Jump { a: N::nearest(self.a), b: N::nearest(self.b), below: self.below, to: index };
                 self.jumps.known += 1;
             }
         }
@@ -117,11 +117,11 @@ impl Builder {
 
     /// The size of a distance that the next map must serve: in equal steps from the largest down to that of the pixels.
     const fn size(&self) -> i32 {
-        let span = NEGLIGIBLE - self.jumps.reach;
-        NEGLIGIBLE - span * (self.level + 1) / LEVELS as i32
+        let span = Self::NEGLIGIBLE - self.jumps.reach;
+        Self::NEGLIGIBLE - span * (self.level + 1) / LEVELS as i32
     }
 
-    pub(super) const fn finish(self) -> Jumps {
+    pub(super) fn finish(self) -> Jumps<N> {
         self.jumps
     }
 }

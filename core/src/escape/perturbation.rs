@@ -11,8 +11,10 @@
 //!
 //! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P. Brent, 1980, as in [`super::dwell`]).
 
+use core::slice::Iter;
+
 use super::Complex;
-use super::block::Block;
+use super::block::{Block, Number};
 use super::escape_time::Ending;
 use super::jumps::{Builder, Jumps};
 use crate::Error;
@@ -28,36 +30,87 @@ impl Default for OrbitPoint {
     }
 }
 
-/// A reference orbit: `0, C, C^2 + C, ...` up to its end.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Reference<'a> {
-    points: &'a [OrbitPoint],
-    jumps: Jumps,
+/// A block that orbit points hold.
+pub(super) trait Stored: Number {
+    /// How many points hold one.
+    const POINTS: usize;
+    fn store(self, slots: &mut [OrbitPoint]);
+    fn next(points: &mut Iter<'_, OrbitPoint>) -> Option<Self>;
 }
 
-impl<'a> Reference<'a> {
+impl Stored for Block {
+    const POINTS: usize = 1;
+
+    fn store(self, slots: &mut [OrbitPoint]) {
+        if let [slot] = slots {
+            *slot = OrbitPoint(self);
+        }
+    }
+
+    #[inline(always)]
+    fn next(points: &mut Iter<'_, OrbitPoint>) -> Option<Self> {
+        points.next().map(|point| point.0)
+    }
+}
+
+/// High words, then low words.
+impl Stored for Block<i64> {
+    const POINTS: usize = 2;
+
+    fn store(self, slots: &mut [OrbitPoint]) {
+        if let [high, low] = slots {
+            let word = |v: i64| (v >> 32) as i32;
+            *high = OrbitPoint(Block { re: word(self.re), im: word(self.im), exponent: self.exponent });
+            *low = OrbitPoint(Block { re: self.re as i32, im: self.im as i32, exponent: 0 });
+        }
+    }
+
+    #[inline(always)]
+    fn next(points: &mut Iter<'_, OrbitPoint>) -> Option<Self> {
+        let (high, low) = (points.next()?.0, points.next()?.0);
+        let join = |high: i32, low: i32| (i64::from(high) << 32) | i64::from(low as u32);
+        Some(Self { re: join(high.re, low.re), im: join(high.im, low.im), exponent: high.exponent })
+    }
+}
+
+/// A reference orbit: `0, C, C^2 + C, ...` up to its end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reference<'a, N> {
+    points: &'a [OrbitPoint],
+    /// `C`.
+    centre: N,
+    jumps: Jumps<N>,
+}
+
+impl<'a, N: Stored> Reference<'a, N> {
+    /// How many points an orbit of `max` steps takes.
+    pub(super) const fn points(max: u32) -> usize {
+        let steps = if max < 2 { 2 } else { max as usize };
+        steps * N::POINTS
+    }
+
     /// Follows the orbit of 0 until it exceeds 2 or fills `buffer`. `reach`: the exponent of 2 that the distances of pixels from `c` are below.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] unless there are `max` points.
+    /// [`Error::BufferLength`] unless there are [`Self::points`].
     pub(super) fn new<const LIMBS: usize>(
         c: &Complex<Limbs<LIMBS>>,
         max: u32,
         reach: i32,
         buffer: &'a mut [OrbitPoint],
     ) -> Result<Self, Error> {
-        let needed = (max as usize).max(2);
+        let needed = Self::points(max);
         if buffer.len() < needed {
             return Err(Error::BufferLength { given: buffer.len(), needed });
         }
         let mut length = 0;
         let mut builder = Builder::new(reach);
         let (mut x, mut y) = (Limbs::ZERO, Limbs::ZERO);
-        for slot in buffer.iter_mut().take(needed) {
+        for slots in buffer.chunks_exact_mut(N::POINTS.max(1)).take(needed / N::POINTS.max(1)) {
             let point = block(&x, &y);
-            *slot = OrbitPoint(point.short());
-            length += 1;
-            if slot.0.is_beyond_two() {
+            N::nearest(point).store(slots);
+            length += N::POINTS;
+            if point.short().is_beyond_two() {
                 break;
             }
             builder.push(point);
@@ -68,30 +121,26 @@ impl<'a> Reference<'a> {
             (x, y) = (xx.minus(&yy).plus(&c.re), cross.plus(&c.im));
         }
         let points: &'a [OrbitPoint] = buffer;
-        Ok(Self { points: points.get(..length).unwrap_or(points), jumps: builder.finish() })
+        let points = points.get(..length).unwrap_or(points);
+        let centre = N::nearest(block(&c.re, &c.im));
+        Ok(Self { points, centre, jumps: builder.finish() })
     }
 
     /// How many points there are.
     pub(super) const fn len(&self) -> usize {
-        self.points.len()
+        self.points.len() / N::POINTS
     }
 
     /// The end of the orbit of 0 under `z^2 + C + g`; none after `max` iterations. The derivative is by `g`, if it is asked for.
-    pub(super) fn ending<const DERIVATIVE: bool>(&self, g: Block, max: u32) -> Option<Ending> {
+    pub(super) fn ending<const DERIVATIVE: bool>(&self, g: N, max: u32) -> Option<Ending> {
         let mut walk = Walk::new(self, g);
-        let (mut saved, mut rebased, mut window) = (Block::<i32>::ZERO, 0_u32, 1_u32);
+        let (mut saved, mut rebased, mut window) = (N::ZERO, 0_u32, 1_u32);
         while walk.steps < max {
             match walk.step::<DERIVATIVE>() {
                 Event::Beyond if walk.steps <= max => {
-                    let c = self.points.get(1).map_or(g, |p| p.0.plus(g));
+                    let (z, c) = (walk.z.short(), self.centre.plus(g).short());
                     let gain = Block::<i32>::ONE;
-                    return Some(Ending {
-                        steps: walk.steps - 1,
-                        z: walk.z,
-                        c,
-                        derivative: walk.derivative,
-                        gain,
-                    });
+                    return Some(Ending { steps: walk.steps - 1, z, c, derivative: walk.derivative, gain });
                 }
                 Event::Rebased if walk.z == saved => return None,
                 Event::Rebased => {
@@ -109,7 +158,7 @@ impl<'a> Reference<'a> {
     /// The length of the cycle that an orbit inside is drawn to after `max` steps; 0 if none of at most `longest` shows.
     ///
     /// Near a small copy of the set all cycles pass by the same places; where an orbit comes nearest to 0 it tells them apart.
-    pub(super) fn period(&self, g: Block, max: u32, longest: u32) -> u32 {
+    pub(super) fn period(&self, g: N, max: u32, longest: u32) -> u32 {
         let mut walk = Walk::new(self, g);
         while walk.steps < max {
             walk.step::<false>();
@@ -127,7 +176,7 @@ impl<'a> Reference<'a> {
         while walk.steps < until {
             walk.step::<false>();
             // within 2^-20 of its size
-            let off = Block { re: -nearest.re, im: -nearest.im, ..nearest }.plus(walk.z);
+            let off = walk.z.plus(nearest.negated());
             if off.above() <= nearest.reached() - 20 {
                 match passed {
                     None => passed = Some(walk.steps),
@@ -149,33 +198,32 @@ enum Event {
 }
 
 /// An orbit on its way along the reference.
-struct Walk<'a> {
-    reference: &'a Reference<'a>,
+struct Walk<'a, N> {
+    reference: &'a Reference<'a, N>,
     /// From the next point on.
-    points: core::slice::Iter<'a, OrbitPoint>,
+    points: Iter<'a, OrbitPoint>,
     /// `Z`, `d`, `g`, `z` and `z'`.
-    at: Block,
-    distance: Block,
-    g: Block,
-    z: Block,
+    at: N,
+    distance: N,
+    g: N,
+    z: N,
     derivative: Block,
     /// Steps from 0.
     steps: u32,
     at_start: bool,
 }
 
-impl<'a> Walk<'a> {
-    fn new(reference: &'a Reference<'a>, g: Block) -> Self {
-        const ZERO: Block = Block::<i32>::ZERO;
+impl<'a, N: Stored> Walk<'a, N> {
+    fn new(reference: &'a Reference<'a, N>, g: N) -> Self {
         let points = [].iter();
         let mut walk = Self {
             reference,
             points,
-            at: ZERO,
-            distance: ZERO,
+            at: N::ZERO,
+            distance: N::ZERO,
             g,
-            z: ZERO,
-            derivative: ZERO,
+            z: N::ZERO,
+            derivative: Block::<i32>::ZERO,
             steps: 0,
             at_start: true,
         };
@@ -193,16 +241,16 @@ impl<'a> Walk<'a> {
     }
 
     #[inline(always)]
-    fn advance(&mut self) -> Block {
+    fn advance(&mut self) -> N {
         // the reference is longer than an orbit that is not rebased
-        self.points.next().map_or(Block::<i32>::ZERO, |p| p.0)
+        N::next(&mut self.points).unwrap_or(N::ZERO)
     }
 
     /// One step, or from the first point a jump.
     #[inline(always)]
     fn step<const DERIVATIVE: bool>(&mut self) -> Event {
         if DERIVATIVE {
-            self.derivative = self.z.times(self.derivative).doubled().plus(Block::<i32>::ONE);
+            self.derivative = self.z.short().times(self.derivative).doubled().plus(Block::<i32>::ONE);
         }
         self.distance = self.at.doubled().plus(self.distance).times(self.distance).plus(self.g);
         self.steps += 1;
@@ -214,7 +262,8 @@ impl<'a> Walk<'a> {
                     self.derivative = jump.slope(self.derivative);
                 }
                 self.steps += jump.to - 1;
-                self.points = self.reference.points.get(jump.to as usize..).unwrap_or(&[]).iter();
+                let next = jump.to as usize * N::POINTS;
+                self.points = self.reference.points.get(next..).unwrap_or(&[]).iter();
             }
         }
         self.at = self.advance();
@@ -254,11 +303,11 @@ mod tests {
     use crate::escape::DeepView;
     use embedded_graphics_core::geometry::Size;
 
-    type Number = Limbs<8>;
+    type Exact = Limbs<8>;
 
     /// `z` after so many steps from 0 in 252 bits.
-    fn exact(c: &Complex<Number>, steps: u32) -> (Number, Number) {
-        let (mut x, mut y) = (Number::ZERO, Number::ZERO);
+    fn exact(c: &Complex<Exact>, steps: u32) -> (Exact, Exact) {
+        let (mut x, mut y) = (Exact::ZERO, Exact::ZERO);
         for _ in 0..steps {
             let (xx, yy, xy) = (x.times(&x), y.times(&y), x.times(&y));
             (x, y) = (xx.minus(&yy).plus(&c.re), xy.plus(&xy).plus(&c.im));
@@ -289,18 +338,11 @@ mod tests {
         ] {
             let view = DeepView::<8>::parse(re, im, "3e-60", Size::new(12, 12)).unwrap();
             let mut orbit = std::vec![OrbitPoint::default(); max as usize];
-            let half_pitch = view.half_pitch_block();
-            let corner = Block::<i32>::new(
-                12 * i64::from(half_pitch.re),
-                12 * i64::from(half_pitch.re),
-                half_pitch.exponent,
-            );
-            let reference = Reference::new(view.centre(), max, corner.above(), &mut orbit).unwrap();
+            let reference =
+                Reference::<'_, Block>::new(view.centre(), max, view.reach(), &mut orbit).unwrap();
             let (mut outside, mut fewest) = (0, f64::MAX);
             for (column, row) in (0..12).flat_map(|row| (0..12).map(move |column| (column, row))) {
-                let (across, up) = view.steps(column, row);
-                let part = |steps: i32| i64::from(steps) * i64::from(half_pitch.re);
-                let g = Block::<i32>::new(part(across), part(up), half_pitch.exponent);
+                let g = view.distance(view.steps(column, row)).short();
                 let Some(ending) = reference.ending::<true>(g, max) else { continue };
                 // how many roundings there were
                 let (mut walk, mut walked) = (Walk::new(&reference, g), 0.0);
@@ -310,7 +352,7 @@ mod tests {
                 }
                 let (x, y) = exact(&view.point(column, row), ending.steps + 1);
                 let z = block(&x, &y).short();
-                let off = Block { re: -z.re, im: -z.im, ..z }.plus(ending.z);
+                let off = z.negated().plus(ending.z);
                 // z itself is rounded to 30 bits, and that is no move
                 let off = (log2(off).exp2() - 2.0 * log2(z).exp2() * 2_f64.powi(-30)).max(0.0);
                 let moved = off.log2() - log2(ending.derivative);
