@@ -198,6 +198,7 @@ enum Orbit<'a> {
 }
 
 /// What all orbits share.
+#[allow(clippy::large_enum_variant, reason = "there is no heap to put a reference on")]
 #[derive(Debug, Clone, Copy)]
 enum Orbits<'a> {
     Word64,
