@@ -23,6 +23,9 @@ pub struct FractionalDwell {
 }
 
 impl FractionalDwell {
+    /// How many steps of an iteration the palettes of this crate tell apart: a period of theirs is as many times as long.
+    pub const STEPS: u32 = 16;
+
     /// Whether the orbit did not escape in time.
     pub fn is_inside(self) -> bool {
         self.dwell >= U21F11::saturating_from_num(self.max)

@@ -4,6 +4,7 @@
 //! [`Watch::time`], or to `Watch::over` for a table of inputs; only that is counted. It returns a checksum of everything it computed
 //! (so that nothing is optimised away, and so that host and target can be compared) and how many units of work it did.
 
+mod deep;
 mod escape;
 mod fif;
 mod ifs;
@@ -124,6 +125,16 @@ pub static ALL: &[Kernel] = &[
     beside("sin_cos", "call", num::sin_cos_fixed, num::sin_cos_f32, num::sin_cos_f64),
     beside("dwell fine", "iteration", escape::fine, escape::plain_f32, escape::plain_f64),
     beside("dwell coarse", "iteration", escape::coarse, escape::plain_f32, escape::plain_f64),
+    Kernel { f32: None, ..beside("dwell 64", "iteration", deep::word64, escape::plain_f32, escape::plain_f64) },
+    alone("dwell 128", "iteration", deep::word128),
+    roomy(alone("perturbed", "step", deep::perturbed)),
+    roomy(alone("perturbed long", "step in 62 bits", deep::perturbed_long)),
+    roomy(alone("perturbed jumping", "iteration at 1e-100", deep::jumping)),
+    roomy(alone("reference orbit", "point in 12 limbs", deep::reference)),
+    alone("dwell of a pixel", "pixel of the home view", deep::dwell),
+    alone("fractional dwell", "pixel of the home view", deep::smooth),
+    alone("distance estimate", "pixel of the home view", deep::distance),
+    alone("period", "pixel of the home view", deep::period),
     beside("chaos game", "point", ifs::fern_fixed, ifs::fern_f32, ifs::fern_f64),
     beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
     beside("fif", "call at any abscissa", fif::any, fif::any_f32, fif::any_f64),
