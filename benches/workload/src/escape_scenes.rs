@@ -43,6 +43,14 @@ pub(crate) fn seahorse_smooth<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<
     const MAX: u32 = 1000;
     const COUNTS: usize = (MAX * FractionalDwell::STEPS) as usize + 1;
     stage.claim(size_of::<[u32; COUNTS]>() + size_of::<Mandelbrot>())?;
+    equalised::<C, MAX, COUNTS>(stage)
+}
+
+/// Out of line: its frame is the array that was claimed.
+#[inline(never)]
+fn equalised<C: Colour + Ink, const MAX: u32, const COUNTS: usize>(
+    stage: &mut Stage<'_>,
+) -> Result<(), Failure> {
     let view = view(
         stage,
         const { Wide::lit("-0.7453") },
@@ -101,6 +109,16 @@ fn deep<C: Colour + Ink, const MAX: usize>(
     cycle: u32,
 ) -> Result<(), Failure> {
     stage.claim(size_of::<[OrbitPoint; MAX]>() + size_of::<DeepMandelbrot<'_, 12>>())?;
+    perturbed::<C, MAX>(stage, [re, im, width], cycle)
+}
+
+/// Out of line: its frame is the array that was claimed.
+#[inline(never)]
+fn perturbed<C: Colour + Ink, const MAX: usize>(
+    stage: &mut Stage<'_>,
+    [re, im, width]: [&str; 3],
+    cycle: u32,
+) -> Result<(), Failure> {
     let mut orbit = [OrbitPoint::default(); MAX];
     let view = DeepView::<12>::parse(re, im, width, stage.size())?;
     let set = DeepMandelbrot::new(view, MAX as u32, &mut orbit)?;

@@ -2,7 +2,8 @@
 //!
 //! `(re + i im) 2^exponent`, the larger part between `2^29` and `2^30` in magnitude: block floating point, as in J. H. Wilkinson, "Rounding Errors
 //! in Algebraic Processes", 1963, section 1.26. A derivative and the distance of two neighbouring orbits have such numbers: 30
-//! bits are plenty, the range is not bounded. Each operation rounds to nearest once, `2^-30` of the larger part.
+//! bits are plenty, the range is not bounded. Each operation rounds to nearest, `2^-30` of the larger part; a sum
+//! that cancels is rounded as the larger term is.
 //! `Block<i64>` has 62 bits: for long products that are made once a picture.
 
 /// `(re + i im) 2^exponent`.
@@ -46,7 +47,7 @@ pub(super) trait Number: Copy + PartialEq + core::fmt::Debug {
 
 /// The arithmetic of both widths: `BITS` of a mantissa leave its word a sign and a sum of two.
 macro_rules! arithmetic {
-    ($word:ty, $double:ty, $unsigned:ty, $bits:literal) => {
+    ($word:ty, $half:ty, $double:ty, $unsigned:ty, $bits:literal) => {
         impl Block<$word> {
             /// 0, smaller than everything else.
             pub(super) const ZERO: Self = Self { re: 0, im: 0, exponent: -(1 << 28) };
@@ -72,6 +73,24 @@ macro_rules! arithmetic {
                 }
             }
 
+            /// Parts of a word, with the mantissa where it belongs.
+            #[inline(always)]
+            fn normal(re: $word, im: $word, exponent: i32) -> Self {
+                let magnitude =
+                    ((re ^ (re >> (<$word>::BITS - 1))) | (im ^ (im >> (<$word>::BITS - 1)))) as $half;
+                let zeros = magnitude.leading_zeros();
+                if zeros < <$word>::BITS - $bits {
+                    // one bit too many
+                    let half = |v: $word| (v >> 1) + (v & 1);
+                    Self { re: half(re), im: half(im), exponent: exponent + 1 }
+                } else if re | im == 0 {
+                    Self::ZERO
+                } else {
+                    let up = zeros - (<$word>::BITS - $bits);
+                    Self { re: re << up, im: im << up, exponent: exponent - up as i32 }
+                }
+            }
+
             /// `|self|^2` as a mantissa, 4 times from end to end (0 for 0), and an exponent.
             #[inline]
             pub(super) fn square(self) -> ($unsigned, i32) {
@@ -89,8 +108,25 @@ macro_rules! arithmetic {
             fn times(self, other: Self) -> Self {
                 let (a, b) = (<$double>::from(self.re), <$double>::from(self.im));
                 let (x, y) = (<$double>::from(other.re), <$double>::from(other.im));
-                // two products of 2 BITS each
-                Self::new(a * x - b * y, a * y + b * x, self.exponent + other.exponent)
+                let (re, im) = (a * x - b * y, a * y + b * x);
+                let sign = |v: $double| v >> (<$double>::BITS - 1);
+                let magnitude = (((re ^ sign(re)) | (im ^ sign(im))) >> <$word>::BITS) as $half;
+                if magnitude == 0 {
+                    return Self::ZERO;
+                }
+                // the modulus of a product is between 2^(2 BITS - 2) and 2^(2 BITS + 1): BITS - 2 to BITS + 1 places are too many, as many as
+                // a shift within two words takes
+                let places = (<$double>::BITS - <$word>::BITS - magnitude.leading_zeros() + <$word>::BITS
+                    - $bits)
+                    .clamp($bits - 2, $bits + 1);
+                let half = (1 as $double) << ($bits - 3);
+                let half = half << (places - ($bits - 2));
+                let part = |v: $double| {
+                    let v = v + half;
+                    let (high, low) = ((v >> <$word>::BITS) as $half, v as $half);
+                    ((high << (<$word>::BITS - places)) | (low >> places)) as $word
+                };
+                Self { re: part(re), im: part(im), exponent: self.exponent + other.exponent + places as i32 }
             }
 
             #[inline(always)]
@@ -99,13 +135,13 @@ macro_rules! arithmetic {
                     if self.exponent >= other.exponent { (self, other) } else { (other, self) };
                 let apart = (large.exponent - small.exponent) as u32;
                 // what is as small as this does not count
-                if apart > $bits + 1 {
+                if apart > $bits {
                     return large;
                 }
-                let sum = |a: $word, b: $word| {
-                    (<$double>::from(a) << (apart & (<$double>::BITS - 1))) + <$double>::from(b)
-                };
-                Self::new(sum(large.re, small.re), sum(large.im, small.im), small.exponent)
+                // rounded to the larger one's last place, also where the two cancel
+                let half = ((1 as $word) << (apart & (<$word>::BITS - 1))) >> 1;
+                let sum = |a: $word, b: $word| a.saturating_add((b + half) >> (apart & (<$word>::BITS - 1)));
+                Self::normal(sum(large.re, small.re), sum(large.im, small.im), large.exponent)
             }
 
             #[inline(always)]
@@ -166,8 +202,8 @@ macro_rules! arithmetic {
     };
 }
 
-arithmetic!(i32, i64, u64, 30);
-arithmetic!(i64, i128, u128, 62);
+arithmetic!(i32, u32, i64, u64, 30);
+arithmetic!(i64, u64, i128, u128, 62);
 
 impl Block {
     /// The parts with `bits` fractional bits, towards minus infinity. Domain: parts below `2^(62 - bits)`.
@@ -211,7 +247,8 @@ mod tests {
                     assert!(size == 0 || (1 << 29..=1 << 30).contains(&size));
                     let (p, q) = value(got);
                     let error = (p - re).abs().max((q - im).abs());
-                    let terms = if (re, im) == sum { 0.0 } else { x.hypot(y) * u.hypot(v) };
+                    let terms =
+                        if (re, im) == sum { x.hypot(y).max(u.hypot(v)) } else { x.hypot(y) * u.hypot(v) };
                     worst = worst.max(error / re.abs().max(im.abs()).max(terms).max(1e-300));
                 }
                 let (m, n) = (x.hypot(y), u.hypot(v));

@@ -79,11 +79,10 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
         // the picture moves the other way; within the buffer both shifts are one
         let kept = (height - down) * width;
         let (from, to) = if up >= 0 { (0, down * width) } else { (down * width, 0) };
-        if from != to {
-            self.counts.copy_within(from..from + kept, to);
-        }
+        self.shift(from, to, kept);
         let exposed = if up >= 0 { 0..down as u32 } else { (height - down) as u32..size.height };
         for row in self.counts.chunks_exact_mut(width.max(1)) {
+            let across = across.min(row.len());
             if right >= 0 { row.rotate_left(across) } else { row.rotate_right(across) }
         }
         let columns = if right >= 0 { size.width - across as u32..size.width } else { 0..across as u32 };
@@ -102,10 +101,20 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
             match self.picture.mirror_image(y) {
                 // an upper row that has been computed already, or was kept
                 Some(image) if image < y && rows.contains(&image) => {
-                    let from = image as usize * width;
-                    self.counts.copy_within(from..from + width, y as usize * width);
+                    self.shift(image as usize * width, y as usize * width, width);
                 }
                 _ => self.compute_row(y, all.clone()),
+            }
+        }
+    }
+
+    /// Moves `length` counts; the ranges may overlap.
+    fn shift(&mut self, from: usize, to: usize, length: usize) {
+        for k in 0..length {
+            let k = if to <= from { k } else { length - 1 - k };
+            let count = self.counts.get(from + k).copied().unwrap_or(0);
+            if let Some(slot) = self.counts.get_mut(to + k) {
+                *slot = count;
             }
         }
     }

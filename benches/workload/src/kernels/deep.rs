@@ -14,20 +14,20 @@ use embedded_graphics::geometry::Size;
 use super::{Tally, Watch};
 use crate::escape_scenes::PERIOD_95;
 
-const MAX: u32 = 400;
+const MAX: u32 = 1500;
 
-/// Orbits of some hundred iterations, and too far apart for a jump.
-const SHALLOW: [&str; 3] = ["-0.7453", "0.1127", "0.0065"];
+/// Between seahorses: orbits of a thousand iterations, too far apart for a jump.
+const SHALLOW: [&str; 3] = ["-0.743643887037151", "0.131825904205330", "6e-9"];
 
 /// Every pixel's dwell; what is counted is the iterations of those that escape.
-fn dwells(
+fn dwells<const LIMBS: usize>(
     watch: &mut Watch<'_>,
     [re, im, width]: [&str; 3],
     arithmetic: Arithmetic,
     max: u32,
     orbit: &mut [OrbitPoint],
 ) -> Result<Tally, Error> {
-    let view = DeepView::<12>::parse(re, im, width, Size::new(9, 9))?;
+    let view = DeepView::<LIMBS>::parse(re, im, width, Size::new(9, 9))?;
     let set = DeepMandelbrot::with_arithmetic(view, max, arithmetic, orbit)?;
     let outside = |x, y| !set.dwell_at(x, y).is_inside();
     let mut pixels = [(0, 0); 32];
@@ -50,31 +50,31 @@ fn dwells(
 
 #[inline(never)]
 pub(super) fn word64(watch: &mut Watch<'_>) -> Tally {
-    dwells(watch, SHALLOW, Arithmetic::Word64, MAX, &mut []).unwrap_or_default()
+    dwells::<4>(watch, SHALLOW, Arithmetic::Word64, MAX, &mut []).unwrap_or_default()
 }
 
 #[inline(never)]
 pub(super) fn word128(watch: &mut Watch<'_>) -> Tally {
-    dwells(watch, SHALLOW, Arithmetic::Word128, MAX, &mut []).unwrap_or_default()
+    dwells::<4>(watch, SHALLOW, Arithmetic::Word128, MAX, &mut []).unwrap_or_default()
 }
 
 #[inline(never)]
 pub(super) fn perturbed(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); MAX as usize];
-    dwells(watch, SHALLOW, Arithmetic::Perturbed, MAX, &mut orbit).unwrap_or_default()
+    dwells::<4>(watch, SHALLOW, Arithmetic::Perturbed, MAX, &mut orbit).unwrap_or_default()
 }
 
 #[inline(never)]
 pub(super) fn perturbed_long(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); 2 * MAX as usize];
-    dwells(watch, SHALLOW, Arithmetic::PerturbedLong, MAX, &mut orbit).unwrap_or_default()
+    dwells::<4>(watch, SHALLOW, Arithmetic::PerturbedLong, MAX, &mut orbit).unwrap_or_default()
 }
 
 /// At a width of 1e-100, where most iterations are jumped over.
 #[inline(never)]
 pub(super) fn jumping(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); 1000];
-    dwells(watch, PERIOD_95, Arithmetic::Perturbed, 1000, &mut orbit).unwrap_or_default()
+    dwells::<12>(watch, PERIOD_95, Arithmetic::Perturbed, 1000, &mut orbit).unwrap_or_default()
 }
 
 /// The reference orbit in 12 limbs.
@@ -141,8 +141,8 @@ mod tests {
     fn every_loop_does_what_it_says() {
         let run = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::Blind, 1));
         let words = [run(word64), run(word128), run(perturbed), run(perturbed_long)];
-        assert!(words.iter().all(|tally| tally.units.abs_diff(words[0].units) < 9), "{words:?}");
-        assert!(words[0].units > 32 * 100 && words[0] == words[1], "{words:?}");
+        assert!(words.iter().all(|tally| tally.units.abs_diff(words[0].units) < 99), "{words:?}");
+        assert!(words[0].units > 32 * 500, "{words:?}");
         assert!(run(jumping).units > 32 * 600);
         assert_eq!(run(reference).units, 200);
         assert_eq!(run(dwell).units, 750);

@@ -7,6 +7,7 @@
 mod deep;
 mod escape;
 mod fif;
+mod filled;
 mod ifs;
 mod num;
 mod trace;
@@ -131,6 +132,16 @@ pub static ALL: &[Kernel] = &[
     roomy(alone("perturbed long", "step in 62 bits", deep::perturbed_long)),
     roomy(alone("perturbed jumping", "iteration at 1e-100", deep::jumping)),
     roomy(alone("reference orbit", "point in 12 limbs", deep::reference)),
+    alone("plain home", "pixel at 1000", filled::home::<false>),
+    alone("filled home", "pixel at 1000", filled::home::<true>),
+    alone("plain seahorses", "pixel at 1000", filled::seahorses::<false>),
+    alone("filled seahorses", "pixel at 1000", filled::seahorses::<true>),
+    alone("plain rabbit", "pixel at 1000", filled::rabbit::<false>),
+    alone("filled rabbit", "pixel at 1000", filled::rabbit::<true>),
+    roomy(alone("plain copy 64", "pixel at 1000", filled::word64::<false>)),
+    roomy(alone("filled copy 64", "pixel at 1000", filled::word64::<true>)),
+    roomy(alone("plain copy 1e-101", "pixel at 1000", filled::perturbed::<false>)),
+    roomy(alone("filled copy 1e-101", "pixel at 1000", filled::perturbed::<true>)),
     alone("dwell of a pixel", "pixel of the home view", deep::dwell),
     alone("fractional dwell", "pixel of the home view", deep::smooth),
     alone("distance estimate", "pixel of the home view", deep::distance),
