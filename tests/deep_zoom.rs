@@ -7,6 +7,9 @@
 //!   and, for the chaotic place, at `M_{4,1}`. A nucleus of period `p` near a Misiurewicz point
 //!   is `~lambda^-p` away from it, its copy `~lambda^-2p` large: the periods are chosen so that the copy fills about a tenth of the view.
 //!
+//! - between seahorses, where orbits take thousands of iterations: the nucleus of period 8007 nearest to
+//!   `-0.743643887037158704752191506114774 + 0.131825904205311970493132056385139 i`, the end of the zoom "Mandelbrot sequence new" on Wikimedia Commons.
+//!
 //! `the_coordinates_are_what_they_are_said_to_be` follows the orbits and checks both equations to the last digits.
 
 use attractor::Error;
@@ -100,13 +103,22 @@ const PLACES: [Place; 9] = [
     },
 ];
 
-/// A copy of period 245 wound into a spiral: neighbouring pixels share nothing, the last bit of a distance decides.
+/// A copy of period 245 wound into a spiral: neighbouring pixels share nothing, and bits far behind a pixel decide.
 const CHAOTIC: Place = Place {
     re: "-0.10109636384562216102578544573874555904580300638820556440768887442333163856573890",
     im: "0.95628651080914150077109605773014301122275521289360319025125884680254763722810216",
     width: "1e-60",
     max: 3500,
     kind: Kind::Nucleus(245),
+};
+
+/// Orbits of thousands of iterations: 62 bits.
+const SEAHORSE: Place = Place {
+    re: "-0.743643887037158704752191506114779778215256207948181289816883901819",
+    im: "0.131825904205311970493132056385140678972952279328918966209127677466",
+    width: "1e-27",
+    max: 20_000,
+    kind: Kind::Nucleus(8007),
 };
 
 /// Fixed point in any number of bits.
@@ -165,7 +177,7 @@ fn differences<const N: usize>(picture: &DeepMandelbrot<'_, N>, bits: u32) -> (u
 #[test]
 fn the_coordinates_are_what_they_are_said_to_be() {
     let exact = Exact { bits: 32 * LIMBS as u32 };
-    for place in PLACES.iter().chain([&CHAOTIC]) {
+    for place in PLACES.iter().chain([&CHAOTIC, &SEAHORSE]) {
         let number = |text: &str| exact.number(&text.parse::<Limbs<LIMBS>>().unwrap());
         let c = (number(place.re), number(place.im));
         let (mut z, mut orbit) = ((BigInt::ZERO, BigInt::ZERO), Vec::new());
@@ -173,13 +185,15 @@ fn the_coordinates_are_what_they_are_said_to_be() {
             Kind::Misiurewicz => 5,
             Kind::Nucleus(period) => period,
         };
-        // the derivative, as a power of 2: an error of the last digit grows with it
-        let mut growth = 0.0_f64;
+        // an error of the last digit grows with the derivative
+        let (mut derivative, mut growth) = ((0.0_f64, 0.0_f64), 0.0_f64);
         for _ in 0..steps {
-            z = exact.step((&z.0, &z.1), &c);
             let float =
                 |v: &BigInt| (v >> (exact.bits - 40)).to_string().parse::<f64>().unwrap() / 2_f64.powi(40);
-            growth += (2.0 * float(&z.0).hypot(float(&z.1))).log2().max(-1.0);
+            let ((x, y), (a, b)) = ((float(&z.0), float(&z.1)), derivative);
+            derivative = (2.0 * (x * a - y * b) + 1.0, 2.0 * (x * b + y * a));
+            growth = growth.max(derivative.0.hypot(derivative.1).log2());
+            z = exact.step((&z.0, &z.1), &c);
             orbit.push(z.clone());
         }
         let last = orbit.last().unwrap();
@@ -222,13 +236,36 @@ fn perturbation_agrees_with_arbitrary_precision_down_to_1e_100() {
     assert!(inside_anywhere > 50, "{inside_anywhere}");
 }
 
+/// The picture of a place in the arithmetic that suits it, compared.
+fn check<const N: usize>(
+    place: (&str, &str, &str),
+    side: u32,
+    max: u32,
+    arithmetic: Arithmetic,
+    allowed: u32,
+) {
+    let (re, im, width) = place;
+    let view = DeepView::<N>::parse(re, im, width, Size::new(side, side)).unwrap();
+    let mut orbit = vec![OrbitPoint::default(); DeepMandelbrot::orbit_points(&view, max)];
+    let picture = DeepMandelbrot::new(view, max, &mut orbit).unwrap();
+    assert_eq!(picture.arithmetic(), arithmetic, "{re} {width}");
+    let (differ, inside, dwells) = differences(&picture, 32 * N as u32);
+    let pixels = side * side;
+    println!(
+        "{arithmetic:?}, {}, pitch 2^{}: {differ} of {pixels} differ, {inside} inside, {dwells} dwells",
+        &re[..re.len().min(9)],
+        view.pitch_exponent()
+    );
+    assert!(differ * 1000 <= allowed * pixels, "{re} {width}: {differ}");
+    assert!(dwells > 8 && 3 * inside < 2 * pixels, "{re} {width}: {dwells}");
+}
+
 #[test]
-fn a_chaotic_place_differs_by_as_much_as_is_published() {
-    let view = DeepView::<LIMBS>::parse(CHAOTIC.re, CHAOTIC.im, CHAOTIC.width, Size::new(32, 32)).unwrap();
-    let mut orbit = vec![OrbitPoint::default(); CHAOTIC.max as usize];
-    let picture = DeepMandelbrot::new(view, CHAOTIC.max, &mut orbit).unwrap();
-    let (differ, _, dwells) = differences(&picture, 32 * LIMBS as u32);
-    assert!(differ <= 15 && dwells > 300, "{differ} {dwells}");
+fn perturbation_agrees_where_neighbours_share_nothing() {
+    let place = (CHAOTIC.re, CHAOTIC.im, CHAOTIC.width);
+    check::<LIMBS>(place, 32, CHAOTIC.max, Arithmetic::Perturbed, 5);
+    let place = (SEAHORSE.re, SEAHORSE.im, SEAHORSE.width);
+    check::<7>(place, 15, SEAHORSE.max, Arithmetic::PerturbedLong, 5);
 }
 
 /// How many different points `f64` has for the columns of a view.
@@ -267,13 +304,38 @@ fn wide_words_agree_with_arbitrary_precision_where_float_shows_blocks() {
 }
 
 #[test]
+fn the_default_arithmetic_is_right_where_it_ends() {
+    let width = |exponent: i32, side: u32| format!("{:e}", f64::from(side) * 1.1 * 2_f64.powi(exponent));
+    let chaotic = (CHAOTIC.re, CHAOTIC.im);
+    let needle = ("-1.99999911758766165543764649311537154663", "0");
+    for (re, im) in [(PLACES[6].re, PLACES[6].im), (PLACES[8].re, PLACES[8].im), needle, ("0", "1"), chaotic]
+    {
+        check::<LIMBS>((re, im, &width(-44, 40)), 40, 1000, Arithmetic::Word64, 3);
+        check::<LIMBS>((re, im, &width(-104, 32)), 32, 1000, Arithmetic::Word128, 3);
+    }
+    let (re, im) = (SEAHORSE.re, SEAHORSE.im);
+    check::<7>((re, im, &width(-44, 30)), 30, 4000, Arithmetic::Word128, 3);
+    check::<7>((re, im, &width(-72, 20)), 20, 14_000, Arithmetic::Word128, 3);
+}
+
+#[test]
 fn bad_coordinates_are_told_from_good_ones() {
     let size = Size::new(16, 16);
     let digits = format!("0.{}", "7".repeat(500));
+    for (re, im) in [(digits.as_str(), "0"), ("0", digits.as_str())] {
+        let error = DeepView::<12>::parse(re, im, "1e-90", size).unwrap_err();
+        assert!(matches!(error, Error::Capacity { needed: 500, capacity: 114, .. }), "{error}");
+    }
     let error = DeepView::<12>::parse(&digits, "0", "1e-90", size).unwrap_err();
     assert!(matches!(error, Error::Capacity { needed: 500, capacity: 114, .. }), "{error}");
     assert!(error.to_string().contains("500") && error.to_string().contains("114"));
-    assert!(DeepView::<56>::parse(&digits, "0", "1e-90", size).is_ok());
+    // where they fit nothing is lost: the number is the nearest one
+    let view = DeepView::<56>::parse(&digits, "0", "1e-90", size).unwrap();
+    let exact = Exact { bits: Limbs::<56>::FRACTION };
+    let sevens =
+        (BigInt::from(7) << exact.bits) * (BigInt::from(10).pow(500) - 1) / 9 / BigInt::from(10).pow(500);
+    let off: BigInt = exact.number(&view.centre().re) - sevens;
+    assert!(off.bits() <= 1, "{off}");
     for width in ["0", "-0", "-1e-90"] {
         let error = DeepView::<12>::parse("0", "0", width, size).unwrap_err();
         assert!(matches!(error, Error::OutOfRange { what: "width of the view", .. }), "{error}");
@@ -282,6 +344,14 @@ fn bad_coordinates_are_told_from_good_ones() {
         DeepView::<12>::parse("0", "0", "tiny", size),
         Err(Error::Malformed { position: 0, .. })
     ));
+    // a lent orbit names the length it needs
+    let view = DeepView::<12>::parse("0", "1", "1e-90", size).unwrap();
+    for (max, needed) in [(700, 700), (5000, 10_000)] {
+        assert_eq!(DeepMandelbrot::orbit_points(&view, max), needed);
+        let error = DeepMandelbrot::new(view, max, &mut vec![OrbitPoint::default(); needed - 1]).unwrap_err();
+        assert_eq!(error, Error::BufferLength { given: needed - 1, needed });
+        assert!(error.to_string().contains(&needed.to_string()));
+    }
 }
 
 #[test]

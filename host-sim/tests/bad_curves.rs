@@ -93,6 +93,5 @@ fn deep_coordinates_are_told_how_many_digits_fit() {
     for width in ["0", "-1e-30", "-3"] {
         refused(DEEP, "1e-60", width, &["width", width, "must lie between"]);
     }
-    refused(DEEP, "max_dwell", "coloring = \"smooth\"\nmax_dwell", &["coloring", "whole dwells"]);
     refused(DEEP, "max_dwell", "equalised = true\ncycle = 9\nmax_dwell", &["cycle", "9"]);
 }

@@ -12,6 +12,7 @@
 extern crate std;
 
 mod crc;
+mod escape_scenes;
 mod float;
 mod inputs;
 pub mod kernels;

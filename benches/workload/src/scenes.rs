@@ -5,8 +5,8 @@
 
 use core::ops::Range;
 
-use attractor::draw::{CourseUnit, Dots, Grey, Ink, Palette, Picture, Stroke};
-use attractor::escape::{Complex, Dwell, Julia, Mandelbrot, View};
+use attractor::draw::{CourseUnit, Dots, Grey, Ink, Inside, Lifted, Palette, Picture, Stroke, gradients};
+use attractor::escape::{Complex, Dwell, Mandelbrot, View};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::ifs::Ifs;
 use attractor::ifs::catalogue::BARNSLEY_FERN;
@@ -17,10 +17,11 @@ use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::image::Image;
-use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888};
+use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 
 use crate::Machine;
+use crate::escape_scenes as escape;
 use crate::kernels::figure_1;
 use crate::sink::{Colour, Failure, Outcome, Stage};
 use crate::surface::{g_integral, mirror};
@@ -74,11 +75,25 @@ pub static ALL: &[Scene] = &[
     mono("blank", blank::<BinaryColor>),
     colour("waves", waves::<Rgb565>),
     mono("waves", waves::<BinaryColor>),
-    colour("mandelbrot home", mandelbrot::<Rgb565>),
-    mono("mandelbrot home", mandelbrot::<BinaryColor>),
+    colour("mandelbrot", |stage| escape::mandelbrot::<Rgb565>(stage, CourseUnit)),
+    mono("mandelbrot", |stage| escape::mandelbrot::<BinaryColor>(stage, Inside::new(Lifted(Grey), Rgb888::WHITE))),
     Scene { size: Size::new(640, 480), ..roomy(colour("mandelbrot rp2040", rp2040::<Rgb565>)) },
-    colour("julia", julia::<Rgb565>),
-    mono("julia", julia::<BinaryColor>),
+    colour("julia", |stage| escape::julia::<Rgb565>(stage, Rgb888::BLACK)),
+    mono("julia", |stage| escape::julia::<BinaryColor>(stage, Rgb888::WHITE)),
+    colour("dendrite", escape::dendrite::<Rgb565>),
+    mono("dendrite", escape::dendrite::<BinaryColor>),
+    colour("seahorse-valley", escape::seahorse_valley::<Rgb565>),
+    mono("seahorse-valley", escape::seahorse_valley::<BinaryColor>),
+    roomy(colour("seahorse-smooth", escape::seahorse_smooth::<Rgb565>)),
+    roomy(mono("seahorse-smooth", escape::seahorse_smooth::<BinaryColor>)),
+    roomy(colour("filaments", escape::filaments::<Rgb565>)),
+    mono("filaments", escape::filaments::<BinaryColor>),
+    roomy(colour("mandelbrot-periods", |stage| escape::periods::<Rgb565>(stage, gradients::EVEN, escape::PAPER))),
+    mono("mandelbrot-periods", |stage| escape::periods::<BinaryColor>(stage, Grey, Rgb888::BLACK)),
+    roomy(colour("deep-30", escape::deep_30::<Rgb565>)),
+    roomy(mono("deep-30", escape::deep_30::<BinaryColor>)),
+    roomy(colour("deep-100", escape::deep_100::<Rgb565>)),
+    roomy(mono("deep-100", escape::deep_100::<BinaryColor>)),
     colour("fern", fern::<Rgb565>),
     mono("fern", fern::<BinaryColor>),
     colour("fif graph", graph::<Rgb565>),
@@ -106,7 +121,7 @@ fn waves<C: Colour>(stage: &mut Stage<'_>) -> Result<(), Failure> {
 }
 
 /// Shows a field through a palette, as one image at the origin.
-fn field<C: Colour + Ink, F: Field, P: Palette<F::Value>>(
+pub(crate) fn field<C: Colour + Ink, F: Field, P: Palette<F::Value>>(
     stage: &mut Stage<'_>,
     field: F,
     palette: P,
@@ -114,17 +129,6 @@ fn field<C: Colour + Ink, F: Field, P: Palette<F::Value>>(
 ) -> Result<(), Failure> {
     let picture = Picture::<F, P, C>::new(field, palette);
     stage.show(&Image::new(&picture, Point::zero()), size_of_val(&picture) + borrowed)
-}
-
-fn mandelbrot<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
-    let set = Mandelbrot::new(View::home(stage.size())?, 100)?;
-    field::<C, _, _>(stage, set, CourseUnit, 0)
-}
-
-fn julia<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
-    const C: Complex<Wide> = Complex::new(Wide::lit("-0.8"), Wide::lit("0.156"));
-    let view = View::new(Complex::new(Wide::ZERO, Wide::ZERO), const { Wide::lit("3.2") }, stage.size())?;
-    field::<C, _, _>(stage, Julia::new(view, C, 100)?, CourseUnit, 0)
 }
 
 /// The frame that was published for the RP2040: `c = (-2 + 3 i / 640, 1 - 2 j / 480)`, at most 1000 iterations. Its pixels are not square.

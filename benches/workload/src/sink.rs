@@ -128,7 +128,8 @@ impl<'m> Stage<'m> {
         D: Drawable,
         D::Color: Colour,
     {
-        self.claim(ram_bytes)?;
+        // what was claimed before is built already, and no longer free
+        self.claim(ram_bytes.saturating_sub(self.outcome.ram_bytes))?;
         let mut sink = Sink::<D::Color>::new(&mut *self.machine, self.size, true);
         sink.machine.paint_stack();
         sink.resume();

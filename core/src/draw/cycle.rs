@@ -82,6 +82,15 @@ impl<const N: usize> Ramp<N> {
     }
 }
 
+impl Ramp<6> {
+    /// Six colours of a palette, without its darkest fifth: for periods, 1 the first of them.
+    pub fn of_periods(palette: impl Palette<Level>) -> Self {
+        // the count 6 comes where 0 is
+        let fifth = |k: usize| Level::ratio((k as u32 + 5) % 6, 5).0 / 5 * 4;
+        Self { colors: core::array::from_fn(|k| palette.rgb(Level(fifth(k) + 13_000))) }
+    }
+}
+
 impl<V: Leveled, const N: usize> Palette<V> for Ramp<N> {
     #[inline]
     fn rgb(&self, value: V) -> Rgb888 {

@@ -132,7 +132,7 @@ impl Leveled for Dwell {
     }
 }
 
-/// The level is the share of the limit; the count is the whole part.
+/// The level is the share of the limit; the count is in steps of `1 / FractionalDwell::STEPS`, so that a palette that comes round shows no bands.
 impl Leveled for FractionalDwell {
     #[inline]
     fn level(&self) -> Level {
@@ -142,7 +142,8 @@ impl Leveled for FractionalDwell {
 
     #[inline]
     fn count(&self) -> u32 {
-        self.dwell.to_bits() >> 11
+        // 11 fractional bits
+        self.dwell.to_bits() / (2048 / FractionalDwell::STEPS)
     }
 
     #[inline]

@@ -1,100 +1,220 @@
-//! Complex numbers of any size with a short mantissa: two 32-bit parts that share an exponent.
+//! Complex numbers of any size with a short mantissa: two parts that share an exponent.
 //!
 //! `(re + i im) 2^exponent`, the larger part between `2^29` and `2^30` in magnitude: block floating point, as in J. H. Wilkinson, "Rounding Errors
 //! in Algebraic Processes", 1963, section 1.26. A derivative and the distance of two neighbouring orbits have such numbers: 30
-//! bits are plenty, the range is not bounded. Each operation rounds to nearest once, `2^-30` of the larger part.
+//! bits are plenty, the range is not bounded. Each operation rounds to nearest, `2^-30` of the larger part; a sum
+//! that cancels is rounded as the larger term is.
+//! `Block<i64>` has 62 bits: for long products that are made once a picture.
 
 /// `(re + i im) 2^exponent`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Block {
-    pub(super) re: i32,
-    pub(super) im: i32,
+pub(super) struct Block<M = i32> {
+    pub(super) re: M,
+    pub(super) im: M,
     pub(super) exponent: i32,
 }
 
-impl Block {
+/// A block of either width, for who computes in both.
+pub(super) trait Number: Copy + PartialEq + core::fmt::Debug {
+    /// Of a mantissa.
+    const BITS: i32;
     /// 0, smaller than everything else.
-    pub(super) const ZERO: Self = Self { re: 0, im: 0, exponent: -(1 << 28) };
+    const ZERO: Self;
     /// 1.
-    pub(super) const ONE: Self = Self { re: 1 << 29, im: 0, exponent: -29 };
-
-    /// The nearest block. Domain: `|re|, |im| < 2^62`.
-    #[inline]
-    pub(super) fn new(re: i64, im: i64, exponent: i32) -> Self {
-        let magnitude = ((re ^ (re >> 63)) | (im ^ (im >> 63))) as u64;
-        let places = 34 - magnitude.leading_zeros() as i32; // -30 to 33
-        if places > 0 {
-            let half = (1_i64 << (places & 63)) >> 1;
-            let round = |v: i64| (v.wrapping_add(half) >> (places & 63)) as i32;
-            Self { re: round(re), im: round(im), exponent: exponent + places }
-        } else if magnitude == 0 && re | im == 0 {
-            Self::ZERO
-        } else {
-            let up = places.unsigned_abs() & 63;
-            Self { re: (re << up) as i32, im: (im << up) as i32, exponent: exponent + places }
-        }
-    }
-
+    const ONE: Self;
     /// The product.
-    #[inline]
-    pub(super) fn times(self, other: Self) -> Self {
-        let (a, b) = (i64::from(self.re), i64::from(self.im));
-        let (x, y) = (i64::from(other.re), i64::from(other.im));
-        // at most 2^30 each: sums of at most 2^61
-        Self::new(a * x - b * y, a * y + b * x, self.exponent + other.exponent)
-    }
-
-    /// The sum. What is more than `2^31` times smaller does not count.
-    #[inline]
-    pub(super) fn plus(self, other: Self) -> Self {
-        let (large, small) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
-        let apart = (large.exponent - small.exponent) as u32;
-        if apart > 31 {
-            return large;
-        }
-        let sum = |a: i32, b: i32| (i64::from(a) << (apart & 31)) + i64::from(b);
-        Self::new(sum(large.re, small.re), sum(large.im, small.im), small.exponent)
-    }
-
+    fn times(self, other: Self) -> Self;
+    /// The sum.
+    fn plus(self, other: Self) -> Self;
+    /// The number with the other sign.
+    fn negated(self) -> Self;
     /// Twice the number.
-    #[inline]
-    pub(super) const fn doubled(self) -> Self {
-        Self { exponent: self.exponent + 1, ..self }
-    }
-
-    /// `|self|^2` as a mantissa, `2^58` to `2^61` (0 for 0), and an exponent.
-    #[inline]
-    pub(super) fn square(self) -> (u64, i32) {
-        let (a, b) = (i64::from(self.re), i64::from(self.im));
-        ((a * a + b * b) as u64, 2 * self.exponent)
-    }
-
+    fn doubled(self) -> Self;
     /// Whether `|self| > 2`.
-    #[inline]
-    pub(super) fn is_beyond_two(self) -> bool {
-        // 2^30 2^exponent is the largest part: below 1 up to an exponent of -31
-        if self.exponent < -29 {
-            return false;
-        }
-        if self.exponent > -27 {
-            return true;
-        }
-        let (mantissa, exponent) = self.square();
-        // 4 = 2^2; the exponent is between -58 and -54
-        mantissa > 1_u64 << ((2 - exponent) & 63)
-    }
-
+    fn is_beyond_two(self) -> bool;
     /// Whether `|self| < |other|`.
-    #[inline]
-    pub(super) fn is_less(self, other: Self) -> bool {
-        let apart = self.exponent - other.exponent;
-        // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
-        if !(-1..=1).contains(&apart) {
-            return apart < 0;
+    fn is_less(self, other: Self) -> bool;
+    /// An exponent of 2 that `|self|` is below.
+    fn above(self) -> i32;
+    /// An exponent of 2 that `|self|` reaches.
+    fn reached(self) -> i32;
+    /// The nearest block of 30 bits.
+    fn short(self) -> Block;
+    /// The nearest of this width.
+    fn nearest(long: Block<i64>) -> Self;
+}
+
+/// The arithmetic of both widths: `BITS` of a mantissa leave its word a sign and a sum of two.
+macro_rules! arithmetic {
+    ($word:ty, $half:ty, $double:ty, $unsigned:ty, $bits:literal) => {
+        impl Block<$word> {
+            /// 0, smaller than everything else.
+            pub(super) const ZERO: Self = Self { re: 0, im: 0, exponent: -(1 << 28) };
+            /// 1.
+            pub(super) const ONE: Self = Self { re: 1 << ($bits - 1), im: 0, exponent: 1 - $bits };
+
+            /// The nearest block. Domain: parts that two bits fewer than the words would hold.
+            #[inline]
+            pub(super) fn new(re: $double, im: $double, exponent: i32) -> Self {
+                const MASK: u32 = <$double>::BITS - 1;
+                let sign = |v: $double| v >> MASK;
+                let magnitude = ((re ^ sign(re)) | (im ^ sign(im))) as $unsigned;
+                let places = (<$double>::BITS - $bits) as i32 - magnitude.leading_zeros() as i32;
+                if places > 0 {
+                    let half = ((1 as $double) << (places as u32 & MASK)) >> 1;
+                    let round = |v: $double| (v.wrapping_add(half) >> (places as u32 & MASK)) as $word;
+                    Self { re: round(re), im: round(im), exponent: exponent + places }
+                } else if magnitude == 0 && re | im == 0 {
+                    Self::ZERO
+                } else {
+                    let up = places.unsigned_abs() & MASK;
+                    Self { re: (re << up) as $word, im: (im << up) as $word, exponent: exponent + places }
+                }
+            }
+
+            /// Parts of a word, with the mantissa where it belongs.
+            #[inline(always)]
+            fn normal(re: $word, im: $word, exponent: i32) -> Self {
+                let magnitude =
+                    ((re ^ (re >> (<$word>::BITS - 1))) | (im ^ (im >> (<$word>::BITS - 1)))) as $half;
+                let zeros = magnitude.leading_zeros();
+                if zeros < <$word>::BITS - $bits {
+                    // one bit too many
+                    let half = |v: $word| (v >> 1) + (v & 1);
+                    Self { re: half(re), im: half(im), exponent: exponent + 1 }
+                } else if re | im == 0 {
+                    Self::ZERO
+                } else {
+                    let up = zeros - (<$word>::BITS - $bits);
+                    Self { re: re << up, im: im << up, exponent: exponent - up as i32 }
+                }
+            }
+
+            /// `|self|^2` as a mantissa, 4 times from end to end (0 for 0), and an exponent.
+            #[inline]
+            pub(super) fn square(self) -> ($unsigned, i32) {
+                let (a, b) = (<$double>::from(self.re), <$double>::from(self.im));
+                ((a * a + b * b) as $unsigned, 2 * self.exponent)
+            }
         }
-        let ((a, _), (b, _)) = (self.square(), other.square());
-        if apart >= 0 { a << ((2 * apart as u32) & 3) < b } else { a < b << ((2 * apart.unsigned_abs()) & 3) }
+
+        impl Number for Block<$word> {
+            const BITS: i32 = $bits;
+            const ZERO: Self = Self::ZERO;
+            const ONE: Self = Self::ONE;
+
+            #[inline(always)]
+            fn times(self, other: Self) -> Self {
+                let (a, b) = (<$double>::from(self.re), <$double>::from(self.im));
+                let (x, y) = (<$double>::from(other.re), <$double>::from(other.im));
+                let (re, im) = (a * x - b * y, a * y + b * x);
+                let sign = |v: $double| v >> (<$double>::BITS - 1);
+                let magnitude = (((re ^ sign(re)) | (im ^ sign(im))) >> <$word>::BITS) as $half;
+                if magnitude == 0 {
+                    return Self::ZERO;
+                }
+                // the modulus of a product is between 2^(2 BITS - 2) and 2^(2 BITS + 1): BITS - 2 to BITS + 1 places are too many, as many as
+                // a shift within two words takes
+                let places = (<$double>::BITS - <$word>::BITS - magnitude.leading_zeros() + <$word>::BITS
+                    - $bits)
+                    .clamp($bits - 2, $bits + 1);
+                let half = (1 as $double) << ($bits - 3);
+                let half = half << (places - ($bits - 2));
+                let part = |v: $double| {
+                    let v = v + half;
+                    let (high, low) = ((v >> <$word>::BITS) as $half, v as $half);
+                    ((high << (<$word>::BITS - places)) | (low >> places)) as $word
+                };
+                Self { re: part(re), im: part(im), exponent: self.exponent + other.exponent + places as i32 }
+            }
+
+            #[inline(always)]
+            fn plus(self, other: Self) -> Self {
+                let (large, small) =
+                    if self.exponent >= other.exponent { (self, other) } else { (other, self) };
+                let apart = (large.exponent - small.exponent) as u32;
+                // what is as small as this does not count
+                if apart > $bits {
+                    return large;
+                }
+                // rounded to the larger one's last place, also where the two cancel
+                let half = ((1 as $word) << (apart & (<$word>::BITS - 1))) >> 1;
+                let sum = |a: $word, b: $word| a.saturating_add((b + half) >> (apart & (<$word>::BITS - 1)));
+                Self::normal(sum(large.re, small.re), sum(large.im, small.im), large.exponent)
+            }
+
+            #[inline(always)]
+            fn negated(self) -> Self {
+                Self { re: -self.re, im: -self.im, ..self }
+            }
+
+            #[inline(always)]
+            fn doubled(self) -> Self {
+                Self { exponent: self.exponent + 1, ..self }
+            }
+
+            #[inline(always)]
+            fn is_beyond_two(self) -> bool {
+                // the larger part, at most 2^BITS 2^exponent, decides but for three exponents
+                if self.exponent < 1 - $bits {
+                    return false;
+                }
+                if self.exponent > 3 - $bits {
+                    return true;
+                }
+                let (mantissa, exponent) = self.square();
+                mantissa > (1 as $unsigned) << ((2 - exponent) as u32 & (<$double>::BITS - 1))
+            }
+
+            #[inline(always)]
+            fn is_less(self, other: Self) -> bool {
+                let apart = self.exponent - other.exponent;
+                // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
+                if !(-1..=1).contains(&apart) {
+                    return apart < 0;
+                }
+                let ((a, _), (b, _)) = (self.square(), other.square());
+                if apart >= 0 { a << (2 * apart) < b } else { a < b << (-2 * apart) }
+            }
+
+            #[inline(always)]
+            fn above(self) -> i32 {
+                // the larger part is at most 2^BITS, the modulus 3/2 of it
+                self.exponent + $bits + 1
+            }
+
+            #[inline(always)]
+            fn reached(self) -> i32 {
+                self.exponent + $bits - 1
+            }
+
+            #[inline]
+            fn short(self) -> Block {
+                Block::<i32>::new(self.re.into(), self.im.into(), self.exponent)
+            }
+
+            #[inline]
+            fn nearest(long: Block<i64>) -> Self {
+                Self::new(long.re.into(), long.im.into(), long.exponent)
+            }
+        }
+    };
+}
+
+arithmetic!(i32, u32, i64, u64, 30);
+arithmetic!(i64, u64, i128, u128, 62);
+
+impl Block {
+    /// The parts with `bits` fractional bits, towards minus infinity. Domain: parts below `2^(62 - bits)`.
+    #[inline]
+    pub(super) fn fixed(self, bits: i32) -> (i64, i64) {
+        let places = self.exponent + bits;
+        let part = |v: i32| {
+            let v = i64::from(v);
+            if places >= 0 { v << (places & 63) } else { v >> places.unsigned_abs().min(63) }
+        };
+        (part(self.re), part(self.im))
     }
 }
 
@@ -110,15 +230,15 @@ mod tests {
     fn samples() -> impl Iterator<Item = Block> {
         (0..400_i64).map(|k| {
             let word = k.wrapping_mul(0x9e37_79b9_7f4a_7c15_u64 as i64);
-            Block::new(word >> (k % 40 + 3), (word << 17) >> (k % 23 + 3), (k % 50) as i32 - 60)
+            Block::<i32>::new(word >> (k % 40 + 3), (word << 17) >> (k % 23 + 3), (k % 50) as i32 - 60)
         })
     }
 
     #[test]
     fn sums_products_and_comparisons_are_those_of_float() {
         let mut worst = 0.0_f64;
-        for a in samples().chain([Block::ZERO, Block::ONE]) {
-            for b in samples().chain([Block::ZERO, Block::ONE]) {
+        for a in samples().chain([Block::<i32>::ZERO, Block::<i32>::ONE]) {
+            for b in samples().chain([Block::<i32>::ZERO, Block::<i32>::ONE]) {
                 let ((x, y), (u, v)) = (value(a), value(b));
                 let product = (x * u - y * v, x * v + y * u);
                 let sum = (x + u, y + v);
@@ -127,7 +247,8 @@ mod tests {
                     assert!(size == 0 || (1 << 29..=1 << 30).contains(&size));
                     let (p, q) = value(got);
                     let error = (p - re).abs().max((q - im).abs());
-                    let terms = if (re, im) == sum { 0.0 } else { x.hypot(y) * u.hypot(v) };
+                    let terms =
+                        if (re, im) == sum { x.hypot(y).max(u.hypot(v)) } else { x.hypot(y) * u.hypot(v) };
                     worst = worst.max(error / re.abs().max(im.abs()).max(terms).max(1e-300));
                 }
                 let (m, n) = (x.hypot(y), u.hypot(v));
@@ -140,6 +261,9 @@ mod tests {
             }
         }
         assert!(worst > 1e-11 && worst < 2_f64.powi(-29), "{worst:e}");
-        assert!(!Block::ONE.doubled().is_beyond_two() && Block::ONE.plus(Block::ONE) == Block::ONE.doubled());
+        assert!(
+            !Block::<i32>::ONE.doubled().is_beyond_two()
+                && Block::<i32>::ONE.plus(Block::<i32>::ONE) == Block::<i32>::ONE.doubled()
+        );
     }
 }

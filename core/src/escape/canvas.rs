@@ -1,7 +1,7 @@
 //! A whole picture in a lent buffer: half of a symmetric one is copied, and what stays in sight while panning is moved.
 //!
 //! Conjugate points have conjugate orbits and the same dwell: rows at `y` and `-y` are equal. A view that is panned by whole pixels shows the same points
-//! ([`View::pan`](super::View::pan)), so that neither the mirror nor panning changes a pixel.
+//! ([`View::pan`](super::View::pan), [`DeepView::pan`](super::DeepView::pan)), so that neither the mirror nor panning changes a pixel.
 
 use core::ops::Range;
 
@@ -67,7 +67,7 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
     /// # Errors
     /// As [`View::pan`](super::View::pan); the picture is then unchanged.
     pub fn pan(&mut self, right: i32, up: i32) -> Result<(), Error> {
-        self.picture = self.picture.with_view(self.picture.view().pan(right, up)?);
+        self.picture = self.picture.panned(right, up)?;
         self.computed = 0;
         let size = self.picture.size();
         let (width, height) = (size.width as usize, size.height as usize);
@@ -79,11 +79,10 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
         // the picture moves the other way; within the buffer both shifts are one
         let kept = (height - down) * width;
         let (from, to) = if up >= 0 { (0, down * width) } else { (down * width, 0) };
-        if from != to {
-            self.counts.copy_within(from..from + kept, to);
-        }
+        self.shift(from, to, kept);
         let exposed = if up >= 0 { 0..down as u32 } else { (height - down) as u32..size.height };
         for row in self.counts.chunks_exact_mut(width.max(1)) {
+            let across = across.min(row.len());
             if right >= 0 { row.rotate_left(across) } else { row.rotate_right(across) }
         }
         let columns = if right >= 0 { size.width - across as u32..size.width } else { 0..across as u32 };
@@ -99,13 +98,23 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
         let size = self.picture.size();
         let (width, all) = (size.width as usize, 0..size.width);
         for y in rows.clone() {
-            match self.mirror_image(y) {
+            match self.picture.mirror_image(y) {
                 // an upper row that has been computed already, or was kept
                 Some(image) if image < y && rows.contains(&image) => {
-                    let from = image as usize * width;
-                    self.counts.copy_within(from..from + width, y as usize * width);
+                    self.shift(image as usize * width, y as usize * width, width);
                 }
                 _ => self.compute_row(y, all.clone()),
+            }
+        }
+    }
+
+    /// Moves `length` counts; the ranges may overlap.
+    fn shift(&mut self, from: usize, to: usize, length: usize) {
+        for k in 0..length {
+            let k = if to <= from { k } else { length - 1 - k };
+            let count = self.counts.get(from + k).copied().unwrap_or(0);
+            if let Some(slot) = self.counts.get_mut(to + k) {
+                *slot = count;
             }
         }
     }
@@ -117,25 +126,6 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
         for (slot, dwell) in slots.iter_mut().zip(self.picture.row(y, columns)) {
             *slot = dwell.count as u16;
         }
-    }
-
-    /// The row at the conjugate points, if the view has it.
-    fn mirror_image(&self, y: u32) -> Option<u32> {
-        if !self.picture.is_mirrored() {
-            return None;
-        }
-        let view = self.picture.view();
-        let ordinate = |row: u32| view.point(0, row).im.to_bits();
-        // rows are equally spaced: the sum of the indices is the same for all pairs
-        let (first, last) = (ordinate(0), ordinate(self.picture.size().height - 1));
-        let pitch = view.pitch().to_bits();
-        if last >= 0 || first <= 0 || ordinate(y) >= 0 {
-            return None;
-        }
-        // (first - -y) / pitch, to nearest
-        let steps = (first.wrapping_add(ordinate(y)) + pitch / 2).checked_div_euclid(pitch)?;
-        let image = u32::try_from(steps).ok()?;
-        (image < self.picture.size().height && ordinate(image) == -ordinate(y)).then_some(image)
     }
 }
 

@@ -3,10 +3,13 @@
 //! As [`View`](super::View), eq. 5 of course unit V around the centre: `M.x + (2 i + 1 - cols) W / (2 cols)`, `M.y + (rows - 1 - 2 j) W / (2 cols)`, with quotient and
 //! remainder of `W / (2 cols)` kept apart. The coordinates come as decimal strings.
 
+use core::iter::FusedIterator;
+use core::ops::Range;
+
 use embedded_graphics_core::geometry::Size;
 
-use super::Complex;
-use super::block::Block;
+use super::block::{Block, Number};
+use super::{Complex, MAX_PAN};
 use crate::Error;
 use crate::num::{Limbs, Wide};
 use crate::picture::checked_size;
@@ -23,6 +26,10 @@ pub struct DeepView<const LIMBS: usize> {
     /// `W / (2 cols)`: quotient and remainder.
     half_pitch: Limbs<LIMBS>,
     rest: u32,
+    /// The same as a real block. Error: `2^-61` of it.
+    half_pitch_block: Block<i64>,
+    /// Pixels by which the view was panned, to the right and up.
+    panned: (i32, i32),
 }
 
 impl<const LIMBS: usize> DeepView<LIMBS> {
@@ -67,7 +74,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
             return Err(Error::Capacity { what, needed: needed.max(LIMBS + 1), capacity: LIMBS });
         }
         let (half_pitch, rest) = width.divided(2 * size.width);
-        Ok(Self { centre, width, size, half_pitch, rest })
+        let half_pitch_block = half_pitch_block(&width, size);
+        Ok(Self { centre, width, size, half_pitch, rest, half_pitch_block, panned: (0, 0) })
     }
 
     /// [`DeepView::new`] with coordinates in decimal.
@@ -87,7 +95,7 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         Self::new(Complex::new(re.parse()?, im.parse()?), width.parse()?, size)
     }
 
-    /// The point in the middle.
+    /// The point that was in the middle when the view was made.
     pub const fn centre(&self) -> &Complex<Limbs<LIMBS>> {
         &self.centre
     }
@@ -102,20 +110,63 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         self.size
     }
 
+    /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] when an edge is more than 6 away from 0, or after more than [`MAX_PAN`] pixels in one direction.
+    pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
+        const MOST: Wide = Wide::from_bits((MAX_PAN as i64) << 48);
+        const SIX: Wide = Wide::lit("6");
+        let panned = (self.panned.0.saturating_add(right), self.panned.1.saturating_add(up));
+        let half_pitch = i128::from(self.half_pitch.to_wide().to_bits()) + 1;
+        for (what, middle, steps, side) in [
+            ("real part at an edge", &self.centre.re, panned.0, self.size.width),
+            ("imaginary part at an edge", &self.centre.im, panned.1, self.size.height),
+        ] {
+            if steps.unsigned_abs() > MAX_PAN {
+                let (what, value) = ("pixels to pan", Wide::saturating_from_num(steps));
+                return Err(Error::OutOfRange { what, index: 0, value, min: -MOST, max: MOST });
+            }
+            let reach = half_pitch * i128::from(2 * steps.unsigned_abs() + side)
+                + i128::from(middle.to_wide().to_bits().unsigned_abs());
+            if reach > i128::from(SIX.to_bits()) {
+                let value = Wide::from_bits(i64::try_from(reach).unwrap_or(i64::MAX));
+                return Err(Error::OutOfRange { what, index: 0, value, min: -SIX, max: SIX });
+            }
+        }
+        Ok(Self { panned, ..*self })
+    }
+
     /// The middle of pixel `(column, row)`, `(0, 0)` at the upper left.
     ///
     /// Domain: inside [`DeepView::size`]; others count as the nearest pixel. Error: below a unit of the last place.
     pub fn point(&self, column: u32, row: u32) -> Complex<Limbs<LIMBS>> {
-        let (across, up) = self.steps(column, row);
+        self.point_at(self.steps(column, row))
+    }
+
+    pub(super) fn point_at(&self, (across, up): (i32, i32)) -> Complex<Limbs<LIMBS>> {
         Complex::new(self.centre.re.plus(&self.offset(across)), self.centre.im.plus(&self.offset(up)))
     }
 
-    /// Half pitches from the centre, to the right and up: odd or even, at most 2^14.
+    /// Half pitches from the centre, to the right and up: odd or even, at most 2^17.
     pub(super) fn steps(&self, column: u32, row: u32) -> (i32, i32) {
         let (width, height) = (self.size.width as i32, self.size.height as i32);
         let column = column.min(self.size.width - 1) as i32;
         let row = row.min(self.size.height - 1) as i32;
-        (2 * column + 1 - width, height - 1 - 2 * row)
+        (2 * (column + self.panned.0) + 1 - width, height - 1 - 2 * (row - self.panned.1))
+    }
+
+    /// Whether the centre is real: rows as far below the axis as others above it then show the conjugate points, exactly.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.centre.im == Limbs::ZERO
+    }
+
+    /// The row above this one at the conjugate points, if the view has it.
+    pub(super) fn mirror_image(&self, row: u32) -> Option<u32> {
+        let (_, up) = self.steps(0, row);
+        // two half pitches a row
+        let image = u32::try_from(row as i32 + up).ok()?;
+        (self.is_mirrored() && up < 0).then_some(image)
     }
 
     fn offset(&self, steps: i32) -> Limbs<LIMBS> {
@@ -130,16 +181,66 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         highest + 1 - Limbs::<LIMBS>::FRACTION as i32
     }
 
-    /// Half a pitch as a real block. Error: `2^-30` of it.
-    pub(super) fn half_pitch_block(&self) -> Block {
-        let Some(highest) = self.width.highest_bit() else { return Block::ZERO };
-        // 62 bits of the width over 2 cols
-        let bits = (u64::from(self.width.window(highest)) << 30)
-            | u64::from(highest.checked_sub(32).map_or(0, |p| self.width.window(p)) >> 2);
-        let quotient = bits.checked_div(2 * u64::from(self.size.width)).unwrap_or(0);
-        Block::new(quotient as i64, 0, highest as i32 - 61 - Limbs::<LIMBS>::FRACTION as i32)
+    /// The pixels of a part of a row.
+    pub(super) fn line(&self, row: u32, columns: Range<u32>) -> Pixels {
+        Pixels { columns: columns.start.min(self.size.width)..columns.end.min(self.size.width), row }
+    }
+
+    /// The distance of two neighbouring pixels.
+    pub(super) fn pitch_block(&self) -> Block<i64> {
+        self.half_pitch_block.doubled()
+    }
+
+    /// So many half pitches.
+    pub(super) fn distance(&self, (across, up): (i32, i32)) -> Block<i64> {
+        let Block { re, exponent, .. } = self.half_pitch_block;
+        let part = |steps: i32| i128::from(steps) * i128::from(re);
+        Block::<i64>::new(part(across), part(up), exponent)
+    }
+
+    /// An exponent of 2 that the distance of a pixel from the centre is below, also after panning by half the picture.
+    pub(super) fn reach(&self) -> i32 {
+        self.distance((self.size.width as i32, self.size.height as i32)).above() + 1
     }
 }
+
+fn half_pitch_block<const LIMBS: usize>(width: &Limbs<LIMBS>, size: Size) -> Block<i64> {
+    let Some(highest) = width.highest_bit() else { return Block::<i64>::ZERO };
+    // 96 bits of the width over 2 cols
+    let word = |down| u128::from(highest.checked_sub(down).map_or(0, |p| width.window(p)));
+    let bits = (word(0) << 64) | (word(32) << 32) | word(64);
+    let quotient = bits.checked_div(u128::from(2 * size.width)).unwrap_or(0);
+    Block::<i64>::new(quotient as i128, 0, highest as i32 - 95 - Limbs::<LIMBS>::FRACTION as i32)
+}
+
+/// Column and row of the pixels of a part of a row, from left to right.
+#[derive(Debug, Clone)]
+pub struct Pixels {
+    columns: Range<u32>,
+    row: u32,
+}
+
+impl Iterator for Pixels {
+    type Item = (u32, u32);
+
+    #[inline]
+    fn next(&mut self) -> Option<(u32, u32)> {
+        self.columns.next().map(|column| (column, self.row))
+    }
+
+    #[inline]
+    fn nth(&mut self, n: usize) -> Option<(u32, u32)> {
+        self.columns.nth(n).map(|column| (column, self.row))
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.columns.size_hint()
+    }
+}
+
+impl ExactSizeIterator for Pixels {}
+impl FusedIterator for Pixels {}
 
 #[cfg(test)]
 mod tests {
@@ -163,9 +264,9 @@ mod tests {
                         && (a.im - b.im.to_wide()).abs() <= Wide::DELTA
                 );
             }
-            let pitch =
-                2.0 * f64::from(deep.half_pitch_block().re) * 2_f64.powi(deep.half_pitch_block().exponent);
-            assert!((pitch / (0.25 / f64::from(w)) - 1.0).abs() < 2e-9);
+            let half = deep.half_pitch_block;
+            let pitch = 2.0 * half.re as f64 * 2_f64.powi(half.exponent);
+            assert!((pitch / (0.25 / f64::from(w)) - 1.0).abs() < 1e-15);
             assert_eq!(deep.pitch_exponent(), (0.25 / f64::from(w)).log2().floor() as i32);
         }
     }

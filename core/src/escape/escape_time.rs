@@ -1,82 +1,95 @@
 //! What the escape-time pictures have in common, for the types that colour them in another way or draw them faster.
 
-use super::dwell::{Fine, Step, Word};
-use super::{Complex, Dwell, Julia, Mandelbrot, View};
-use crate::num::Wide;
+use core::fmt::Debug;
+use core::iter::FusedIterator;
+use core::ops::Range;
+
+use super::Dwell;
+use super::block::{Block, Number};
+use super::period::Period;
+use crate::Error;
 use crate::picture::Field;
 
-/// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`] and [`Julia`].
+/// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`](super::Mandelbrot), [`Julia`](super::Julia) and
+/// [`DeepMandelbrot`](super::DeepMandelbrot).
 pub trait EscapeTime: Field<Value = Dwell> {
-    /// Which points the pixels show.
-    fn view(&self) -> &View;
+    /// What an orbit belongs to: a point of the plane, or in a deep view the column and row of a pixel.
+    type Point: Copy;
+    /// The points of a part of a row.
+    type Line: ExactSizeIterator<Item = Self::Point> + FusedIterator + Clone + Debug;
+
+    /// The points of a part of a row, from left to right.
+    fn line(&self, row: u32, columns: Range<u32>) -> Self::Line;
     /// The dwell of a point that does not escape.
     fn max_dwell(&self) -> u32;
     /// The dwell at a point.
-    fn dwell_at(&self, point: Complex<Wide>) -> Dwell;
-    /// The orbit of a point; none where the dwell is 0.
-    fn orbit(&self, point: Complex<Wide>) -> Option<Orbit>;
-    /// The constant of that orbit.
-    fn constant_at(&self, point: Complex<Wide>) -> Complex<Wide>;
-    /// Whether conjugate points have the same dwell, to the last bit.
-    fn is_mirrored(&self) -> bool;
-    /// The same picture through another view.
-    #[must_use]
-    fn with_view(self, view: View) -> Self
+    fn dwell_at(&self, point: Self::Point) -> Dwell;
+    /// Where the orbit of a point is when it escapes; none where it does not.
+    fn ending(&self, point: Self::Point) -> Option<Ending>;
+    /// The same with the derivative by the point.
+    fn ending_with_derivative(&self, point: Self::Point) -> Option<Ending>;
+    /// The cycle that the orbit of a point is drawn to.
+    fn period_at(&self, point: Self::Point) -> Period;
+    /// The distance of two neighbouring pixels: `mantissa 2^exponent`, the mantissa at least `2^28`.
+    fn pitch(&self) -> (u32, i32);
+    /// The row above this one that shows the conjugate points, and has the same dwells to the last bit.
+    fn mirror_image(&self, row: u32) -> Option<u32>;
+    /// The same picture, moved by whole pixels to the right and up.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] where the view ends.
+    fn panned(self, right: i32, up: i32) -> Result<Self, Error>
     where
         Self: Sized;
 }
 
-/// The orbit of a point: where it starts, and the constant.
+/// The last point of an orbit that matters: near 2 or beyond, and what goes on from there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Orbit {
-    pub(super) z: Word,
-    pub(super) c: Word,
-    /// Whether the constant moves with the point: the derivative by the point then gains 1 at each step.
-    pub(super) by_constant: bool,
+pub struct Ending {
+    /// How many steps the point is away from the first, `c` or a Julia set's start.
+    pub(super) steps: u32,
+    pub(super) z: Block,
+    pub(super) c: Block,
+    /// By the point; only where it was asked for.
+    pub(super) derivative: Block,
+    /// What it gains at each step: 1 where the constant moves with the point.
+    pub(super) gain: Block,
 }
 
-impl Orbit {
+/// An orbit in words, of any width.
+pub(super) trait Steps: Copy {
     /// The next point, wrapped, for a point within 2.
-    #[inline]
-    pub(super) fn step(&mut self) {
-        self.z = Fine::step(self.z, self.c);
-    }
+    fn step(&mut self);
+    fn z(&self) -> Block;
+    fn c(&self) -> Block;
+    /// Whether both are at the same point but for what rounding leaves of an orbit that is drawn in.
+    fn is_near(&self, other: &Self) -> bool;
 }
 
-macro_rules! escape_time {
-    ($($picture:ty, $mirrored:literal;)*) => {$(
-        impl EscapeTime for $picture {
-            fn view(&self) -> &View {
-                self.view()
-            }
-
-            fn max_dwell(&self) -> u32 {
-                self.max_dwell()
-            }
-
-            #[inline]
-            fn dwell_at(&self, point: Complex<Wide>) -> Dwell {
-                self.dwell_at(point)
-            }
-
-            #[inline]
-            fn orbit(&self, point: Complex<Wide>) -> Option<Orbit> {
-                self.orbit_of(point)
-            }
-
-            fn constant_at(&self, point: Complex<Wide>) -> Complex<Wide> {
-                self.constant_of(point)
-            }
-
-            fn is_mirrored(&self) -> bool {
-                $mirrored
-            }
-
-            fn with_view(self, view: View) -> Self {
-                self.through(view)
-            }
+/// The last point within 2 of an orbit of this dwell. `gain` is what the derivative gains at each step.
+pub(super) fn follow<const DERIVATIVE: bool, O: Steps>(mut orbit: O, dwell: u32, gain: Block) -> Ending {
+    let mut derivative = Block::<i32>::ONE;
+    let steps = dwell.saturating_sub(1);
+    for _ in 0..steps {
+        if DERIVATIVE {
+            derivative = orbit.z().times(derivative).doubled().plus(gain);
         }
-    )*};
+        orbit.step();
+    }
+    Ending { steps, z: orbit.z(), c: orbit.c(), derivative, gain }
 }
 
-escape_time! { Mandelbrot, true; Julia, false; }
+/// The length of the cycle that an orbit is drawn to after `steps`; 0 if none of at most `longest` shows.
+pub(super) fn period<O: Steps>(mut orbit: O, steps: u32, longest: u32) -> u32 {
+    for _ in 0..steps {
+        orbit.step();
+    }
+    let start = orbit;
+    for period in 1..=longest {
+        orbit.step();
+        if orbit.is_near(&start) {
+            return period;
+        }
+    }
+    0
+}

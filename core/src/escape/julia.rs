@@ -8,8 +8,8 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::dwell::Word;
-use super::escape_time::Orbit;
 use super::julia_set::checked_constant;
+use super::orbit::Orbit;
 use super::precision::Precision;
 use super::view::{Line, View, narrow};
 use super::{Complex, Dwell, checked_max};
@@ -57,7 +57,7 @@ impl Julia {
     }
 
     pub(super) fn orbit_of(&self, c: Complex<Wide>) -> Option<Orbit> {
-        narrow(c).map(|z| Orbit { z, c: self.constant, by_constant: false })
+        narrow(c).map(|z| Orbit { z, c: self.constant })
     }
 
     pub(super) const fn constant_of(&self, _: Complex<Wide>) -> Complex<Wide> {

@@ -8,8 +8,8 @@ use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
 
-use super::escape_time::Orbit;
 use super::interior;
+use super::orbit::Orbit;
 use super::precision::Precision;
 use super::view::{Line, View, narrow};
 use super::{Complex, Dwell, checked_max};
@@ -56,7 +56,7 @@ impl Mandelbrot {
         let c = narrow(c)?;
         // the conjugate, as `dwell_at`
         let c = (c.0, c.1.wrapping_abs());
-        Some(Orbit { z: c, c, by_constant: true })
+        Some(Orbit { z: c, c })
     }
 
     #[inline(always)]

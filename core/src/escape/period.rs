@@ -7,10 +7,7 @@ use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
 
-use super::Complex;
 use super::escape_time::EscapeTime;
-use super::view::Line;
-use crate::num::Wide;
 use crate::picture::Field;
 
 /// The longest cycle that is looked for.
@@ -45,23 +42,8 @@ impl<P: EscapeTime> Interior<P> {
     ///
     /// Domain: all. Error: where the orbit is still more than `2^-20` away from its cycle, near the edges of components, no period or a
     /// multiple is found (`periods_are_those_of_float`). Cost: the dwell, and inside `Num` steps and a period.
-    pub fn value_at(&self, point: Complex<Wide>) -> Period {
-        const NEAR: u32 = 1 << 9; // 2^-20 with 29 fractional bits
-        if !self.0.dwell_at(point).is_inside() {
-            return Period(0);
-        }
-        let Some(mut orbit) = self.0.orbit(point) else { return Period(0) };
-        for _ in 0..self.0.max_dwell() {
-            orbit.step();
-        }
-        let (x, y) = orbit.z;
-        for period in 1..=MAX_PERIOD {
-            orbit.step();
-            if orbit.z.0.abs_diff(x) < NEAR && orbit.z.1.abs_diff(y) < NEAR {
-                return Period(period);
-            }
-        }
-        Period(0)
+    pub fn value_at(&self, point: P::Point) -> Period {
+        self.0.period_at(point)
     }
 }
 
@@ -77,15 +59,15 @@ impl<P: EscapeTime> Field for Interior<P> {
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> InteriorRow<'_, P> {
-        InteriorRow { picture: self, line: self.0.view().line(y, x) }
+        InteriorRow { picture: self, line: self.0.line(y, x) }
     }
 }
 
 /// The periods of a row, from left to right.
 #[derive(Debug, Clone)]
-pub struct InteriorRow<'a, P> {
+pub struct InteriorRow<'a, P: EscapeTime> {
     picture: &'a Interior<P>,
-    line: Line,
+    line: P::Line,
 }
 
 super::row::values_along_a_line!(InteriorRow, Period);
@@ -93,7 +75,8 @@ super::row::values_along_a_line!(InteriorRow, Period);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::escape::{Julia, Mandelbrot, View};
+    use crate::escape::{Complex, Julia, Mandelbrot, View};
+    use crate::num::Wide;
 
     /// The period after 20000 steps in `f64`, none near the edge of a component.
     fn float(c: (f64, f64)) -> Option<u32> {

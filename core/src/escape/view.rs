@@ -190,6 +190,21 @@ impl View {
         2 * self.size.width as i32
     }
 
+    /// The row above this one at the conjugate points, if the view has it.
+    pub(super) fn mirror_image(&self, row: u32) -> Option<u32> {
+        let ordinate = |row: u32| self.ordinate(row).to_bits();
+        // rows are equally spaced: the sum of the indices is the same for all pairs
+        let (first, last) = (ordinate(0), ordinate(self.size.height - 1));
+        let pitch = self.pitch().to_bits();
+        if last >= 0 || first <= 0 || ordinate(row) >= 0 {
+            return None;
+        }
+        // (first - -y) / pitch, to nearest
+        let steps = (first.wrapping_add(ordinate(row)) + pitch / 2).checked_div_euclid(pitch)?;
+        let image = u32::try_from(steps).ok()?;
+        (image < self.size.height && ordinate(image) == -ordinate(row)).then_some(image)
+    }
+
     /// The points of a row from left to right.
     pub(super) fn line(&self, row: u32, columns: Range<u32>) -> Line {
         let (pitch, pitch_rest) = self.whole_pitch();
@@ -215,9 +230,9 @@ fn sticky(floor: i64, rest: i32) -> Wide {
     Wide::from_bits(floor | i64::from(rest != 0))
 }
 
-/// The points of a part of a row.
+/// The points of a part of a row, from left to right.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
+pub struct Line {
     view: View,
     im: Wide,
     next: u32,

@@ -8,6 +8,9 @@
 //!
 //! Cost in Cortex-M4 instructions, counted with QEMU: 57.9 an iteration in 64 bits, 255.8 in 128.
 
+use super::block::{Block, Number};
+use super::escape_time::Steps;
+
 /// A real word of an orbit.
 pub(super) trait WideWord: Copy + PartialEq {
     /// `z^2 + c` for `|z| <= 2`, `|c| <= 2`.
@@ -16,6 +19,35 @@ pub(super) trait WideWord: Copy + PartialEq {
     fn top(self) -> i32;
     /// Whether `x^2 + y^2 > 4`, exactly.
     fn is_beyond(x: Self, y: Self) -> bool;
+    /// The nearest block.
+    fn block(z: (Self, Self)) -> Block;
+    /// Within `2^-48` in 64 bits, `2^-104` in 128.
+    fn is_near(self, other: Self) -> bool;
+}
+
+/// An orbit for the colourings.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WideOrbit<W> {
+    pub(super) z: (W, W),
+    pub(super) c: (W, W),
+}
+
+impl<W: WideWord> Steps for WideOrbit<W> {
+    fn step(&mut self) {
+        self.z = W::step(self.z, self.c);
+    }
+
+    fn z(&self) -> Block {
+        W::block(self.z)
+    }
+
+    fn c(&self) -> Block {
+        W::block(self.c)
+    }
+
+    fn is_near(&self, other: &Self) -> bool {
+        self.z.0.is_near(other.z.0) && self.z.1.is_near(other.z.1)
+    }
 }
 
 /// `|z|^2` from which on the exact test decides, with 24 fractional bits: `4 - 2^-6`. The tops lose less than `2^-24`.
@@ -104,6 +136,14 @@ impl WideWord for i64 {
         let square = |v: i64| u128::from(v.unsigned_abs()) * u128::from(v.unsigned_abs());
         square(x) + square(y) > 1 << 122
     }
+
+    fn block((x, y): (Self, Self)) -> Block {
+        Block::<i32>::new(x, y, -60)
+    }
+
+    fn is_near(self, other: Self) -> bool {
+        self.abs_diff(other) < 1 << 12
+    }
 }
 
 /// The square of a Q4.124, modulo 16, rounded down. Domain: `|v| < 4`.
@@ -158,6 +198,14 @@ impl WideWord for i128 {
         let (low, carry) = low_x.overflowing_add(low_y);
         let high = high_x + high_y + u128::from(carry);
         high > 1 << 122 || (high == 1 << 122 && low > 0)
+    }
+
+    fn block((x, y): (Self, Self)) -> Block {
+        Block::<i64>::new(x, y, -124).short()
+    }
+
+    fn is_near(self, other: Self) -> bool {
+        self.abs_diff(other) < 1 << 20
     }
 }
 

@@ -1,14 +1,11 @@
 //! What of an orbit decides the colour of a pixel: dwell, fractional dwell, distance or period.
 
 use std::convert::Infallible;
-use std::iter::Map;
-use std::ops::Range;
 
-use attractor::draw::{Equalised, Level, Leveled, Palette};
-use attractor::escape::{Distance, EscapeTime, FractionalDwell, Interior, Period, Smooth, SmoothRow};
+use attractor::draw::{Equalised, Inside, Level, Leveled, Palette, Ramp};
+use attractor::escape::{Distance, EscapeTime, FractionalDwell, Interior, Smooth};
 use attractor::picture::Field;
 use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 
 use super::chart::PAPER;
@@ -32,47 +29,6 @@ pub(super) enum Coloring {
     Interior,
 }
 
-/// Steps of a fractional dwell that a palette counts, for each whole one.
-const FINE: u32 = 64;
-
-/// A fractional dwell whose count is fine.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Fine(FractionalDwell);
-
-impl Leveled for Fine {
-    fn level(&self) -> Level {
-        self.0.level()
-    }
-
-    fn count(&self) -> u32 {
-        // 11 fractional bits
-        self.0.dwell.to_bits() / (2048 / FINE)
-    }
-
-    fn is_inside(&self) -> bool {
-        self.0.is_inside()
-    }
-}
-
-/// The field of [`Fine`] dwells.
-struct FineField<P>(Smooth<P>);
-
-impl<P: EscapeTime> Field for FineField<P> {
-    type Value = Fine;
-    type Row<'a>
-        = Map<SmoothRow<'a, P>, fn(FractionalDwell) -> Fine>
-    where
-        P: 'a;
-
-    fn size(&self) -> Size {
-        self.0.size()
-    }
-
-    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-        self.0.row(y, x).map(Fine)
-    }
-}
-
 /// Draws an escape-time picture in this colouring.
 pub(super) fn draw<P, D>(
     picture: P,
@@ -91,9 +47,9 @@ where
     match coloring {
         Coloring::Dwell => paint(picture, colors, counts, target, watch),
         Coloring::Smooth => {
-            let cycle = colors.cycle.map(|counts| counts * FINE);
+            let cycle = colors.cycle.map(|counts| counts * FractionalDwell::STEPS);
             let colors = Colors { cycle, ..colors };
-            paint(FineField(Smooth(picture)), colors, counts * FINE, target, watch)
+            paint(Smooth(picture), colors, counts * FractionalDwell::STEPS, target, watch)
         }
         Coloring::Distance => {
             let counts = if equalised { 1 << 16 } else { 0 };
@@ -101,11 +57,7 @@ where
         }
         Coloring::Interior => {
             let paper = ground::<D::Color>(PAPER);
-            // six colours over and over, without the darkest fifth
-            let color = |period: Period| match period.0 {
-                0 => paper,
-                n => colors.named.at(Level(Level::ratio((n - 1) % 6, 5).0 / 5 * 4 + 13_000)),
-            };
+            let color = Inside::new(Ramp::of_periods(|level| colors.named.at(level)), paper);
             draw_field(Interior(picture), color, target, watch);
             Ok(())
         }

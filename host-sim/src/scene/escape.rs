@@ -47,9 +47,6 @@ pub(super) struct Grey {
     inside: Option<Spanned<String>>,
 }
 
-/// Why a colouring is refused.
-const WHOLE: &str = "a view as deep as this has whole dwells only";
-
 /// What is seen, and how.
 #[derive(Debug)]
 pub(super) struct Escape {
@@ -107,9 +104,6 @@ impl Escape {
         let deep = if keys.goes_deep { Deep::load(source, keys)? } else { None };
         let is_deep =
             deep.is_some() && keys.width.is_some_and(|w| number::float(source.digits(w)) < deep::UNIT);
-        if let Some(key) = keys.coloring.filter(|_| is_deep && coloring != Coloring::Dwell) {
-            return Err(source.fail(key.span(), "coloring", WHOLE));
-        }
         let scene = Self {
             file: source.name.clone(),
             centre,
@@ -134,9 +128,6 @@ impl Escape {
     /// The deep view on a display of this size, if 32 bits are too coarse for it.
     pub(super) fn deep_view(&self, size: Size) -> Result<Option<deep::View>, Fail> {
         let Some(deep) = self.deep.filter(|_| self.view(size).is_err()) else { return Ok(None) };
-        if self.coloring != Coloring::Dwell {
-            return Err(Fail::new(format_args!("{}: coloring: {WHOLE}", self.file)));
-        }
         deep.view(size).map(Some)
     }
 

@@ -90,7 +90,7 @@ impl MandelbrotScene {
         if let Some(view) = self.0.deep_view(request.size)? {
             let mut orbit = deep::orbit(&view, max_dwell);
             let picture = Picture::new(view, max_dwell, &mut orbit).map_err(Fail::new)?;
-            return coloring::paint(picture, colors, if equalised { max_dwell } else { 0 }, target, watch);
+            return coloring::draw(picture, coloring, equalised, colors, target, watch);
         }
         coloring::draw(self.picture(request)?, coloring, equalised, colors, target, watch)
     }

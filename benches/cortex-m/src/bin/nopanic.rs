@@ -11,7 +11,10 @@ use attractor::draw::{
     BigEndian, ColoredDots, CourseUnit, Cycled, Dots, Grey, LsbPages, Packing, Picture, RowCursor, Stroke,
     gradients,
 };
-use attractor::escape::{Complex, Julia, Mandelbrot, Precision, View};
+use attractor::escape::{
+    Arithmetic, Canvas, Complex, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
+    Mandelbrot, OrbitPoint, Precision, Smooth, View,
+};
 use attractor::fif::{Cell, Factor, Fif, Knot, Pyramid, Surface};
 use attractor::ifs::{Ifs, catalogue};
 use attractor::num::{self, Angle, Real, Scaling, Unit, Vec3, Wide};
@@ -114,6 +117,52 @@ fn escape() -> Result<(), Error> {
         julia.row(bb(0), bb(0)..bb(100)).last(),
         julia.row(bb(1), bb(0)..bb(100)).nth(bb(5)),
     ));
+    bb((view.size(), view.pan(bb(1), bb(1))?, set.view(), set.max_dwell(), set.precision()));
+    bb((julia.view(), julia.constant(), julia.max_dwell(), julia.precision()));
+    bb(julia.with_precision(bb(Precision::Coarse26)).dwell_at(c).is_inside());
+    colorings(set, c)?;
+    colorings(julia, c)?;
+    deep()
+}
+
+/// What takes any escape-time picture.
+fn colorings<P: EscapeTime + Copy>(picture: P, point: P::Point) -> Result<(), Error> {
+    let row = || (bb(1), bb(0)..bb(100));
+    let smooth = Smooth(picture);
+    bb((smooth.value_at(point).is_inside(), smooth.row(row().0, row().1).nth(bb(3))));
+    let distance = Distance(picture);
+    bb((distance.value_at(point), distance.row(row().0, row().1).nth(bb(3))));
+    let interior = Interior(picture);
+    bb((interior.value_at(point), interior.row(row().0, row().1).nth(bb(3))));
+    let mut counts = [0; 600];
+    let mut canvas = Canvas::new(picture, bb(&mut counts[..]))?;
+    canvas.pan(bb(1), bb(-1))?;
+    bb((canvas.computed(), canvas.row(row().0, row().1).nth(bb(3))));
+    let mut bits = [0; 75];
+    let filled = Filled::new(picture, bb(&mut bits[..]))?;
+    bb((Filled::<P>::bytes(bb(Size::new(1, 1))), filled.dwell_at(bb(1), bb(1))));
+    bb(filled.row(row().0, row().1).nth(bb(3)));
+    let mut below = [0; 100];
+    let palette = draw::Equalised::new(&smooth, &mut below, gradients::FIRE)?;
+    bb((palette.level(bb(3)), picture.pitch(), picture.mirror_image(bb(3))));
+    Ok(())
+}
+
+fn deep() -> Result<(), Error> {
+    let view = DeepView::<12>::parse(bb("-1.25"), bb("0.5"), bb("1e-90"), bb(Size::new(30, 20)))?;
+    let view = DeepView::new(*view.centre(), *view.width(), view.size())?.pan(bb(1), bb(1))?;
+    bb((view.point(bb(1), bb(1)), view.pitch_exponent()));
+    let mut orbit = [OrbitPoint::default(); 200];
+    bb(DeepMandelbrot::new(view, bb(100), &mut orbit)?);
+    bb(DeepMandelbrot::orbit_points(&view, bb(100)));
+    for arithmetic in
+        [Arithmetic::Word64, Arithmetic::Word128, Arithmetic::Perturbed, Arithmetic::PerturbedLong]
+    {
+        let set = DeepMandelbrot::with_arithmetic(view, bb(100), bb(arithmetic), &mut orbit)?;
+        bb((set.dwell_at(bb(1), bb(1)), set.row(bb(1), bb(0)..bb(30)).nth(bb(2)), set.view()));
+        bb((set.max_dwell(), set.arithmetic(), set.reference_len()));
+        colorings(set, bb((1, 1)))?;
+    }
     Ok(())
 }
 
@@ -161,6 +210,7 @@ fn drawing() -> Result<(), Error> {
     bb(picture.pack::<LsbPages>(bb(0), &mut buffer))?;
     let picture =
         Picture::<_, _, Rgb565>::new(Mandelbrot::new(view, bb(10))?, Cycled::new(gradients::FIRE, bb(16)));
+    bb(draw::Ramp::of_periods(bb(Grey)));
     let mut buffer = [0; 480];
     if let Some((_, strip)) = picture.big_endian(&mut buffer)?.next_strip() {
         bb(strip);
@@ -207,6 +257,9 @@ fn numbers() {
         bb(alias.pick(bb(0)));
         bb(alias.len());
     }
+    bb(num::log2(bb(0)));
+    let limbs = num::Limbs::<4>::from_wide(bb(Wide::ONE)).unwrap_or_default();
+    bb((limbs.top64(), limbs.times_small(bb(3)).plus_units(bb(1)).divided(bb(0))));
     let v = num::Vec3::new(bb(num::Real::ONE), bb(num::Real::ONE), bb(num::Real::ONE));
     bb(v.minus(v));
     bb(v.normalised());

@@ -4,8 +4,10 @@
 //! [`Watch::time`], or to `Watch::over` for a table of inputs; only that is counted. It returns a checksum of everything it computed
 //! (so that nothing is optimised away, and so that host and target can be compared) and how many units of work it did.
 
+mod deep;
 mod escape;
 mod fif;
+mod filled;
 mod ifs;
 mod num;
 mod trace;
@@ -124,6 +126,26 @@ pub static ALL: &[Kernel] = &[
     beside("sin_cos", "call", num::sin_cos_fixed, num::sin_cos_f32, num::sin_cos_f64),
     beside("dwell fine", "iteration", escape::fine, escape::plain_f32, escape::plain_f64),
     beside("dwell coarse", "iteration", escape::coarse, escape::plain_f32, escape::plain_f64),
+    Kernel { f32: None, ..beside("dwell 64", "iteration", deep::word64, escape::plain_f32, escape::plain_f64) },
+    alone("dwell 128", "iteration", deep::word128),
+    roomy(alone("perturbed", "step", deep::perturbed)),
+    roomy(alone("perturbed long", "step in 62 bits", deep::perturbed_long)),
+    roomy(alone("perturbed jumping", "iteration at 1e-100", deep::jumping)),
+    roomy(alone("reference orbit", "point in 12 limbs", deep::reference)),
+    alone("plain home", "pixel at 1000", filled::home::<false>),
+    alone("filled home", "pixel at 1000", filled::home::<true>),
+    alone("plain seahorses", "pixel at 1000", filled::seahorses::<false>),
+    alone("filled seahorses", "pixel at 1000", filled::seahorses::<true>),
+    alone("plain rabbit", "pixel at 1000", filled::rabbit::<false>),
+    alone("filled rabbit", "pixel at 1000", filled::rabbit::<true>),
+    roomy(alone("plain copy 64", "pixel at 1000", filled::word64::<false>)),
+    roomy(alone("filled copy 64", "pixel at 1000", filled::word64::<true>)),
+    roomy(alone("plain copy 1e-101", "pixel at 1000", filled::perturbed::<false>)),
+    roomy(alone("filled copy 1e-101", "pixel at 1000", filled::perturbed::<true>)),
+    alone("dwell of a pixel", "pixel of the home view", deep::dwell),
+    alone("fractional dwell", "pixel of the home view", deep::smooth),
+    alone("distance estimate", "pixel of the home view", deep::distance),
+    alone("period", "pixel of the home view", deep::period),
     beside("chaos game", "point", ifs::fern_fixed, ifs::fern_f32, ifs::fern_f64),
     beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
     beside("fif", "call at any abscissa", fif::any, fif::any_f32, fif::any_f64),

@@ -1,0 +1,150 @@
+//! The deep formats, the orbit that perturbation follows, and what colours a pixel.
+//!
+//! As in [`super::escape`] what is counted are iterations: orbits are long, escape, and nothing shortens them but jumps, which a row of its own has.
+
+use core::hint::black_box;
+
+use attractor::Error;
+use attractor::escape::{
+    Arithmetic, DeepMandelbrot, DeepView, Distance, Interior, Mandelbrot, OrbitPoint, Smooth, View,
+};
+use attractor::picture::Field;
+use embedded_graphics::geometry::Size;
+
+use super::{Tally, Watch};
+use crate::escape_scenes::PERIOD_95;
+
+const MAX: u32 = 1500;
+
+/// Between seahorses: orbits of a thousand iterations, too far apart for a jump.
+const SHALLOW: [&str; 3] = ["-0.743643887037151", "0.131825904205330", "6e-9"];
+
+/// Every pixel's dwell; what is counted is the iterations of those that escape.
+fn dwells<const LIMBS: usize>(
+    watch: &mut Watch<'_>,
+    [re, im, width]: [&str; 3],
+    arithmetic: Arithmetic,
+    max: u32,
+    orbit: &mut [OrbitPoint],
+) -> Result<Tally, Error> {
+    let view = DeepView::<LIMBS>::parse(re, im, width, Size::new(9, 9))?;
+    let set = DeepMandelbrot::with_arithmetic(view, max, arithmetic, orbit)?;
+    let outside = |x, y| !set.dwell_at(x, y).is_inside();
+    let mut pixels = [(0, 0); 32];
+    let found = (0..81).map(|i| (i % 9, i / 9)).filter(|(x, y)| outside(*x, *y));
+    let mut count = 0;
+    for (slot, pixel) in pixels.iter_mut().zip(found) {
+        *slot = pixel;
+        count += 1;
+    }
+    Ok(watch.time(|| {
+        let mut tally = Tally::default();
+        for (x, y) in black_box(&pixels).iter().take(count) {
+            let dwell = set.dwell_at(*x, *y).count;
+            tally.units += dwell;
+            tally.checksum = tally.checksum.rotate_left(1) ^ dwell;
+        }
+        tally
+    }))
+}
+
+#[inline(never)]
+pub(super) fn word64(watch: &mut Watch<'_>) -> Tally {
+    dwells::<4>(watch, SHALLOW, Arithmetic::Word64, MAX, &mut []).unwrap_or_default()
+}
+
+#[inline(never)]
+pub(super) fn word128(watch: &mut Watch<'_>) -> Tally {
+    dwells::<4>(watch, SHALLOW, Arithmetic::Word128, MAX, &mut []).unwrap_or_default()
+}
+
+#[inline(never)]
+pub(super) fn perturbed(watch: &mut Watch<'_>) -> Tally {
+    let mut orbit = [OrbitPoint::default(); MAX as usize];
+    dwells::<4>(watch, SHALLOW, Arithmetic::Perturbed, MAX, &mut orbit).unwrap_or_default()
+}
+
+#[inline(never)]
+pub(super) fn perturbed_long(watch: &mut Watch<'_>) -> Tally {
+    let mut orbit = [OrbitPoint::default(); 2 * MAX as usize];
+    dwells::<4>(watch, SHALLOW, Arithmetic::PerturbedLong, MAX, &mut orbit).unwrap_or_default()
+}
+
+/// At a width of 1e-100, where most iterations are jumped over.
+#[inline(never)]
+pub(super) fn jumping(watch: &mut Watch<'_>) -> Tally {
+    let mut orbit = [OrbitPoint::default(); 1000];
+    dwells::<12>(watch, PERIOD_95, Arithmetic::Perturbed, 1000, &mut orbit).unwrap_or_default()
+}
+
+/// The reference orbit in 12 limbs.
+#[inline(never)]
+pub(super) fn reference(watch: &mut Watch<'_>) -> Tally {
+    let mut orbit = [OrbitPoint::default(); 200];
+    let [re, im, width] = PERIOD_95;
+    let Ok(view) = DeepView::<12>::parse(re, im, width, Size::new(64, 64)) else { return Tally::default() };
+    watch.time(|| {
+        let set = DeepMandelbrot::with_arithmetic(black_box(view), 200, Arithmetic::Perturbed, &mut orbit);
+        set.map_or(Tally::default(), |set| Tally {
+            checksum: set.dwell_at(11, 7).count,
+            units: set.reference_len() as u32,
+        })
+    })
+}
+
+/// Every pixel of the home view.
+fn pixels<F: Field>(
+    watch: &mut Watch<'_>,
+    make: impl Fn(Mandelbrot) -> F,
+    bits: impl Fn(F::Value) -> u32,
+) -> Tally {
+    let size = Size::new(30, 25);
+    let Ok(set) = View::home(size).and_then(|view| Mandelbrot::new(view, 100)) else {
+        return Tally::default();
+    };
+    let field = make(set);
+    watch.time(|| {
+        let mut tally = Tally::default();
+        for value in (0..size.height).flat_map(|y| field.row(y, 0..size.width)) {
+            tally.units += 1;
+            tally.checksum = tally.checksum.rotate_left(1) ^ bits(value);
+        }
+        tally
+    })
+}
+
+#[inline(never)]
+pub(super) fn dwell(watch: &mut Watch<'_>) -> Tally {
+    pixels(watch, |set| set, |dwell| dwell.count)
+}
+
+#[inline(never)]
+pub(super) fn smooth(watch: &mut Watch<'_>) -> Tally {
+    pixels(watch, Smooth, |dwell| dwell.dwell.to_bits())
+}
+
+#[inline(never)]
+pub(super) fn distance(watch: &mut Watch<'_>) -> Tally {
+    pixels(watch, Distance, |distance| distance.map_or(0, |d| d.to_bits() as u32))
+}
+
+#[inline(never)]
+pub(super) fn period(watch: &mut Watch<'_>) -> Tally {
+    pixels(watch, Interior, |period| period.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_loop_does_what_it_says() {
+        let run = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::Blind, 1));
+        let words = [run(word64), run(word128), run(perturbed), run(perturbed_long)];
+        assert!(words.iter().all(|tally| tally.units.abs_diff(words[0].units) < 99), "{words:?}");
+        assert!(words[0].units > 32 * 500, "{words:?}");
+        assert!(run(jumping).units > 32 * 600);
+        assert_eq!(run(reference).units, 200);
+        assert_eq!(run(dwell).units, 750);
+    }
+}

@@ -1,0 +1,116 @@
+//! Orbits in 32-bit words, and what the pictures made of them have in common.
+
+use core::ops::Range;
+
+use super::block::Block;
+use super::dwell::{FRACTION, Fine, Step, Word};
+use super::escape_time::{Ending, EscapeTime, Steps, follow, period};
+use super::period::{MAX_PERIOD, Period};
+use super::view::Line;
+use super::{Complex, Dwell, Julia, Mandelbrot};
+use crate::Error;
+use crate::num::Wide;
+
+/// The orbit of a point: where it starts, and the constant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Orbit {
+    pub(super) z: Word,
+    pub(super) c: Word,
+}
+
+impl Steps for Orbit {
+    #[inline]
+    fn step(&mut self) {
+        self.z = Fine::step(self.z, self.c);
+    }
+
+    #[inline]
+    fn z(&self) -> Block {
+        block(self.z)
+    }
+
+    fn c(&self) -> Block {
+        block(self.c)
+    }
+
+    fn is_near(&self, other: &Self) -> bool {
+        const NEAR: u32 = 1 << 9; // 2^-20
+        self.z.0.abs_diff(other.z.0) < NEAR && self.z.1.abs_diff(other.z.1) < NEAR
+    }
+}
+
+fn block((x, y): Word) -> Block {
+    Block::<i32>::new(i64::from(x), i64::from(y), -(FRACTION as i32))
+}
+
+/// A point beyond 2 is no word: 20 fractional bits, as many of them as a block holds.
+fn beyond(z: Complex<Wide>, c: Complex<Wide>, gain: Block) -> Ending {
+    let block = |v: Complex<Wide>| Block::<i32>::new(v.re.to_bits() >> 28, v.im.to_bits() >> 28, -20);
+    Ending { steps: 0, z: block(z), c: block(c), derivative: Block::<i32>::ONE, gain }
+}
+
+macro_rules! escape_time {
+    ($($picture:ty, gain: $gain:ident;)*) => {$(
+        impl EscapeTime for $picture {
+            type Point = Complex<Wide>;
+            type Line = Line;
+
+            fn line(&self, row: u32, columns: Range<u32>) -> Line {
+                self.view().line(row, columns)
+            }
+
+            fn max_dwell(&self) -> u32 {
+                self.max_dwell()
+            }
+
+            #[inline]
+            fn dwell_at(&self, point: Complex<Wide>) -> Dwell {
+                self.dwell_at(point)
+            }
+
+            fn ending(&self, point: Complex<Wide>) -> Option<Ending> {
+                ending::<false>(self.dwell_at(point), self.orbit_of(point), (point, self.constant_of(point)), Block::<i32>::$gain)
+            }
+
+            fn ending_with_derivative(&self, point: Complex<Wide>) -> Option<Ending> {
+                ending::<true>(self.dwell_at(point), self.orbit_of(point), (point, self.constant_of(point)), Block::<i32>::$gain)
+            }
+
+            fn period_at(&self, point: Complex<Wide>) -> Period {
+                let max = self.max_dwell();
+                let inside = self.orbit_of(point).filter(|_| self.dwell_at(point).is_inside());
+                Period(inside.map_or(0, |orbit| period(orbit, max, MAX_PERIOD)))
+            }
+
+            fn pitch(&self) -> (u32, i32) {
+                // at least 2^19 units
+                let pitch = Block::<i32>::new(self.view().pitch().to_bits(), 0, -(Wide::FRAC_NBITS as i32));
+                (pitch.re.unsigned_abs(), pitch.exponent)
+            }
+
+            fn mirror_image(&self, row: u32) -> Option<u32> {
+                // conjugate points have the same dwell where the constant is conjugate too
+                self.view().mirror_image(row).filter(|_| Block::<i32>::$gain == Block::<i32>::ONE)
+            }
+
+            fn panned(self, right: i32, up: i32) -> Result<Self, Error> {
+                let view = self.view().pan(right, up)?;
+                Ok(self.through(view))
+            }
+        }
+    )*};
+}
+
+escape_time! { Mandelbrot, gain: ONE; Julia, gain: ZERO; }
+
+fn ending<const DERIVATIVE: bool>(
+    dwell: Dwell,
+    orbit: Option<Orbit>,
+    (z, c): (Complex<Wide>, Complex<Wide>),
+    gain: Block,
+) -> Option<Ending> {
+    if dwell.is_inside() {
+        return None;
+    }
+    Some(orbit.map_or_else(|| beyond(z, c, gain), |orbit| follow::<DERIVATIVE, _>(orbit, dwell.count, gain)))
+}
