@@ -8,6 +8,8 @@ mod escape;
 mod fif;
 mod ifs;
 mod num;
+mod picture;
+mod shade;
 mod trace;
 
 pub(crate) use fif::figure_1;
@@ -128,17 +130,18 @@ pub static ALL: &[Kernel] = &[
     beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
     beside("fif", "call at any abscissa", fif::any, fif::any_f32, fif::any_f64),
     beside("fif integral", "call of 24 levels", fif::integral, fif::integral_f32, fif::integral_f64),
-    roomy(alone("ray", "ray that hits or misses", trace::rays)),
-    roomy(beside("box test", "box", trace::box_fixed, trace::box_f32, trace::box_f64)),
-    roomy(alone("walk", "box that a walk tests", trace::boxes)),
-    roomy(beside("normal", "unit normal of a hit", trace::normals, trace::normals_f32, trace::normals_f64)),
-    roomy(alone("shade mirror", "call", trace::mirror_shading)),
-    roomy(alone("shade phong", "call", trace::phong)),
+    roomy(beside("ray", "ray that hits or misses", trace::rays, trace::rays_float::<f32>, trace::rays_float::<f64>)),
+    roomy(beside("box test", "box", trace::box_fixed, trace::box_float::<f32>, trace::box_float::<f64>)),
+    roomy(beside("walk", "box that a walk tests", trace::walks, trace::walks_float::<f32>, trace::walks_float::<f64>)),
+    roomy(beside("normal", "unit normal of a hit", shade::normals, shade::normals_float::<f32>, shade::normals_float::<f64>)),
+    roomy(beside("shade mirror", "call", shade::mirror, shade::mirror_float::<f32>, shade::mirror_float::<f64>)),
+    roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
+    roomy(beside("mirror picture", "pixel; floats: the paper's way", picture::core, picture::paper::<f32>, picture::paper::<f64>)),
 ];
 
 /// A result in double precision, for a checksum.
 #[inline(always)]
-fn fold(v: f64) -> u32 {
+pub(crate) fn fold(v: f64) -> u32 {
     let bits = v.to_bits();
     bits as u32 ^ (bits >> 32) as u32
 }
