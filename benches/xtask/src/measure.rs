@@ -10,6 +10,7 @@ use crate::emulator;
 use crate::images::{self, Images};
 use crate::lines::{self, Line, SceneLine};
 use crate::report::{FlashRow, KernelRow, Measured, SceneRow};
+use crate::stack;
 use crate::targets::{Machine, Target};
 use crate::toolchain::Toolchain;
 
@@ -43,11 +44,18 @@ pub(crate) fn measure(
     }
     for (name, path) in images.flash() {
         let sizes = elf::sizes(path)?;
+        let stack = if target.thumb { Some(stack::bound(path)) } else { None };
+        if let Some(Err(error)) = &stack {
+            measured
+                .problems
+                .push(format!("no bound on the stack of {name} on {}: {error:#}", target.triple));
+        }
         measured.flash.push(FlashRow {
             name: name.to_owned(),
             bytes: sizes.flash,
             data: sizes.data,
             bss: sizes.bss,
+            stack: stack.and_then(Result::ok),
         });
     }
     if let Some(directory) = frames {

@@ -38,6 +38,7 @@ fn folded<F: Float>(v: rivals::Vector<F>) -> u32 {
     v.into_iter().fold(0, |sum: u32, v| sum.rotate_left(5) ^ v.fold())
 }
 
+#[inline(always)]
 fn shaded(watch: &mut Watch<'_>, material: Material) -> Tally {
     let Ok(light) = Light::new(Vec3::new(Real::NEG_ONE, Real::from_num(-2), Real::from_num(3))) else {
         return Tally::default();
