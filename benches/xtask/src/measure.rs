@@ -44,7 +44,7 @@ pub(crate) fn measure(
     }
     for (name, path) in images.flash() {
         let sizes = elf::sizes(path)?;
-        let stack = if target.thumb { Some(stack::bound(path)) } else { None };
+        let stack = if target.bounded { Some(stack::bound(path)) } else { None };
         if let Some(Err(error)) = &stack {
             measured
                 .problems

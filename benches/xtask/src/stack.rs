@@ -34,7 +34,11 @@ pub(crate) fn bound(path: &Path) -> Result<u64> {
         match name.split('.').next() {
             Some("$d") => drop(constants.insert(address, true)),
             Some("$t") => drop(constants.insert(address, false)),
-            _ if symbol.kind() == SymbolKind::Text => drop(names.insert(address, name.to_owned())),
+            // of several names the one with a size: what follows it is padding
+            _ if symbol.kind() == SymbolKind::Text => {
+                let known: &mut (u64, String) = names.entry(address).or_default();
+                *known = (known.0.max(symbol.size()), name.to_owned());
+            }
             _ => {}
         }
     }
@@ -42,8 +46,9 @@ pub(crate) fn bound(path: &Path) -> Result<u64> {
     for section in file.sections().filter(|section| section.kind() == SectionKind::Text) {
         let (start, data) = (section.address(), section.data()?);
         let end = start + data.len() as u64;
-        for (&address, name) in names.range(start..end) {
+        for (&address, (size, name)) in names.range(start..end) {
             let next = names.range(address + 1..end).next().map_or(end, |(next, _)| *next);
+            let next = if *size > 0 { next.min(address + size) } else { next };
             let halfword = |at: u64| {
                 let known = constants.range(..=at).next_back().filter(|(from, _)| **from >= start);
                 let i = (at - start) as usize;
@@ -177,12 +182,16 @@ fn deepest(
     address: u64,
     known: &mut BTreeMap<u64, Option<u64>>,
 ) -> Result<u64> {
+    // hand-written code also branches into the middle of functions
+    let (&address, function) = functions
+        .range(..=address)
+        .next_back()
+        .with_context(|| format!("there is no function at {address:#x}"))?;
     match known.get(&address) {
         Some(Some(depth)) => return Ok(*depth),
-        Some(None) => bail!("{} calls itself", functions[&address].name),
+        Some(None) => bail!("{} calls itself", function.name),
         None => {}
     }
-    let function = functions.get(&address).with_context(|| format!("no function begins at {address:#x}"))?;
     if let Some(what) = &function.unbounded {
         bail!("{} goes where only the run decides ({what})", function.name);
     }
