@@ -42,6 +42,9 @@ pub(crate) fn measure(
             measured.take(&machine, line);
         }
     }
+    if !measured.refused {
+        measured.problems.push(format!("{} did not refuse what is too large for it", target.triple));
+    }
     for (name, path) in images.flash() {
         let sizes = elf::sizes(path)?;
         let stack = if target.bounded { Some(stack::bound(path)) } else { None };
@@ -78,6 +81,12 @@ impl Measured {
             Line::End => {}
             Line::Failure { name, size, why } => {
                 self.problems.push(format!("scene {name} {size} on {}: {why}", machine.name));
+            }
+            Line::Refusal { needed, free } => {
+                self.refused = true;
+                if needed <= free {
+                    self.problems.push(format!("{} draws what is larger than its RAM", machine.name));
+                }
             }
             Line::Scene(scene) if first => self.scenes.push(SceneRow::new(self.target, scene)),
             Line::Scene(scene) => self.add_scene(machine, &scene),

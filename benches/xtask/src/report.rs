@@ -25,6 +25,8 @@ pub(crate) struct Measured {
     pub(crate) scenes: Vec<SceneRow>,
     pub(crate) kernels: Vec<KernelRow>,
     pub(crate) flash: Vec<FlashRow>,
+    /// Whether it was asked for a scene that is too large for it.
+    pub(crate) refused: bool,
     pub(crate) problems: Vec<String>,
 }
 
@@ -108,6 +110,7 @@ impl Measured {
             scenes: Vec::new(),
             kernels: Vec::new(),
             flash: Vec::new(),
+            refused: false,
             problems: Vec::new(),
         }
     }
