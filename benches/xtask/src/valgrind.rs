@@ -48,7 +48,7 @@ fn build() -> Result<PathBuf> {
         .context("cargo cannot be started")?;
     let lines = String::from_utf8_lossy(&output.stdout).into_owned();
     let messages = lines.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
-    let built = messages.filter_map(|message| message["executable"].as_str().map(PathBuf::from)).last();
+    let built = messages.filter_map(|message| message["executable"].as_str().map(PathBuf::from)).next_back();
     built.with_context(|| {
         format!("the loops for valgrind do not build:\n{}", String::from_utf8_lossy(&output.stderr))
     })
