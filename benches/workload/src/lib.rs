@@ -17,6 +17,7 @@ mod float;
 mod inputs;
 pub mod kernels;
 mod machine;
+mod rivals;
 pub mod scenes;
 pub mod sink;
 mod surface;

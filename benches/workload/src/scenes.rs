@@ -103,6 +103,10 @@ pub static ALL: &[Scene] = &[
     mono("fif mirror of depth 6", fif_mirror::<BinaryColor, 6, { Pyramid::cells(2, 6) }>),
 ];
 
+/// A mirror whose pyramid is larger than the RAM of any of the targets: each must refuse it.
+pub static TOO_LARGE: Scene =
+    roomy(mono("fif mirror of depth 13", fif_mirror::<BinaryColor, 13, { Pyramid::cells(2, 13) }>));
+
 fn blank<C: Colour>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     let blank = Waves::<C> { size: stage.size(), tone: |_, _| C::from(BinaryColor::Off) };
     stage.show(&blank, size_of_val(&blank))
@@ -217,6 +221,14 @@ fn fif_mirror<C: Colour + Ink, const DEPTH: u32, const CELLS: usize>(
     stage: &mut Stage<'_>,
 ) -> Result<(), Failure> {
     stage.claim(size_of::<[Cell; CELLS]>() + size_of::<RayCaster<'_>>() + size_of::<Fif<2, 2>>())?;
+    fif_mirror_with_room::<C, DEPTH, CELLS>(stage)
+}
+
+/// Not inlined: the cells are on this function's stack, and the claim comes before.
+#[inline(never)]
+fn fif_mirror_with_room<C: Colour + Ink, const DEPTH: u32, const CELLS: usize>(
+    stage: &mut Stage<'_>,
+) -> Result<(), Failure> {
     let mut memory = [Cell::ZERO; CELLS];
     let g = g_integral()?;
     let pyramid = Pyramid::new(&g, DEPTH, &mut memory)?;
@@ -241,5 +253,32 @@ impl<C: Colour> Drawable for Waves<C> {
             target.fill_contiguous(&row, (0..self.size.width).map(|x| (self.tone)(x, y)))?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Blind;
+
+    /// With as much RAM as the largest target.
+    struct Board;
+
+    impl Machine for Board {
+        fn instructions(&mut self) -> u32 {
+            0
+        }
+
+        fn ram_free(&mut self) -> usize {
+            128 << 10
+        }
+    }
+
+    #[test]
+    fn a_scene_too_large_for_a_board_is_refused_there_and_drawn_here() {
+        let cells = 16 * ((1 << 14) - 1);
+        let refused = TOO_LARGE.run(&mut Board).unwrap_err();
+        assert!(matches!(refused, Failure::Ram { needed, .. } if needed > cells), "{refused}");
+        assert!(TOO_LARGE.run(&mut Blind).unwrap().ram_bytes > cells);
     }
 }

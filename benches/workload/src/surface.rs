@@ -6,12 +6,16 @@ use attractor::num::{Real, Scaling, Vec3, Wide};
 use attractor::trace::{Camera, HeightField, Material, RayCaster};
 use embedded_graphics::geometry::Size;
 
-/// The paper's `G`.
-pub(crate) fn g_integral() -> Result<Fif<2, 2>, Error> {
+/// The paper's `g`.
+pub(crate) fn g() -> Result<Fif<2, 1>, Error> {
     const STEEP: Scaling = Scaling::lit("0.85");
     let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
-    let g = Fif::<2, 1>::interpolating(&knots, &[STEEP, -STEEP])?;
-    g.integral::<2>(Wide::ZERO)
+    Fif::interpolating(&knots, &[STEEP, -STEEP])
+}
+
+/// The paper's `G`.
+pub(crate) fn g_integral() -> Result<Fif<2, 2>, Error> {
+    g()?.integral::<2>(Wide::ZERO)
 }
 
 /// From the upper left front; the surface fills a third of a square picture.

@@ -1,5 +1,6 @@
 //! Runs an image in QEMU, with a time limit.
 
+use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -12,9 +13,13 @@ use crate::targets::{Machine, Target};
 
 /// Fails with the names of the packages when an emulator is missing, before anything is built.
 pub(crate) fn find_all(targets: &[&Target]) -> Result<()> {
+    look_for(targets, &path())
+}
+
+fn look_for(targets: &[&Target], path: &OsStr) -> Result<()> {
     let machines = targets.iter().flat_map(|target| [Some(target.machine), target.counting]).flatten();
     let mut missing: Vec<_> =
-        machines.filter(|m| find(m.qemu).is_none()).map(|m| (m.qemu, m.package)).collect();
+        machines.filter(|m| find_in(path, m.qemu).is_none()).map(|m| (m.qemu, m.package)).collect();
     missing.sort_unstable();
     missing.dedup();
     if missing.is_empty() {
@@ -28,8 +33,17 @@ pub(crate) fn find_all(targets: &[&Target]) -> Result<()> {
     )
 }
 
-fn find(program: &str) -> Option<PathBuf> {
-    std::env::split_paths(&std::env::var_os("PATH")?).map(|dir| dir.join(program)).find(|path| path.is_file())
+/// Where a program is.
+pub(crate) fn find(program: &str) -> Option<PathBuf> {
+    find_in(&path(), program)
+}
+
+fn path() -> std::ffi::OsString {
+    std::env::var_os("PATH").unwrap_or_default()
+}
+
+fn find_in(path: &OsStr, program: &str) -> Option<PathBuf> {
+    std::env::split_paths(path).map(|dir| dir.join(program)).find(|path| path.is_file())
 }
 
 /// Runs `image` on `machine` and returns what it printed. An image that fails or does not end in time is an error.
@@ -97,8 +111,45 @@ pub(crate) fn run(
         None => bail!(
             "{name} on {} did not end within {} s and was stopped\n    {}",
             machine.name,
-            limit.as_secs(),
+            limit.as_secs_f64(),
             tail()
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::targets;
+
+    #[test]
+    fn missing_emulators_are_named_with_their_packages() {
+        let all: Vec<_> = targets::ALL.iter().collect();
+        let refused = look_for(&all, OsStr::new("/nowhere")).unwrap_err().to_string();
+        assert!(refused.contains("qemu-system-arm, qemu-system-riscv32 not found"), "{refused}");
+        assert!(refused.contains("apt-get install qemu-system-arm qemu-system-misc"), "{refused}");
+    }
+
+    /// A shell in place of the emulator, which runs `script`.
+    fn ran(script: &'static str) -> Result<String> {
+        let arguments: &'static [&'static str] = Vec::leak(vec!["-c", script]);
+        let machine = Machine { name: "shell", qemu: "sh", package: "dash", arguments };
+        run(&machine, Path::new("image"), &[], &[], Path::new("."), Duration::from_millis(500))
+    }
+
+    #[test]
+    fn an_image_that_hangs_is_stopped_and_reported() {
+        let start = Instant::now();
+        let stopped = ran("echo started; exec sleep 60").unwrap_err().to_string();
+        assert!(start.elapsed() < Duration::from_secs(30), "the image was not stopped");
+        assert!(stopped.contains("image on shell did not end within 0.5 s and was stopped"), "{stopped}");
+        assert!(stopped.contains("started"), "{stopped}");
+    }
+
+    #[test]
+    fn an_image_that_fails_is_an_error_with_what_it_said_last() {
+        assert_eq!(ran("echo done").unwrap(), "done\n");
+        let failed = ran("echo why >&2; exit 3").unwrap_err().to_string();
+        assert!(failed.contains("exit status: 3") && failed.contains("why"), "{failed}");
     }
 }

@@ -1,9 +1,9 @@
 //! Counts the instructions of a kernel's loops by kind: what `budgets.toml` asks for where a kernel loses against floating point.
 //!
-//! QEMU disassembles and logs every instruction (`-singlestep -d in_asm,exec,nochain`). The image is run once with one run of the
-//! loop and once with two; the difference is the loop.
+//! QEMU disassembles and logs every block of instructions without a branch (`-d in_asm,exec,nochain`). The image is run once with one run
+//! of the loop and once with two; the difference is the loop.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
@@ -12,6 +12,9 @@ use attractor_workload::kernels;
 
 use crate::targets;
 use crate::{Options, emulator, images, toolchain};
+
+/// QEMU writes some 20 bytes an instruction: longer loops are not logged.
+const LONGEST: u64 = 20_000_000;
 
 /// Prints the histogram of each format's loop.
 pub(crate) fn run(options: &Options, name: &str) -> Result<bool> {
@@ -29,64 +32,88 @@ pub(crate) fn run(options: &Options, name: &str) -> Result<bool> {
             if work.is_none() {
                 continue;
             }
-            let (units, once) = histogram(target, images.path("kernels")?, options, &index, format, 1)?;
-            let (_, mut twice) = histogram(target, images.path("kernels")?, options, &index, format, 2)?;
+            let loops = Loop { target, image: images.path("kernels")?, options, index: &index, format };
+            let (units, instructions) = loops.run(1, &[])?;
+            if instructions > LONGEST {
+                println!(
+                    "{name} {format}: {instructions} instructions are too many to log, at most {LONGEST}"
+                );
+                continue;
+            }
+            let once = loops.histogram(1)?;
+            let mut twice = loops.histogram(2)?;
             for (instruction, count) in once {
                 *twice.entry(instruction).or_default() -= count;
             }
-            print(
-                &format!("{name} {format}, instructions a {}", kernel.unit),
-                &twice,
-                f64::from(units.max(1)),
-            );
+            print(&format!("{name} {format}, instructions a {}", kernel.unit), &twice, units.max(1) as f64);
         }
     }
     Ok(true)
 }
 
-/// The units of one run, and how often each mnemonic was executed.
-fn histogram(
-    target: &targets::Target,
-    image: &Path,
-    options: &Options,
-    index: &str,
-    format: &str,
-    times: u32,
-) -> Result<(u32, BTreeMap<String, i64>)> {
-    let log = std::env::temp_dir().join(format!("attractor-{}.log", std::process::id()));
-    let machine = target.counting.unwrap_or(target.machine);
-    let switches = ["-singlestep", "-d", "in_asm,exec,nochain", "-D", &log.display().to_string()];
-    let times = times.to_string();
-    let done =
-        emulator::run(&machine, image, &[index, format, &times], &switches, Path::new("."), options.limit());
-    let text = std::fs::read_to_string(&log).context("QEMU wrote no log");
-    // the log is of no use whatever happened
-    let _ = std::fs::remove_file(&log);
-    let units = done?.trim().parse().context("the image did not say its units")?;
-    Ok((units, count(&text?)))
+/// One loop of the image.
+struct Loop<'a> {
+    target: &'a targets::Target,
+    image: &'a Path,
+    options: &'a Options,
+    index: &'a str,
+    format: &'a str,
 }
 
-/// Reads QEMU's log: `0x00000400:  b580  push {r7, lr}` where an instruction is translated, `Trace 0: 0x7f.. [../00000400/..]` where
-/// it is executed.
+impl Loop<'_> {
+    /// The units of one of `times` runs, and the instructions of all.
+    fn run(&self, times: u32, switches: &[&str]) -> Result<(u64, u64)> {
+        let machine = self.target.counting.unwrap_or(self.target.machine);
+        let arguments = [self.index, self.format, &times.to_string()];
+        let said =
+            emulator::run(&machine, self.image, &arguments, switches, Path::new("."), self.options.limit())?;
+        let numbers = said.trim().split_once(' ').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+        numbers.with_context(|| format!("the image said {said:?} instead of its units and instructions"))
+    }
+
+    /// How often each mnemonic was executed.
+    fn histogram(&self, times: u32) -> Result<BTreeMap<String, i64>> {
+        let log = std::env::temp_dir().join(format!("attractor-{}.log", std::process::id()));
+        let switches = ["-d", "in_asm,exec,nochain", "-D", &log.display().to_string()];
+        let done = self.run(times, &switches);
+        let text = std::fs::read_to_string(&log).context("QEMU wrote no log");
+        // the log is of no use whatever happened
+        let _ = std::fs::remove_file(&log);
+        done?;
+        Ok(count(&text?))
+    }
+}
+
+/// Reads QEMU's log: `IN:` and lines like `0x00000400:  b580  push {r7, lr}` where a block is translated, `Trace 0: 0x7f.. [..]` where it is
+/// executed; the number tells the blocks apart.
 fn count(log: &str) -> BTreeMap<String, i64> {
-    let mut mnemonics = BTreeMap::<u64, String>::new();
     let mut counts = BTreeMap::new();
+    let mut finish = |(mnemonics, times): (Vec<&str>, i64)| {
+        for mnemonic in mnemonics {
+            *counts.entry(mnemonic.to_owned()).or_default() += times;
+        }
+    };
+    let mut blocks = HashMap::<&str, (Vec<&str>, i64)>::new();
+    let mut translated = Vec::new();
     for line in log.lines() {
         if let Some(rest) = line.strip_prefix("Trace ") {
-            let address = rest.split(['[', ']']).nth(1).and_then(|fields| fields.split('/').nth(1));
-            if let Some(address) = address.and_then(|text| u64::from_str_radix(text, 16).ok()) {
-                let mnemonic = mnemonics.get(&address).cloned().unwrap_or_else(|| "?".to_owned());
-                *counts.entry(mnemonic).or_default() += 1;
+            let block = rest.split_whitespace().nth(1).unwrap_or_default();
+            // a number that comes again with a translation before it belongs to another block
+            if !translated.is_empty() {
+                if let Some(replaced) = blocks.insert(block, (std::mem::take(&mut translated), 0)) {
+                    finish(replaced);
+                }
             }
-        } else if let Some((address, rest)) = line.strip_prefix("0x").and_then(|rest| rest.split_once(':')) {
+            blocks.entry(block).or_default().1 += 1;
+        } else if line.starts_with("IN:") {
+            translated.clear();
+        } else if let Some((_, rest)) = line.strip_prefix("0x").and_then(|rest| rest.split_once(':')) {
             let is_code =
                 |word: &&str| word.len().is_multiple_of(4) && word.chars().all(|c| c.is_ascii_hexdigit());
-            let mnemonic = rest.split_whitespace().find(|word| !is_code(word));
-            if let (Ok(address), Some(mnemonic)) = (u64::from_str_radix(address, 16), mnemonic) {
-                mnemonics.insert(address, mnemonic.to_owned());
-            }
+            translated.extend(rest.split_whitespace().find(|word| !is_code(word)));
         }
     }
+    blocks.into_values().for_each(finish);
     counts
 }
 
@@ -145,9 +172,11 @@ mod tests {
 
     #[test]
     fn a_log_is_counted_by_mnemonic() {
-        let log = "----------------\nIN: \n0x00000400:  fb01 f002  mul      r0, r1, r2\n\n\
-                   Trace 0: 0x7f00 [00000000/00000400/00000110/ff000000] \nTrace 0: 0x7f00 [00000000/00000400/00000110/ff000000] \n";
-        assert_eq!(count(log), BTreeMap::from([("mul".to_owned(), 2)]));
+        let log = "----------------\nIN: \n0x00000400:  fb01 f002  mul      r0, r1, r2\n0x00000404:  4770       bx       lr\n\n\
+                   Trace 0: 0x7f00 [00000000/00000400/00000110/ff000000] \nTrace 0: 0x7f00 [00000000/00000400/00000110/ff000000] \n\
+                   IN: \n0x00000500:  b580  push     {r7, lr}\n\nTrace 0: 0x7f00 [00000000/00000500/00000110/ff000000] \n";
+        let expected = [("bx", 2), ("mul", 2), ("push", 1)].map(|(name, count)| (name.to_owned(), count));
+        assert_eq!(count(log), BTreeMap::from(expected));
     }
 
     #[test]

@@ -9,7 +9,16 @@ use serde::Deserialize;
 pub(crate) enum Line {
     Scene(SceneLine),
     Kernel(KernelLine),
-    Failure { name: String, size: String, why: String },
+    Failure {
+        name: String,
+        size: String,
+        why: String,
+    },
+    /// The scene that is too large for the machine: bytes that it needs and has, none where it was drawn all the same.
+    Refusal {
+        needed: u64,
+        free: u64,
+    },
     End,
 }
 

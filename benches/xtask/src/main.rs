@@ -10,8 +10,10 @@ mod kinds;
 mod lines;
 mod measure;
 mod report;
+mod stack;
 mod targets;
 mod toolchain;
+mod valgrind;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -107,6 +109,9 @@ fn target(options: &Options) -> Result<bool> {
         report.targets.push(measure::measure(target, &compiler, options.limit(), frames)?);
     }
     host::compare(&mut report);
+    if let Err(error) = valgrind::count(&mut report) {
+        eprintln!("no counts on the host: {error:#}");
+    }
     if options.bless {
         gate::bless(&report)?;
     }

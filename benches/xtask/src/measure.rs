@@ -10,6 +10,7 @@ use crate::emulator;
 use crate::images::{self, Images};
 use crate::lines::{self, Line, SceneLine};
 use crate::report::{FlashRow, KernelRow, Measured, SceneRow};
+use crate::stack;
 use crate::targets::{Machine, Target};
 use crate::toolchain::Toolchain;
 
@@ -41,13 +42,23 @@ pub(crate) fn measure(
             measured.take(&machine, line);
         }
     }
+    if !measured.refused {
+        measured.problems.push(format!("{} did not refuse what is too large for it", target.triple));
+    }
     for (name, path) in images.flash() {
         let sizes = elf::sizes(path)?;
+        let stack = if target.bounded { Some(stack::bound(path)) } else { None };
+        if let Some(Err(error)) = &stack {
+            measured
+                .problems
+                .push(format!("no bound on the stack of {name} on {}: {error:#}", target.triple));
+        }
         measured.flash.push(FlashRow {
             name: name.to_owned(),
             bytes: sizes.flash,
             data: sizes.data,
             bss: sizes.bss,
+            stack: stack.and_then(Result::ok),
         });
     }
     if let Some(directory) = frames {
@@ -70,6 +81,12 @@ impl Measured {
             Line::End => {}
             Line::Failure { name, size, why } => {
                 self.problems.push(format!("scene {name} {size} on {}: {why}", machine.name));
+            }
+            Line::Refusal { needed, free } => {
+                self.refused = true;
+                if needed <= free {
+                    self.problems.push(format!("{} draws what is larger than its RAM", machine.name));
+                }
             }
             Line::Scene(scene) if first => self.scenes.push(SceneRow::new(self.target, scene)),
             Line::Scene(scene) => self.add_scene(machine, &scene),

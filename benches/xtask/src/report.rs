@@ -25,6 +25,8 @@ pub(crate) struct Measured {
     pub(crate) scenes: Vec<SceneRow>,
     pub(crate) kernels: Vec<KernelRow>,
     pub(crate) flash: Vec<FlashRow>,
+    /// Whether it was asked for a scene that is too large for it.
+    pub(crate) refused: bool,
     pub(crate) problems: Vec<String>,
 }
 
@@ -48,6 +50,8 @@ pub(crate) struct KernelRow {
     pub(crate) fixed: Option<f64>,
     pub(crate) f32: Option<f64>,
     pub(crate) f64: Option<f64>,
+    /// Fixed point on the host, where valgrind counts it.
+    pub(crate) host: Option<f64>,
     pub(crate) checksum: String,
 }
 
@@ -58,6 +62,8 @@ pub(crate) struct FlashRow {
     pub(crate) bytes: u64,
     pub(crate) data: u64,
     pub(crate) bss: u64,
+    /// A bound on what it takes from its entry on, where there is one.
+    pub(crate) stack: Option<u64>,
 }
 
 impl SceneRow {
@@ -90,6 +96,7 @@ impl KernelRow {
             fixed: counted(Some(line.fixed.per_unit())),
             f32: counted(line.f32.map(|count| count.per_unit())),
             f64: counted(line.f64.map(|count| count.per_unit())),
+            host: None,
             checksum: line.fixed.checksum,
         }
     }
@@ -103,6 +110,7 @@ impl Measured {
             scenes: Vec::new(),
             kernels: Vec::new(),
             flash: Vec::new(),
+            refused: false,
             problems: Vec::new(),
         }
     }
@@ -210,18 +218,18 @@ impl Measured {
         print_table(&rows, 4);
 
         let count = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.2}"));
-        let mut rows = vec![["kernel", "unit", "fixed", "f32", "f64"].map(str::to_owned)];
+        let mut rows = vec![["kernel", "unit", "fixed", "f32", "f64", "host"].map(str::to_owned)];
         rows.extend(self.kernels.iter().map(|row| {
-            [row.name.clone(), row.unit.clone(), count(row.fixed), count(row.f32), count(row.f64)]
+            let [fixed, f32, f64, host] = [row.fixed, row.f32, row.f64, row.host].map(count);
+            [row.name.clone(), row.unit.clone(), fixed, f32, f64, host]
         }));
         print_table(&rows, 2);
 
-        let mut rows = vec![["image", "flash", ".data", ".bss"].map(str::to_owned)];
-        rows.extend(
-            self.flash
-                .iter()
-                .map(|row| [row.name.clone(), grouped(row.bytes), grouped(row.data), grouped(row.bss)]),
-        );
+        let mut rows = vec![["image", "flash", ".data", ".bss", "stack"].map(str::to_owned)];
+        rows.extend(self.flash.iter().map(|row| {
+            let [bytes, data, bss] = [row.bytes, row.data, row.bss].map(grouped);
+            [row.name.clone(), bytes, data, bss, number(row.stack)]
+        }));
         print_table(&rows, 1);
     }
 }

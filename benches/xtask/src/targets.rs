@@ -23,6 +23,8 @@ pub(crate) struct Target {
     pub(crate) counting: Option<Machine>,
     /// Whether the image leaves out scenes that do not fit 16 KiB of RAM.
     pub(crate) small: bool,
+    /// Whether `stack` can bound its images: a Cortex-M0 moves the stack pointer and jumps by registers.
+    pub(crate) bounded: bool,
     /// `-C` options for Debian's compiler; rustup's takes them from benches/cortex-m/.cargo/config.toml.
     pub(crate) codegen: &'static [&'static str],
 }
@@ -42,6 +44,7 @@ pub(crate) const ALL: &[Target] = &[
         machine: NETDUINO,
         counting: None,
         small: false,
+        bounded: true,
         codegen: &["target-cpu=cortex-m4"],
     },
     Target {
@@ -54,6 +57,7 @@ pub(crate) const ALL: &[Target] = &[
         },
         counting: Some(NETDUINO),
         small: true,
+        bounded: false,
         codegen: &[],
     },
     Target {
@@ -66,6 +70,7 @@ pub(crate) const ALL: &[Target] = &[
         },
         counting: None,
         small: false,
+        bounded: false,
         codegen: &[],
     },
 ];

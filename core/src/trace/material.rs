@@ -84,7 +84,7 @@ impl Material {
     }
 
     /// What there is to see along a direction of any length below `2^31`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn answer(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light) -> Answer {
         let along = dot(n, d);
         let lit = || {

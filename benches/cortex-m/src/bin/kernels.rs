@@ -1,7 +1,7 @@
 //! Runs every kernel of the table and prints a line of JSON for each.
 //!
-//! Arguments: `INDEX FORMAT TIMES` runs one loop of the table's row (`fixed`, `f32` or `f64`) so many times and prints its units, for a
-//! histogram of its instructions.
+//! Arguments: `INDEX FORMAT TIMES` runs one loop of the table's row (`fixed`, `f32` or `f64`) so many times and prints its units and
+//! instructions, for a histogram of these.
 #![no_std]
 #![no_main]
 
@@ -46,7 +46,8 @@ fn main() -> ! {
         _ => times = argument.parse::<u32>().ok(),
     });
     if let (Some(work), Some(times)) = (work, times) {
-        println!("{}", work(&mut Watch::new(&mut board, times)).units);
+        let mut watch = Watch::new(&mut board, times);
+        println!("{} {}", work(&mut watch).units, watch.spent());
         process::exit(0);
     }
 

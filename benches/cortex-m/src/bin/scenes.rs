@@ -5,7 +5,7 @@
 #![no_main]
 
 use attractor_cortex_m::semihosting::{fs::File, println, process};
-use attractor_cortex_m::workload::scenes;
+use attractor_cortex_m::workload::{scenes, sink::Failure};
 use attractor_cortex_m::{Board, arguments, entry};
 
 attractor_cortex_m::report_panics!();
@@ -41,6 +41,16 @@ fn main() -> ! {
             ),
         }
         board.stream(None, 0);
+    }
+    match scenes::TOO_LARGE.run(&mut board) {
+        Ok(_) => println!("{{\"line\":\"refusal\",\"needed\":0,\"free\":0}}"),
+        Err(Failure::Ram { needed, free }) => {
+            println!("{{\"line\":\"refusal\",\"needed\":{needed},\"free\":{free}}}");
+        }
+        Err(failure) => println!(
+            "{{\"line\":\"failure\",\"name\":\"{}\",\"size\":\"too large\",\"why\":\"{failure}\"}}",
+            scenes::TOO_LARGE.name
+        ),
     }
     println!("{{\"line\":\"end\"}}");
     process::exit(0)

@@ -31,6 +31,17 @@ pub(super) fn any(watch: &mut Watch<'_>) -> Tally {
     watch.over(&PLACES, |u| f.at(Wide::from_bits(i64::from(u) << 17)).to_bits() as u32)
 }
 
+/// The maps of the integral from those of the function.
+#[inline(never)]
+pub(super) fn integrate(watch: &mut Watch<'_>) -> Tally {
+    let Ok(f) = figure_1() else { return Tally::default() };
+    watch.time(|| {
+        let integral = core::hint::black_box(&f).integral::<2>(Wide::ZERO);
+        let (low, high) = integral.map(|f| f.range()).unwrap_or_default();
+        Tally { checksum: low.to_bits().rotate_left(16) as u32 ^ high.to_bits() as u32, units: 1 }
+    })
+}
+
 #[inline(never)]
 pub(super) fn integral(watch: &mut Watch<'_>) -> Tally {
     let integral = figure_1().and_then(|f| f.integral::<2>(Wide::ZERO)).ok().and_then(|f| f.dyadic::<16>());
@@ -102,6 +113,19 @@ macro_rules! walks {
 
 walks!(dyadic_f32, any_f32, integral_f32, f32, mul_add, f32::to_bits, 24);
 walks!(dyadic_f64, any_f64, integral_f64, f64, |a: f64, b: f64, c: f64| a * b + c, fold, 53);
+
+/// The same counted by the level. In every format a walk ends where the 24 digits of its abscissa do.
+macro_rules! by_level {
+    ($($name:ident of $call:ident),*) => {$(
+        pub(super) fn $name(watch: &mut Watch<'_>) -> Tally {
+            let tally = $call(watch);
+            Tally { units: 24 * tally.units, ..tally }
+        }
+    )*};
+}
+
+by_level!(dyadic_level of dyadic, dyadic_level_f32 of dyadic_f32, dyadic_level_f64 of dyadic_f64);
+by_level!(any_level of any, any_level_f32 of any_f32, any_level_f64 of any_f64);
 
 #[cfg(test)]
 mod tests {

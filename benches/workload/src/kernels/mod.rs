@@ -10,6 +10,8 @@ mod fif;
 mod filled;
 mod ifs;
 mod num;
+mod picture;
+mod shade;
 mod trace;
 
 pub(crate) use fif::figure_1;
@@ -148,19 +150,23 @@ pub static ALL: &[Kernel] = &[
     alone("period", "pixel of the home view", deep::period),
     beside("chaos game", "point", ifs::fern_fixed, ifs::fern_f32, ifs::fern_f64),
     beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
+    beside("fif dyadic level", "level", fif::dyadic_level, fif::dyadic_level_f32, fif::dyadic_level_f64),
     beside("fif", "call at any abscissa", fif::any, fif::any_f32, fif::any_f64),
+    beside("fif level", "level", fif::any_level, fif::any_level_f32, fif::any_level_f64),
+    alone("fif integrate", "function of 2 maps", fif::integrate),
     beside("fif integral", "call of 24 levels", fif::integral, fif::integral_f32, fif::integral_f64),
-    roomy(alone("ray", "ray that hits or misses", trace::rays)),
-    roomy(beside("box test", "box", trace::box_fixed, trace::box_f32, trace::box_f64)),
-    roomy(alone("walk", "box that a walk tests", trace::boxes)),
-    roomy(beside("normal", "unit normal of a hit", trace::normals, trace::normals_f32, trace::normals_f64)),
-    roomy(alone("shade mirror", "call", trace::mirror_shading)),
-    roomy(alone("shade phong", "call", trace::phong)),
+    roomy(beside("ray", "ray that hits or misses", trace::rays, trace::rays_float::<f32>, trace::rays_float::<f64>)),
+    roomy(beside("box test", "box", trace::box_fixed, trace::box_float::<f32>, trace::box_float::<f64>)),
+    roomy(beside("walk", "box that a walk tests", trace::walks, trace::walks_float::<f32>, trace::walks_float::<f64>)),
+    roomy(beside("normal", "unit normal of a hit", shade::normals, shade::normals_float::<f32>, shade::normals_float::<f64>)),
+    roomy(beside("shade mirror", "call", shade::mirror, shade::mirror_float::<f32>, shade::mirror_float::<f64>)),
+    roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
+    roomy(beside("mirror picture", "pixel; floats: the paper's way", picture::core, picture::paper::<f32>, picture::paper::<f64>)),
 ];
 
 /// A result in double precision, for a checksum.
 #[inline(always)]
-fn fold(v: f64) -> u32 {
+pub(crate) fn fold(v: f64) -> u32 {
     let bits = v.to_bits();
     bits as u32 ^ (bits >> 32) as u32
 }

@@ -1,50 +1,87 @@
-//! Rays against the surface `G x G`, its normals, and how it answers light.
+//! Rays against the surface `G x G`.
 
 use core::hint::black_box;
 
 use attractor::fif::{Cell, Pyramid};
 use attractor::num::{Real, Unit, Vec3};
-use attractor::trace::{Environment, HeightField, Hit, Light, Material, Ray, Statistics, meets};
+use attractor::trace::{HeightField, Hit, Ray, Statistics, meets};
 use embedded_graphics::geometry::Size;
 
-use super::{Tally, Watch, fold};
-use crate::float;
+use super::{Tally, Watch};
+use crate::float::Float;
 use crate::inputs::mixed;
+use crate::rivals::{self, CELLS, Caster, DEPTH, Vector};
 use crate::surface::{g_integral, mirror};
 
-const DEPTH: u32 = 8;
-const CELLS: usize = Pyramid::cells(2, DEPTH);
 const SIDE: u32 = 48;
 const COUNT: usize = 64;
+
+/// Hands the pyramid of `G` to `work`.
+pub(super) fn with_pyramid(work: impl FnOnce(&Pyramid<'_>) -> Tally) -> Tally {
+    let mut memory = [Cell::ZERO; CELLS];
+    let Ok(g) = g_integral() else { return Tally::default() };
+    let Ok(pyramid) = Pyramid::new(&g, DEPTH as u32, &mut memory) else { return Tally::default() };
+    work(&pyramid)
+}
+
+/// Hands the surface to `work`.
+fn with_surface(work: impl FnOnce(&Pyramid<'_>, &HeightField<'_>) -> Tally) -> Tally {
+    with_pyramid(|pyramid| HeightField::new(pyramid, pyramid).map_or(Tally::default(), |s| work(pyramid, &s)))
+}
 
 /// The rays of a picture of 48 x 48 pixels, from pixel to leaf.
 #[inline(never)]
 pub(super) fn rays(watch: &mut Watch<'_>) -> Tally {
-    let mut memory = [Cell::ZERO; CELLS];
-    let Ok(g) = g_integral() else { return Tally::default() };
-    let Ok(pyramid) = Pyramid::new(&g, DEPTH, &mut memory) else { return Tally::default() };
-    let Ok(caster) = mirror(&pyramid, Size::new(SIDE, SIDE)) else { return Tally::default() };
-    watch.time(|| {
-        let mut checksum = 0_u32;
-        for y in 0..SIDE {
-            for x in 0..SIDE {
-                let leaf = caster.hit(x, y).map_or(0, |hit| hit.index.0 ^ hit.index.1 << 16 ^ hit.level << 8);
-                checksum = checksum.rotate_left(1) ^ leaf;
-            }
-        }
-        Tally { checksum, units: SIDE * SIDE }
+    with_pyramid(|pyramid| {
+        let Ok(caster) = mirror(pyramid, Size::new(SIDE, SIDE)) else { return Tally::default() };
+        watch.time(|| each_ray(|x, y| caster.hit(x, y).map(|hit| (hit.level, hit.index.0, hit.index.1))))
     })
 }
 
-/// Rays that all meet the surface, from one eye to points of its ground.
-fn towards_the_ground(eye: Vec3) -> [Ray; COUNT] {
+#[inline(never)]
+pub(super) fn rays_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    with_pyramid(|pyramid| {
+        let caster = Caster::<F>::new(pyramid, SIDE);
+        watch.time(|| {
+            each_ray(|x, y| {
+                let (eye, direction) = (caster.camera.eye, caster.camera.direction(x, y));
+                let hit = caster.hit(eye, direction)?;
+                black_box(hit.t);
+                Some((hit.level, hit.index.0, hit.index.1))
+            })
+        })
+    })
+}
+
+#[inline(always)]
+fn each_ray(mut hit: impl FnMut(u32, u32) -> Option<(u32, u32, u32)>) -> Tally {
+    let mut checksum = 0_u32;
+    for y in 0..SIDE {
+        for x in 0..SIDE {
+            let leaf = hit(x, y).map_or(0, |(level, i, j)| i ^ j << 16 ^ level << 8);
+            checksum = checksum.rotate_left(1) ^ leaf;
+        }
+    }
+    Tally { checksum, units: SIDE * SIDE }
+}
+
+/// Where the following rays start.
+const EYE: [i32; 3] = [-4, -3, 5];
+
+/// Directions from there that all meet the surface, to points of its ground.
+fn towards_the_ground() -> [Vec3; COUNT] {
     core::array::from_fn(|i| {
         // 0 .. 2 in both directions
         let place = |k: u32| Real::from_bits((mixed(i) >> k) as i32 & 0x1ff_ffff);
-        let direction = Vec3::new(place(0), place(32), Real::ZERO).minus(eye);
+        let [x, y, z] = EYE.map(Real::from_num);
         // inside ±4
-        Ray::new(eye, Vec3::new(direction.x >> 1, direction.y >> 1, direction.z >> 1))
+        Vec3::new((place(0) - x) >> 1, (place(32) - y) >> 1, -z >> 1)
     })
+}
+
+fn rays_to_the_ground() -> [Ray; COUNT] {
+    let [x, y, z] = EYE.map(Real::from_num);
+    towards_the_ground().map(|direction| Ray::new(Vec3::new(x, y, z), direction))
 }
 
 /// Cells of two profiles and the heights between which a ray passes over them: half of them meet.
@@ -72,143 +109,117 @@ pub(super) fn box_fixed(watch: &mut Watch<'_>) -> Tally {
     })
 }
 
-macro_rules! boxes {
-    ($name:ident, $float:ty) => {
-        #[inline(never)]
-        pub(super) fn $name(watch: &mut Watch<'_>) -> Tally {
-            with_boxes(|boxes| {
-                let boxes = boxes.map(|(f, g, z_in, z_out)| {
-                    [f.min, f.max, g.min, g.max, z_in, z_out].map(|v| v.to_num::<$float>())
-                });
-                watch.time(|| {
-                    let mut checksum = 0_u32;
-                    for [a, b, c, d, z_in, z_out] in black_box(&boxes) {
-                        let (low, high) = if *a >= 0.0 && *c >= 0.0 {
-                            (a * c, b * d)
-                        } else {
-                            let ends = [a * c, a * d, b * c, b * d];
-                            let low = ends.iter().fold(ends[0], |m, e| if *e < m { *e } else { m });
-                            (low, ends.iter().fold(ends[0], |m, e| if *e > m { *e } else { m }))
-                        };
-                        let (z_low, z_high) = if z_in < z_out { (*z_in, *z_out) } else { (*z_out, *z_in) };
-                        checksum = checksum.rotate_left(1) ^ u32::from(z_low <= high && z_high >= low);
-                    }
-                    Tally { checksum, units: COUNT as u32 }
-                })
-            })
-        }
-    };
-}
-
-boxes!(box_f32, f32);
-boxes!(box_f64, f64);
-
-/// Whole walks, divided by the boxes that they test.
 #[inline(never)]
-pub(super) fn boxes(watch: &mut Watch<'_>) -> Tally {
-    let mut memory = [Cell::ZERO; CELLS];
-    let Ok(g) = g_integral() else { return Tally::default() };
-    let Ok(pyramid) = Pyramid::new(&g, DEPTH, &mut memory) else { return Tally::default() };
-    let Ok(surface): Result<HeightField<'_>, _> = HeightField::new(&pyramid, &pyramid) else {
-        return Tally::default();
-    };
-    let eye = Vec3::new(Real::from_num(-4), Real::from_num(-3), Real::from_num(5));
-    let rays = towards_the_ground(eye);
-    let mut statistics = Statistics::default();
-    for ray in &rays {
-        black_box(surface.intersect_counted(ray, Unit::ZERO, &mut statistics));
-    }
-    let tally = watch.over(&rays, |ray| {
-        surface.intersect(&ray, Unit::ZERO).map_or(0, |hit| hit.index.0 ^ hit.index.1 << 16)
-    });
-    Tally { units: statistics.box_tests, ..tally }
-}
-
-/// Hands the leaves that rays met, and their cells, to `work`.
-fn with_hits(work: impl FnOnce(&[(Hit, Cell, Cell); COUNT]) -> Tally) -> Tally {
-    let mut memory = [Cell::ZERO; CELLS];
-    let Ok(g) = g_integral() else { return Tally::default() };
-    let Ok(pyramid) = Pyramid::new(&g, DEPTH, &mut memory) else { return Tally::default() };
-    let Ok(surface): Result<HeightField<'_>, _> = HeightField::new(&pyramid, &pyramid) else {
-        return Tally::default();
-    };
-    let eye = Vec3::new(Real::from_num(-4), Real::from_num(-3), Real::from_num(5));
-    let rays = towards_the_ground(eye);
-    let found = |ray: &Ray| {
-        let hit = surface.intersect(ray, Unit::ZERO)?;
-        let cells = pyramid.level(hit.level);
-        Some((hit, *cells.get(hit.index.0 as usize)?, *cells.get(hit.index.1 as usize)?))
-    };
-    let Some(first) = rays.iter().find_map(found) else { return Tally::default() };
-    work(&rays.map(|ray| found(&ray).unwrap_or(first)))
-}
-
-fn mixed_up<T: Into<i64>>(parts: [T; 3]) -> u32 {
-    parts.into_iter().fold(0, |sum: u32, part| sum.rotate_left(5) ^ part.into() as u32)
-}
-
-fn bits(v: Vec3<Unit>) -> u32 {
-    mixed_up([v.x.to_bits(), v.y.to_bits(), v.z.to_bits()])
-}
-
-#[inline(never)]
-pub(super) fn normals(watch: &mut Watch<'_>) -> Tally {
-    with_hits(|hits| watch.over(hits, |(hit, _, _)| hit.normal().normalised().map_or(0, bits)))
-}
-
-macro_rules! normals {
-    ($name:ident, $float:ty, $root:expr, $fused:expr, $fold:expr) => {
-        #[inline(never)]
-        pub(super) fn $name(watch: &mut Watch<'_>) -> Tally {
-            with_hits(|hits| {
-                let cells = hits
-                    .map(|(_, f, g)| [f.slope, f.mean, g.slope, g.mean].map(|v: Real| v.to_num::<$float>()));
-                watch.over(&cells, |[df, f, dg, g]| {
-                    let (x, y): ($float, $float) = (-df * g, -f * dg);
-                    let scale = 1.0 / $root($fused(x, x, $fused(y, y, 1.0)));
-                    let parts = [x * scale, y * scale, scale];
-                    parts.into_iter().fold(0, |sum: u32, v| sum.rotate_left(5) ^ $fold(v))
-                })
-            })
-        }
-    };
-}
-
-normals!(normals_f32, f32, float::sqrt, float::mul_add, f32::to_bits);
-normals!(normals_f64, f64, libm::sqrt, |a: f64, b: f64, c: f64| a * b + c, fold);
-
-fn shaded(watch: &mut Watch<'_>, material: Material) -> Tally {
-    let Ok(light) = Light::new(Vec3::new(Real::NEG_ONE, Real::from_num(-2), Real::from_num(3))) else {
-        return Tally::default();
-    };
-    let Some(d) = Vec3::new(Real::from_num(5), Real::from_num(4), Real::from_num(-5)).normalised() else {
-        return Tally::default();
-    };
-    with_hits(|hits| {
-        let normals = hits.map(|(hit, _, _)| hit.normal().normalised().unwrap_or(d));
-        let (material, light, sky) = black_box((material, light, Environment::SKY));
-        watch.over(&normals, |n| material.tone(n, d, &light, &sky).to_bits() as u32)
+pub(super) fn box_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    with_boxes(|boxes| {
+        let boxes = boxes.map(|(f, g, z_in, z_out)| {
+            let [z_in, z_out] = [z_in, z_out].map(|z| F::of(z.to_num::<f64>()));
+            (rivals::Cell::<F>::new(&f), rivals::Cell::<F>::new(&g), z_in, z_out)
+        });
+        watch.time(|| {
+            let mut checksum = 0_u32;
+            for (f, g, z_in, z_out) in black_box(&boxes) {
+                checksum = checksum.rotate_left(1) ^ u32::from(rivals::meets(f, g, *z_in, *z_out));
+            }
+            Tally { checksum, units: COUNT as u32 }
+        })
     })
 }
 
+/// Whole walks, divided by the boxes that they test.
 #[inline(never)]
-pub(super) fn mirror_shading(watch: &mut Watch<'_>) -> Tally {
-    shaded(watch, Material::Mirror)
+pub(super) fn walks(watch: &mut Watch<'_>) -> Tally {
+    with_surface(|_, surface| {
+        let rays = rays_to_the_ground();
+        let tally = watch.over(&rays, |ray| {
+            surface.intersect(&ray, Unit::ZERO).map_or(0, |hit| hit.index.0 ^ hit.index.1 << 16)
+        });
+        Tally { units: box_tests(surface), ..tally }
+    })
 }
 
+/// The same walks, which test the same boxes.
 #[inline(never)]
-pub(super) fn phong(watch: &mut Watch<'_>) -> Tally {
-    shaded(watch, Material::PHONG)
+pub(super) fn walks_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    with_surface(|pyramid, surface| {
+        let caster = Caster::<F>::new(pyramid, SIDE).deepest();
+        let eye = EYE.map(F::of_int);
+        let rays: [Vector<F>; COUNT] =
+            towards_the_ground().map(|d| [d.x, d.y, d.z].map(|c| F::of(c.to_num::<f64>())));
+        let tally = watch.over(&rays, |direction| {
+            caster.hit(eye, direction).map_or(0, |hit| {
+                black_box(hit.t);
+                hit.index.0 ^ hit.index.1 << 16
+            })
+        });
+        Tally { units: box_tests(surface), ..tally }
+    })
+}
+
+fn box_tests(surface: &HeightField<'_>) -> u32 {
+    let mut statistics = Statistics::default();
+    for ray in &rays_to_the_ground() {
+        black_box(surface.intersect_counted(ray, Unit::ZERO, &mut statistics));
+    }
+    statistics.box_tests
+}
+
+/// Hands the leaves that rays met, and their cells, to `work`.
+pub(super) fn with_hits(work: impl FnOnce(&[(Hit, Cell, Cell); COUNT]) -> Tally) -> Tally {
+    with_surface(|pyramid, surface| {
+        let rays = rays_to_the_ground();
+        let found = |ray: &Ray| {
+            let hit = surface.intersect(ray, Unit::ZERO)?;
+            let cells = pyramid.level(hit.level);
+            Some((hit, *cells.get(hit.index.0 as usize)?, *cells.get(hit.index.1 as usize)?))
+        };
+        let Some(first) = rays.iter().find_map(found) else { return Tally::default() };
+        work(&rays.map(|ray| found(&ray).unwrap_or(first)))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Blind;
 
     #[test]
     fn nearly_every_ray_meets_the_surface_after_some_boxes() {
-        let tally = boxes(&mut Watch::new(&mut crate::Blind, 1));
+        let tally = walks(&mut Watch::new(&mut Blind, 1));
         assert!(tally.units > 5 * COUNT as u32, "{tally:?}");
         assert_ne!(tally.checksum, 0);
+    }
+
+    /// The walks in floating point do the same work: they end in the same leaves.
+    fn same_leaves<F: Float>() -> u32 {
+        let mut same = 0;
+        with_pyramid(|pyramid| {
+            let core = mirror(pyramid, Size::new(SIDE, SIDE)).unwrap();
+            let float = Caster::<F>::new(pyramid, SIDE);
+            each_ray(|x, y| {
+                let (eye, direction) = (float.camera.eye, float.camera.direction(x, y));
+                let hit = float.hit(eye, direction);
+                let found = hit.map(|hit| (hit.level, hit.index));
+                let hit = core.hit(x, y);
+                same += u32::from(found == hit.map(|hit| (hit.level, hit.index)));
+                None
+            })
+        });
+        same
+    }
+
+    #[test]
+    fn the_walks_in_floating_point_end_in_the_same_leaves() {
+        let [single, double] = [same_leaves::<f32>(), same_leaves::<f64>()];
+        assert!(single > SIDE * SIDE - 12 && double > SIDE * SIDE - 4, "{single} {double}");
+        let exact = walks(&mut Watch::new(&mut Blind, 1)).checksum;
+        assert_eq!(walks_float::<f64>(&mut Watch::new(&mut Blind, 1)).checksum, exact);
+    }
+
+    #[test]
+    fn boxes_in_floating_point_are_met_as_often() {
+        let bits = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut Blind, 1)).checksum;
+        let exact = bits(box_fixed);
+        assert_eq!((bits(box_float::<f32>), bits(box_float::<f64>)), (exact, exact));
     }
 }
