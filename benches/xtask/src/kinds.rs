@@ -5,6 +5,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 
@@ -28,51 +29,81 @@ pub(crate) fn run(options: &Options, name: &str) -> Result<bool> {
         emulator::find_all(&[target])?;
         let compiler = toolchain::find(target, options.toolchain)?;
         let images = images::build(target, &compiler)?;
+        let image = images.path("kernels")?;
         for (format, work) in [("fixed", Some(kernel.fixed)), ("f32", kernel.f32), ("f64", kernel.f64)] {
             if work.is_none() {
                 continue;
             }
-            let loops = Loop { target, image: images.path("kernels")?, options, index: &index, format };
-            let (units, instructions) = loops.run(1, &[])?;
-            if instructions > LONGEST {
-                println!(
+            match (Loop { target, image, limit: options.limit(), index: &index, format }).mnemonics()? {
+                Ok((counts, units)) => {
+                    print(&format!("{name} {format}, instructions a {}", kernel.unit), &counts, units);
+                }
+                Err(instructions) => println!(
                     "{name} {format}: {instructions} instructions are too many to log, at most {LONGEST}"
-                );
-                continue;
+                ),
             }
-            let once = loops.histogram(1)?;
-            let mut twice = loops.histogram(2)?;
-            for (instruction, count) in once {
-                *twice.entry(instruction).or_default() -= count;
-            }
-            print(&format!("{name} {format}, instructions a {}", kernel.unit), &twice, units.max(1) as f64);
         }
     }
     Ok(true)
+}
+
+/// The instructions of a unit of a kernel's fixed-point loop, by kind; none where there are too many to log.
+pub(crate) fn of_fixed(
+    target: &targets::Target,
+    image: &Path,
+    limit: Duration,
+    name: &str,
+) -> Result<Option<BTreeMap<&'static str, f64>>> {
+    let index = kernels::ALL.iter().position(|kernel| kernel.name == name);
+    let index = index.with_context(|| format!("no kernel {name}"))?.to_string();
+    let counted = Loop { target, image, limit, index: &index, format: "fixed" }.mnemonics()?;
+    Ok(counted.ok().map(|(counts, units)| {
+        let mut kinds = BTreeMap::new();
+        for (mnemonic, count) in counts.iter().filter(|(_, count)| **count > 0) {
+            *kinds.entry(kind(mnemonic)).or_default() += *count as f64 / units;
+        }
+        kinds
+    }))
 }
 
 /// One loop of the image.
 struct Loop<'a> {
     target: &'a targets::Target,
     image: &'a Path,
-    options: &'a Options,
+    limit: Duration,
     index: &'a str,
     format: &'a str,
 }
 
+/// How often each mnemonic was executed.
+type Mnemonics = BTreeMap<String, i64>;
+
 impl Loop<'_> {
+    /// What one run executes, and its units; else the instructions that are too many.
+    fn mnemonics(&self) -> Result<Result<(Mnemonics, f64), u64>> {
+        let (units, instructions) = self.run(1, &[])?;
+        if instructions > LONGEST {
+            return Ok(Err(instructions));
+        }
+        let once = self.histogram(1)?;
+        let mut twice = self.histogram(2)?;
+        for (mnemonic, count) in once {
+            *twice.entry(mnemonic).or_default() -= count;
+        }
+        Ok(Ok((twice, units.max(1) as f64)))
+    }
+
     /// The units of one of `times` runs, and the instructions of all.
     fn run(&self, times: u32, switches: &[&str]) -> Result<(u64, u64)> {
         let machine = self.target.counting.unwrap_or(self.target.machine);
         let arguments = [self.index, self.format, &times.to_string()];
-        let said =
-            emulator::run(&machine, self.image, &arguments, switches, Path::new("."), self.options.limit())?;
+        let said = emulator::run(&machine, self.image, &arguments, switches, Path::new("."), self.limit)?;
         let numbers = said.trim().split_once(' ').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
         numbers.with_context(|| format!("the image said {said:?} instead of its units and instructions"))
     }
 
     /// How often each mnemonic was executed.
-    fn histogram(&self, times: u32) -> Result<BTreeMap<String, i64>> {
+    fn histogram(&self, times: u32) -> Result<Mnemonics> {
         let log = std::env::temp_dir().join(format!("attractor-{}.log", std::process::id()));
         let switches = ["-d", "in_asm,exec,nochain", "-D", &log.display().to_string()];
         let done = self.run(times, &switches);

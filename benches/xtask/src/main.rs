@@ -101,12 +101,19 @@ fn main() -> ExitCode {
 fn target(options: &Options) -> Result<bool> {
     let chosen = targets::choose(&options.targets)?;
     emulator::find_all(&chosen)?;
+    let slower = if options.bless { gate::slower()? } else { Vec::new() };
     let mut report = report::Report::default();
     for (i, target) in chosen.iter().enumerate() {
         let compiler = toolchain::find(target, options.toolchain)?;
         eprintln!("{}: {compiler}", target.triple);
         let frames = options.frames.as_deref().filter(|_| i == 0);
-        report.targets.push(measure::measure(target, &compiler, options.limit(), frames)?);
+        report.targets.push(measure::measure(
+            target,
+            &compiler,
+            options.limit(),
+            frames,
+            if target.triple == targets::ALL[0].triple { &slower } else { &[] },
+        )?);
     }
     host::compare(&mut report);
     if let Err(error) = valgrind::count(&mut report) {

@@ -8,18 +8,20 @@ use anyhow::{Context, Result};
 use crate::elf;
 use crate::emulator;
 use crate::images::{self, Images};
+use crate::kinds;
 use crate::lines::{self, Line, SceneLine};
 use crate::report::{FlashRow, KernelRow, Measured, SceneRow};
 use crate::stack;
 use crate::targets::{Machine, Target};
 use crate::toolchain::Toolchain;
 
-/// Builds the images, runs them and gathers what they say. Comparisons come later.
+/// Builds the images, runs them and gathers what they say; counts the kernels `by_kind` once more, instruction by instruction. Comparisons come later.
 pub(crate) fn measure(
     target: &'static Target,
     toolchain: &Toolchain,
     limit: Duration,
     frames: Option<&Path>,
+    by_kind: &[String],
 ) -> Result<Measured> {
     let images = images::build(target, toolchain)?;
     let mut measured = Measured::new(target, toolchain.release.clone());
@@ -60,6 +62,11 @@ pub(crate) fn measure(
             bss: sizes.bss,
             stack: stack.and_then(Result::ok),
         });
+    }
+    for name in by_kind {
+        if let Some(kinds) = kinds::of_fixed(target, images.path("kernels")?, limit, name)? {
+            measured.kinds.insert(name.clone(), kinds);
+        }
     }
     if let Some(directory) = frames {
         stream(target, &images, limit, directory)?;

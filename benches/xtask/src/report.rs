@@ -1,6 +1,8 @@
 //! What was measured, as tables and as JSON.
 
 use anyhow::Result;
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::lines::{KernelLine, SceneLine};
@@ -25,6 +27,8 @@ pub(crate) struct Measured {
     pub(crate) scenes: Vec<SceneRow>,
     pub(crate) kernels: Vec<KernelRow>,
     pub(crate) flash: Vec<FlashRow>,
+    /// Instructions of a unit by kind, for kernels of which that was asked.
+    pub(crate) kinds: BTreeMap<String, BTreeMap<&'static str, f64>>,
     /// Whether it was asked for a scene that is too large for it.
     pub(crate) refused: bool,
     pub(crate) problems: Vec<String>,
@@ -110,6 +114,7 @@ impl Measured {
             scenes: Vec::new(),
             kernels: Vec::new(),
             flash: Vec::new(),
+            kinds: BTreeMap::new(),
             refused: false,
             problems: Vec::new(),
         }
