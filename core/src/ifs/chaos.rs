@@ -24,6 +24,7 @@ impl<const N: usize> Ifs<N> {
     }
 
     /// [`Ifs::chaos_game`] with a generator of its own, xoshiro128++: the same seed gives the same points on every machine.
+    #[inline(never)]
     pub fn seeded_chaos_game(&self, seed: u64) -> ChaosGame<'_, Xoshiro128PlusPlus, N> {
         self.chaos_game(Xoshiro128PlusPlus::seed_from_u64(seed))
     }

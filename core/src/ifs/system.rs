@@ -9,7 +9,7 @@
 //! Left out: systems that contract on average only.
 
 use super::affine::Affine;
-use super::disc::Disc;
+use super::disc::{Contractions, Disc};
 use crate::Error;
 use crate::num::{Alias, Unit, Wide};
 use crate::picture::Point2;
@@ -121,7 +121,7 @@ impl<const N: usize> Ifs<N> {
             }
         }
         let len = given.len();
-        let disc = Disc::invariant(given, &factors)?;
+        let disc = Contractions { maps: given, factors: &factors }.invariant_disc()?;
         let contraction_factor = factors.iter().copied().max().unwrap_or(Unit::ONE);
         Ok(Self {
             maps,
