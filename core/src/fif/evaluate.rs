@@ -7,8 +7,7 @@
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
 use super::Fif;
-use super::function::twice_high;
-use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, ratio, real_from};
+use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, ratio, real_from, twice_high};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.

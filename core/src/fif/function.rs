@@ -4,7 +4,7 @@ use heapless::Vec;
 
 use super::bounds::{Bounds, Image, too_large};
 use crate::Error;
-use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, mul_high, quotient, ratio};
+use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, quotient, ratio, twice_high};
 
 /// A point that the graph passes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -284,15 +284,9 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     }
 }
 
-/// `2^-63 a b` for `b` with 63 fractional bits. Error: below 2 units. Out of line: constructors ask for many.
-#[inline(never)]
-pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
-    mul_high(a, b) << 1
-}
-
 /// A description's number with 55 fractional bits; the caller has checked its range.
 pub(crate) fn value(y: Wide) -> i64 {
-    y.to_bits().saturating_mul(1 << (FRACTION - 48))
+    y.to_bits() << (FRACTION - 48)
 }
 
 pub(crate) fn wide(value: i64) -> Wide {

@@ -5,18 +5,12 @@
 /// `v 2^shift / d` rounded down, saturated; the greatest number for `d` = 0.
 ///
 /// Domain: `shift < 64`. Exact. Cost: 32 or 64 steps of 16 Cortex-M4 instructions.
-#[inline(always)]
-pub(crate) fn ratio(v: u64, shift: u32, d: u64) -> u64 {
-    divided((v >> 1) >> (63 - shift), v << shift, d)
-}
-
-/// `high 2^64 + low` over `d`.
 #[inline(never)]
-fn divided(high: u64, low: u64, d: u64) -> u64 {
-    if high >= d {
+pub(crate) fn ratio(v: u64, shift: u32, d: u64) -> u64 {
+    let (mut rest, mut low, mut quotient) = ((v >> 1) >> (63 - shift), v << shift, 1);
+    if rest >= d {
         return u64::MAX;
     }
-    let (mut rest, mut low, mut quotient) = (high, low, 1);
     // the first word of the quotient is often 0
     let word = rest << 32 | low >> 32;
     if rest >> 32 == 0 && word < d {
@@ -38,15 +32,10 @@ fn divided(high: u64, low: u64, d: u64) -> u64 {
 }
 
 /// The same for a signed number, towards zero, saturated at both ends.
-#[inline(always)]
-pub(crate) fn quotient(v: i64, shift: u32, d: u64) -> i64 {
-    with_sign(v, ratio(v.unsigned_abs(), shift, d))
-}
-
 #[inline(never)]
-fn with_sign(v: i64, magnitude: u64) -> i64 {
+pub(crate) fn quotient(v: i64, shift: u32, d: u64) -> i64 {
     let sign = v >> 63;
-    let magnitude = magnitude.min(i64::MAX.wrapping_sub(sign) as u64) as i64;
+    let magnitude = ratio(v.unsigned_abs(), shift, d).min(i64::MAX.wrapping_sub(sign) as u64) as i64;
     (magnitude ^ sign).wrapping_sub(sign)
 }
 
