@@ -80,11 +80,9 @@ impl Bounds {
             widest = image.width.max(widest);
             steepest = image.scaling.unsigned_abs().max(steepest);
             largest = image.low.unsigned_abs().max(image.high.unsigned_abs()).max(largest);
-            if index == 0 {
-                bounds.first = image.fixed_point(image.first);
-            }
-            bounds.last = image.fixed_point(image.last);
         }
+        bounds.first = images.first().map_or(0, |image| image.fixed_point(image.first));
+        bounds.last = images.last().map_or(0, |image| image.fixed_point(image.last));
         bounds.range = hull(images, largest, steepest);
         let (low, high) = bounds.range;
         let extreme = if low.unsigned_abs() >= LIMIT as u64 { low } else { high };

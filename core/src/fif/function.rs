@@ -293,6 +293,7 @@ pub(crate) fn wide(value: i64) -> Wide {
     Wide::from_bits(crate::num::round_shift(value, FRACTION - 48))
 }
 
+#[inline(never)]
 pub(crate) fn real_below(value: i64) -> Real {
     Real::from_bits((value >> (FRACTION - 24)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
 }

@@ -16,15 +16,22 @@ impl<const N: usize> Ifs<N> {
     /// (`a_million_points_lie_inside_the_bounds_and_reach_them`). Cost of a point: 4 multiplications and a draw; 56 Cortex-M4 instructions
     /// for the fern with xoshiro128++, in a loop that adds the coordinates up.
     pub fn chaos_game<R: Rng>(&self, rng: R) -> ChaosGame<'_, R, N> {
+        let (rng, point, map) = self.warmed_up(rng);
+        ChaosGame { ifs: self, rng, point, map }
+    }
+
+    /// Generator, point and map after the warm-up. Out of line, and it keeps no reference: what the compiler knows of the system in the loop over the
+    /// points it still knows.
+    #[inline(never)]
+    fn warmed_up<R: Rng>(&self, rng: R) -> (R, Point2, u32) {
         let mut game = ChaosGame { ifs: self, rng, point: self.start(), map: 0 };
         for _ in 0..self.warm_up() {
             game.step();
         }
-        game
+        (game.rng, game.point, game.map)
     }
 
     /// [`Ifs::chaos_game`] with a generator of its own, xoshiro128++: the same seed gives the same points on every machine.
-    #[inline(never)]
     pub fn seeded_chaos_game(&self, seed: u64) -> ChaosGame<'_, Xoshiro128PlusPlus, N> {
         self.chaos_game(Xoshiro128PlusPlus::seed_from_u64(seed))
     }

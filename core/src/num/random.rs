@@ -30,11 +30,9 @@ impl<const N: usize> Alias<N> {
         if sum == 0 {
             return Err(Error::TooFew { what: "positive weights", given: 0, at_least: 1 });
         }
-        let mut parts = [0_u64; N];
-        let mut table =
-            Self { threshold: [u32::MAX; N], other: core::array::from_fn(|i| i as u8), len: n as u32 };
-        share(weights, sum, &mut parts, &mut table.threshold, &mut table.other);
-        Ok(table)
+        let (mut threshold, mut other) = ([u32::MAX; N], core::array::from_fn(|i| i as u8));
+        share(weights, sum, &mut [0; N], &mut threshold, &mut other);
+        Ok(Self { threshold, other, len: n as u32 })
     }
 
     /// How many items there are.
