@@ -41,13 +41,15 @@ impl Outline {
         let (above, below) = (((y as i32) << 16) - (2 << 16), ((y as i32) << 16) + (3 << 16));
         let (mut left, mut right) = (i32::MAX, i32::MIN);
         for (a, b) in EDGES {
-            let (Some(a), Some(b)) = (corners.get(usize::from(a)), corners.get(usize::from(b))) else {
+            // below 8: `get` only spares the proof to the compiler
+            let (Some(a), Some(b)) = (corners.get(usize::from(a & 7)), corners.get(usize::from(b & 7)))
+            else {
                 continue;
             };
-            let (top, bottom) = if a.1 <= b.1 { (a, b) } else { (b, a) };
-            if top.1 > below || bottom.1 < above {
+            if a.1.min(b.1) > below || a.1.max(b.1) < above {
                 continue;
             }
+            let (top, bottom) = if a.1 <= b.1 { (a, b) } else { (b, a) };
             let fall = bottom.1.wrapping_sub(top.1) as u32;
             let run = i64::from(bottom.0) - i64::from(top.0);
             let (mantissa, shift) = reciprocal(fall);
