@@ -7,7 +7,7 @@
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
 use super::Fif;
-use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, ratio, real_from, twice_high};
+use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, ratio, real_from};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.
@@ -55,7 +55,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let Some(map) = self.maps.get(index) else { break };
             u = map.per_width.quotient(u - map.start).min(ONE);
             sum = sum.wrapping_add(mul_high(scaling, map.q.at(u)) << 2);
-            scaling = twice_high(scaling, map.scaling);
+            scaling = mul_high(scaling, map.scaling) << 1;
             width = mul_high_u(width, map.width << 1);
         }
         let end = if u < ONE / 2 { self.first } else { self.last };

@@ -58,6 +58,7 @@ pub struct Fif<const N: usize, const D: usize = 1> {
     /// `x_0` and `x_N - x_0`, 48 fractional bits.
     pub(crate) x0: i64,
     pub(crate) width: u64,
+    pub(crate) per_width: Reciprocal,
     /// `y_0` and `y_N`, 55 fractional bits.
     pub(crate) first: i64,
     pub(crate) last: i64,
@@ -210,7 +211,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let _ = starts.push((map.start >> 32) as u32);
         }
         let Bounds { first, last, range, levels } = Bounds::of(&images)?;
-        Ok(Self { maps, starts, x0, width, first, last, range, levels })
+        Ok(Self { maps, starts, x0, width, per_width: Reciprocal::of(width), first, last, range, levels })
     }
 
     /// Checks that neighbouring maps agree at their knot.
@@ -269,8 +270,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             0
         } else {
             let distance = bits.wrapping_sub(self.x0) as u64;
-            // exact where the place is dyadic, whatever the width
-            if distance >= self.width { ONE } else { ratio(distance, 63, self.width) }
+            // exact: what is rounded down stays, so that a dyadic place is one whatever the width
+            if distance >= self.width { ONE } else { self.per_width.exact(distance, self.width) }
         }
     }
 

@@ -23,7 +23,18 @@ pub(crate) struct Polynomial<const D: usize> {
 /// Out of line: constructors ask for many.
 #[inline(never)]
 pub(crate) fn times(value: i64, t: u64) -> i64 {
-    if t >= ONE { value } else { twice_high(value, t as i64) }
+    inline_times(value, t)
+}
+
+/// [`times`] for the walk along an address.
+#[inline(always)]
+fn inline_times(value: i64, t: u64) -> i64 {
+    if t >= ONE {
+        return value;
+    }
+    // `t` has no sign to be corrected for
+    let correction = if value < 0 { t } else { 0 };
+    (mul_high_u(value as u64, t).wrapping_sub(correction) << 1) as i64
 }
 
 /// `2^-63 a b`, for `b` with 63 fractional bits. Error: below 2 units, towards minus infinity.
@@ -46,7 +57,7 @@ impl<const D: usize> Polynomial<D> {
     pub(crate) fn at(&self, t: u64) -> i64 {
         let mut sum = 0_i64;
         for c in self.powers.iter().rev() {
-            sum = times(sum.wrapping_add(*c), t);
+            sum = inline_times(sum.wrapping_add(*c), t);
         }
         sum.wrapping_add(self.constant)
     }
