@@ -74,6 +74,12 @@ impl Reciprocal {
         Self { mantissa: ratio(1 << 63, 63, d << shift), shift }
     }
 
+    /// How often 1 has to be halved to be at most `d` with 63 fractional bits.
+    #[inline]
+    pub(crate) fn halvings(self) -> u32 {
+        self.shift
+    }
+
     /// `v / d` with 63 fractional bits, for `v <= d`.
     #[inline]
     pub fn quotient(self, v: u64) -> u64 {
