@@ -14,7 +14,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.
     ///
     /// Domain: abscissae outside count as the nearer end. Error: at most [`Fif::error_bound`] on a dyadic partition; elsewhere at most that at an
-    /// abscissa no further than `2^-40` from `x` (tests/accuracy.rs). Cost: some 100 Cortex-M4 instructions a level, at most 63 levels for
+    /// abscissa no further than `2^-40` from `x` (tests/accuracy.rs). Cost: some 180 Cortex-M4 instructions a level, at most 63 levels for
     /// two equal maps; [`super::Dyadic`] takes 13 a level where the partition is dyadic.
     pub fn at(&self, x: Wide) -> Real {
         real_from(self.evaluate(self.unit(x)), FRACTION)
