@@ -2,9 +2,9 @@
 //!
 //! A map is summed up without its polynomial, so that the rest is there once for all degrees.
 
-use super::function::{Map, twice_high, wide};
+use super::function::{Map, wide};
 use crate::Error;
-use crate::num::{FRACTION, ONE, quotient, ratio};
+use crate::num::{FRACTION, ONE, quotient, ratio, twice_high};
 
 /// `2^7` with 55 fractional bits: the values of a function stay below it.
 const LIMIT: i64 = 1 << (FRACTION + 7);
@@ -41,6 +41,14 @@ impl Image {
         }
     }
 
+    /// The range of the map's image of a range, both with 16 fractional bits, outward.
+    #[inline(never)]
+    fn of_range(&self, min: i64, max: i64) -> (i64, i64) {
+        let (a, b) = (twice_high(min << 4, self.scaling), twice_high(max << 4, self.scaling));
+        let low = ((a.min(b) - 2) >> 4) + (self.low >> COARSE);
+        (low, ((a.max(b) + 2 + 15) >> 4) + (self.high >> COARSE) + 1)
+    }
+
     /// Where the map's fixed point lies if its polynomial is `q` there: `q / (1 - scaling)`.
     fn fixed_point(&self, q: i64) -> i64 {
         quotient(q, 63, ONE.wrapping_sub(self.scaling as u64))
@@ -64,23 +72,22 @@ impl Bounds {
     #[inline(never)]
     pub(super) fn of(images: &[Image]) -> Result<Self, Error> {
         let mut bounds = Self::default();
-        let (mut widest, mut steepest) = (0, 0);
+        let (mut widest, mut steepest, mut largest) = (0, 0, 0);
         for (index, image) in images.iter().enumerate() {
             if image.norm == COEFFICIENTS {
                 return Err(too_large(index));
             }
             widest = image.width.max(widest);
             steepest = image.scaling.unsigned_abs().max(steepest);
-            if index == 0 {
-                bounds.first = image.fixed_point(image.first);
-            }
-            bounds.last = image.fixed_point(image.last);
+            largest = image.low.unsigned_abs().max(image.high.unsigned_abs()).max(largest);
         }
-        bounds.range = hull(images, steepest);
-        for extreme in [bounds.range.0, bounds.range.1] {
-            if extreme.saturating_abs() >= LIMIT {
-                return Err(limit("range of the function", 0, extreme, LIMIT));
-            }
+        bounds.first = images.first().map_or(0, |image| image.fixed_point(image.first));
+        bounds.last = images.last().map_or(0, |image| image.fixed_point(image.last));
+        bounds.range = hull(images, largest, steepest);
+        let (low, high) = bounds.range;
+        let extreme = if low.unsigned_abs() >= LIMIT as u64 { low } else { high };
+        if extreme.unsigned_abs() >= LIMIT as u64 {
+            return Err(limit("range of the function", 0, extreme, LIMIT));
         }
         bounds.levels = levels(widest, steepest);
         Ok(bounds)
@@ -103,21 +110,16 @@ const COARSE: u32 = FRACTION - 16;
 
 /// Bounds of the attractor in `y`: iterates the hull of the images, outward, from a root that contains it.
 #[inline(never)]
-fn hull(images: &[Image], steepest: u64) -> (i64, i64) {
+fn hull(images: &[Image], largest: u64, steepest: u64) -> (i64, i64) {
     // |f| <= max |q| / (1 - max |alpha|)
-    let mut largest = 0;
-    for image in images {
-        largest = image.low.unsigned_abs().max(image.high.unsigned_abs()).max(largest);
-    }
     let rest = (ONE - steepest) >> 32; // at least 1: scalings have 31 bits, or come from a contraction of such
     let root = ratio((largest >> COARSE) + 2, 31, rest.max(1)).min(1 << 56) as i64;
     let (mut min, mut max) = (-root, root);
     for _ in 0..4096 {
         let (mut low, mut high) = (i64::MAX, i64::MIN);
         for image in images {
-            let (a, b) = (twice_high(min << 4, image.scaling), twice_high(max << 4, image.scaling));
-            low = low.min(((a.min(b) - 2) >> 4) + (image.low >> COARSE));
-            high = high.max(((a.max(b) + 2 + 15) >> 4) + (image.high >> COARSE) + 1);
+            let (below, above) = image.of_range(min, max);
+            (low, high) = (low.min(below), high.max(above));
         }
         let settled = low <= min && high >= max;
         (min, max) = (min.max(low), max.min(high));

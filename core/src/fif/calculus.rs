@@ -9,9 +9,9 @@
 use heapless::Vec;
 
 use super::Fif;
-use super::function::{Map, in_range, twice_high, value};
+use super::function::{Map, in_range, value};
 use crate::Error;
-use crate::num::{ONE, Polynomial, Wide, mul_high_u, nth, quotient, times};
+use crate::num::{ONE, Polynomial, Wide, mul_high_u, nth, quotient, times, twice_high};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function `initial + integral of f from x_0 to x`, with room for polynomials of degree `E`.

@@ -8,8 +8,8 @@
 use rand_core::Rng;
 
 use super::Fif;
-use super::function::{Map, twice_high};
-use crate::num::{FRACTION, Real, mul_high_u, real_from};
+use super::function::Map;
+use crate::num::{FRACTION, Real, mul_high_u, real_from, twice_high};
 use crate::picture::Point2;
 
 /// An endless iterator of points of the graph; `x` is the unit abscissa in `[0, 1]`.

@@ -4,8 +4,8 @@
 //! does; the boxes of a ray caster are images under composites. For plain values the forward walk of [`Fif::at`] is faster.
 
 use super::Fif;
-use super::function::{Map, twice_high};
-use crate::num::{FRACTION, ONE, Polynomial, Real, Scaling, Wide, mul_high_u, real_from};
+use super::function::Map;
+use crate::num::{FRACTION, ONE, Polynomial, Real, Scaling, Wide, mul_high_u, real_from, twice_high};
 
 /// A composition of maps: `(u, y) -> (start + width u, scaling y + q(u))` in the unit abscissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,14 +7,14 @@
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
 use super::Fif;
-use super::function::twice_high;
+use super::function::Map;
 use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, ratio, real_from};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.
     ///
     /// Domain: abscissae outside count as the nearer end. Error: at most [`Fif::error_bound`] on a dyadic partition; elsewhere at most that at an
-    /// abscissa no further than `2^-40` from `x` (tests/accuracy.rs). Cost: some 100 Cortex-M4 instructions a level, at most 63 levels for
+    /// abscissa no further than `2^-40` from `x` (tests/accuracy.rs). Cost: some 180 Cortex-M4 instructions a level, at most 63 levels for
     /// two equal maps; [`super::Dyadic`] takes 13 a level where the partition is dyadic.
     pub fn at(&self, x: Wide) -> Real {
         real_from(self.evaluate(self.unit(x)), FRACTION)
@@ -43,24 +43,50 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 
     /// The value at a unit abscissa with 63 fractional bits, with 55 fractional bits.
     pub(crate) fn evaluate(&self, unit: u64) -> i64 {
-        let mut u = unit.min(ONE);
+        let unit = unit.min(ONE);
+        let mut u = unit;
         let mut sum = 0_i64;
         let mut scaling = 1_i64 << 62; // product of the scalings, 62 fractional bits
-        let mut width = ONE; // product of the horizontal factors, 63 fractional bits
-        for _ in 0..self.levels {
-            if u == 0 || u == ONE || width == 0 || scaling.unsigned_abs() < 1 << 22 {
+        let mut halvings = 0; // the product of the horizontal factors is at least 2^-halvings
+        // only the right end itself is 1: pre-images of what lies before it do too
+        let levels = if u == ONE { 0 } else { self.levels };
+        for level in 0..levels {
+            if u == 0 || scaling.unsigned_abs() < 1 << 22 || halvings > 63 && self.vanishes(unit, level) {
                 break;
             }
-            // the last map that starts at or before u
-            let index = self.maps.partition_point(|m| m.start <= u).saturating_sub(1);
-            let Some(map) = self.maps.get(index) else { break };
-            u = map.per_width.quotient(u - map.start).min(ONE);
+            let Some(map) = self.map_at(u) else { break };
+            u = map.per_width.quotient(u - map.start);
             sum = sum.wrapping_add(mul_high(scaling, map.q.at(u)) << 2);
-            scaling = twice_high(scaling, map.scaling);
-            width = mul_high_u(width, map.width << 1);
+            scaling = mul_high(scaling, map.scaling) << 1;
+            halvings += map.per_width.halvings();
         }
         let end = if u < ONE / 2 { self.first } else { self.last };
         sum.wrapping_add(mul_high(scaling, end) << 2)
+    }
+
+    /// Whether the product of the first horizontal factors, with 63 fractional bits, is 0.
+    #[inline(never)]
+    fn vanishes(&self, mut u: u64, factors: u32) -> bool {
+        let mut width = ONE;
+        for _ in 0..factors {
+            let Some(map) = self.map_at(u) else { break };
+            u = map.per_width.quotient(u - map.start);
+            width = mul_high_u(width, map.width << 1);
+        }
+        width == 0
+    }
+
+    /// The last map that starts at or before `u`.
+    #[inline(always)]
+    fn map_at(&self, u: u64) -> Option<&Map<D>> {
+        let mut index = self.starts.partition_point(|start| *start <= (u >> 32) as u32).checked_sub(1)?;
+        let mut map = self.maps.get(index)?;
+        // it begins within the 31 bits that were compared, but behind u
+        while map.start > u {
+            index = index.checked_sub(1)?;
+            map = self.maps.get(index)?;
+        }
+        Some(map)
     }
 
     /// The value at the place `numerator / denominator` of the domain, as a point's ordinate.

@@ -4,7 +4,7 @@ use heapless::Vec;
 
 use super::bounds::{Bounds, Image, too_large};
 use crate::Error;
-use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, mul_high, quotient, ratio};
+use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, quotient, ratio, twice_high};
 
 /// A point that the graph passes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +58,7 @@ pub struct Fif<const N: usize, const D: usize = 1> {
     /// `x_0` and `x_N - x_0`, 48 fractional bits.
     pub(crate) x0: i64,
     pub(crate) width: u64,
+    pub(crate) per_width: Reciprocal,
     /// `y_0` and `y_N`, 55 fractional bits.
     pub(crate) first: i64,
     pub(crate) last: i64,
@@ -210,7 +211,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let _ = starts.push((map.start >> 32) as u32);
         }
         let Bounds { first, last, range, levels } = Bounds::of(&images)?;
-        Ok(Self { maps, starts, x0, width, first, last, range, levels })
+        Ok(Self { maps, starts, x0, width, per_width: Reciprocal::of(width), first, last, range, levels })
     }
 
     /// Checks that neighbouring maps agree at their knot.
@@ -269,8 +270,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             0
         } else {
             let distance = bits.wrapping_sub(self.x0) as u64;
-            // exact where the place is dyadic, whatever the width
-            if distance >= self.width { ONE } else { ratio(distance, 63, self.width) }
+            // exact: what is rounded down stays, so that a dyadic place is one whatever the width
+            if distance >= self.width { ONE } else { self.per_width.exact(distance, self.width) }
         }
     }
 
@@ -284,21 +285,16 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     }
 }
 
-/// `2^-63 a b` for `b` with 63 fractional bits. Error: below 2 units. Out of line: constructors ask for many.
-#[inline(never)]
-pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
-    mul_high(a, b) << 1
-}
-
 /// A description's number with 55 fractional bits; the caller has checked its range.
 pub(crate) fn value(y: Wide) -> i64 {
-    y.to_bits().saturating_mul(1 << (FRACTION - 48))
+    y.to_bits() << (FRACTION - 48)
 }
 
 pub(crate) fn wide(value: i64) -> Wide {
     Wide::from_bits(crate::num::round_shift(value, FRACTION - 48))
 }
 
+#[inline(never)]
 pub(crate) fn real_below(value: i64) -> Real {
     Real::from_bits((value >> (FRACTION - 24)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
 }

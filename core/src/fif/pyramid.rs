@@ -10,9 +10,11 @@
 //! boxes two to three times as many (DESIGN).
 
 use super::Fif;
-use super::function::{Map, real_above, real_below, twice_high};
+use super::function::{Map, real_above, real_below};
 use crate::Error;
-use crate::num::{FRACTION, ONE, Polynomial, Real, mul_high, mul_high_u, quotient, real_from};
+use crate::num::{
+    FRACTION, ONE, Polynomial, Real, mul_high, mul_high_u, part_of, quotient, real_from, twice_high,
+};
 
 /// A function above one of its cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,15 +61,9 @@ pub struct Pyramid<'a> {
 
 impl Pyramid<'static> {
     /// How many cells the levels 0 to `depth` of a function of `maps` maps have: the length of the memory to lend.
-    #[inline(never)]
     pub const fn cells(maps: usize, depth: u32) -> usize {
-        let mut sum = 1_usize;
-        let mut level = 0;
-        while level < depth {
-            sum = sum.saturating_mul(maps).saturating_add(1);
-            level += 1;
-        }
-        sum
+        let (offset, count) = level_at(maps, depth);
+        offset.saturating_add(count)
     }
 
     /// Levels are never deeper: cell indices have 32 bits.
@@ -211,7 +207,8 @@ impl Span {
     }
 }
 
-/// Offset and number of the cells of a level.
+/// Offset and number of the cells of a level, saturated.
+#[inline(never)]
 const fn level_at(maps: usize, level: u32) -> (usize, usize) {
     let (mut offset, mut count) = (0_usize, 1_usize);
     let mut k = 0;
@@ -298,8 +295,8 @@ fn interval<const D: usize>(maps: &[Map<D>], index: usize, level: u32) -> (u64, 
         let (quotient, digit) =
             (rest.checked_div(maps.len()).unwrap_or(0), rest.checked_rem(maps.len()).unwrap_or(0));
         if let Some(map) = maps.get(digit) {
-            start = map.start + mul_high_u(start << 1, map.width);
-            width = if width == ONE { map.width } else { mul_high_u(width << 1, map.width) };
+            start = map.start + part_of(start, map.width);
+            width = if width == ONE { map.width } else { part_of(width, map.width) };
         }
         rest = quotient;
     }

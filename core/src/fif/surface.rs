@@ -6,9 +6,8 @@
 //! Source: Cochran, Lewis, Hart, section 3.1; the mean is left as future work there (section 6.1).
 
 use super::Fif;
-use super::function::twice_high;
 use crate::Error;
-use crate::num::{FRACTION, Real, Vec3, Wide, quotient, real_from};
+use crate::num::{FRACTION, Real, Vec3, Wide, quotient, real_from, twice_high};
 
 /// One factor of a tensor product: a differentiable function with its derivative and its integral.
 ///

@@ -5,10 +5,12 @@
 //! `(1 - s1^2) (1 - s2^2) = 1 - T + D^2`, which is positive exactly when both are below 1 or both above, and `|D| < 1` rules out the latter.
 //! And `s1 = (|(a + d, b - c)| + |(a - d, b + c)|) / 2`: the conformal and the anticonformal part.
 
-use crate::num::{Real, Unit, Wide, sqrt};
+use crate::num::{Real, Unit, Wide, mul_high_u, quotient, sqrt};
 use crate::picture::Point2;
 
 const ONE: i64 = 1 << 30;
+/// The square of [`ONE`].
+const SQUARE: u64 = 1 << 60;
 
 /// An affine map of the plane: the linear part in [`Unit`], the translation in [`Real`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -97,10 +99,9 @@ impl Affine {
     /// Domain: all; coefficients saturate. Error: half a unit in the last place of each. Cost: 12 multiplications.
     pub fn after(&self, first: &Self) -> Self {
         let entry = |l: Unit, m: Unit, p: Unit, q: Unit| {
-            let sum = i128::from(l.to_bits()) * i128::from(p.to_bits())
-                + i128::from(m.to_bits()) * i128::from(q.to_bits());
-            let bits = (sum + (1 << 29)) >> 30;
-            Unit::from_bits(bits.clamp(i128::from(i32::MIN), i128::from(i32::MAX)) as i32)
+            // beyond 63 bits only for -2 throughout, where the entry saturates anyhow
+            let sum = (entries(l, p) + (1 << 29)).saturating_add(entries(m, q));
+            Unit::from_bits((sum >> 30).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
         };
         let Point2 { x: e, y: f } = self.apply(Point2::new(first.e, first.f));
         Self {
@@ -124,13 +125,19 @@ impl Affine {
         if !self.is_small() {
             return false;
         }
+        // T - 1 < D^2; T <= 4 with 60 fractional bits
         let determinant = self.area();
         let squares: u64 = self.linear().iter().map(|l| l.unsigned_abs() * l.unsigned_abs()).sum();
-        let one = 1_u64 << 60;
-        // T < 1 + D^2 with 120 fractional bits; T <= 4
-        determinant < one
-            && u128::from(squares) << 60
-                < (u128::from(one) << 60) + u128::from(determinant) * u128::from(determinant)
+        determinant < SQUARE
+            && match squares.checked_sub(SQUARE) {
+                None => true,
+                Some(excess) => {
+                    // D^2 has 120: rounded up to 60
+                    let whole = mul_high_u(determinant << 2, determinant << 2);
+                    let rest = determinant.wrapping_mul(determinant) << 4;
+                    excess < whole + u64::from(rest != 0)
+                }
+            }
     }
 
     /// An upper bound of the largest singular value: distances shrink at least by this factor.
@@ -145,14 +152,14 @@ impl Affine {
         // sums of two are at most 2^31, of two squares 2^63
         let conformal = hypotenuse(a + d, b - c);
         let anticonformal = hypotenuse(a - d, b + c);
-        let half = (conformal + anticonformal).div_ceil(2);
+        let half = (conformal + anticonformal + 1) >> 1;
         Unit::from_bits(half.min(i32::MAX as u64) as i32)
     }
 
     /// The point that the map leaves where it is: every contraction has one.
     ///
     /// Domain: coefficients `a b c d` of at most 1. None outside it, when there is no such point or more than one, and when it lies outside [`Real`].
-    /// Error: half a unit in the last place (`a_fixed_point_stays_where_it_is`). Cost: 6 multiplications and 62 steps of a division.
+    /// Error: half a unit in the last place (`a_fixed_point_stays_where_it_is`). Cost: 6 multiplications, two divisions.
     pub fn fixed_point(&self) -> Option<Point2> {
         if !self.is_small() {
             return None;
@@ -162,7 +169,14 @@ impl Affine {
         let (e, f) = (i64::from(self.e.to_bits()), i64::from(self.f.to_bits()));
         let (p, q) = (ONE - a, ONE - d);
         let determinant = p * q - b * c;
-        Some(Point2::new(quotient(q * e + b * f, determinant)?, quotient(c * e + p * f, determinant)?))
+        let coordinate = |numerator: i64| {
+            let signed = if determinant < 0 { -numerator } else { numerator };
+            // 25 fractional bits towards zero: halved away from zero, that is the nearest with 24
+            let twice = quotient(signed, 31, determinant.unsigned_abs());
+            let bits = twice / 2 + twice % 2;
+            Some(Real::from_bits(i32::try_from(bits).ok()?))
+        };
+        Some(Point2::new(coordinate(q * e + b * f)?, coordinate(c * e + p * f)?))
     }
 
     fn linear(&self) -> [i64; 4] {
@@ -171,7 +185,7 @@ impl Affine {
 
     /// Whether no coefficient of the linear part exceeds 1, as in every contraction.
     fn is_small(&self) -> bool {
-        self.linear().iter().all(|l| l.abs() <= ONE)
+        [self.a, self.b, self.c, self.d].iter().all(|l| l.unsigned_abs() <= Unit::ONE.unsigned_abs())
     }
 
     /// `|D|` with 60 fractional bits, for coefficients of at most 1.
@@ -181,33 +195,14 @@ impl Affine {
     }
 }
 
-/// `numerator / denominator` for 54 fractional bits over 60, rounded to nearest; none outside the format.
-fn quotient(numerator: i64, denominator: i64) -> Option<Real> {
-    let (mut rest, divisor) = (numerator.unsigned_abs(), denominator.unsigned_abs());
-    // the quotient has 25 fractional bits after 31 doublings, and must stay below 2^32
-    if rest >= divisor.saturating_mul(2) {
-        return None;
-    }
-    let mut twice = 0_u64;
-    for step in 0..32 {
-        if step > 0 {
-            // rest < divisor <= 2^63
-            rest <<= 1;
-            twice <<= 1;
-        }
-        if rest >= divisor {
-            rest -= divisor;
-            twice |= 1;
-        }
-    }
-    let magnitude = ((twice + 1) >> 1) as i64;
-    let bits = if (numerator < 0) == (denominator < 0) { magnitude } else { -magnitude };
-    Some(Real::from_bits(i32::try_from(bits).ok()?))
-}
-
 #[inline(always)]
 fn product(l: Unit, x: Real) -> i64 {
     i64::from(l.to_bits()) * i64::from(x.to_bits())
+}
+
+/// A product of two entries, at most `2^62`.
+fn entries(l: Unit, m: Unit) -> i64 {
+    i64::from(l.to_bits()) * i64::from(m.to_bits())
 }
 
 /// A translation with 54 fractional bits, and the half unit that rounds.
@@ -217,6 +212,7 @@ fn translated(t: Real) -> i64 {
 }
 
 /// `sqrt(x^2 + y^2)` rounded up, for `|x|, |y| <= 2^31`.
+#[inline(never)]
 pub(super) fn hypotenuse(x: i64, y: i64) -> u64 {
     let square = x.unsigned_abs() * x.unsigned_abs() + y.unsigned_abs() * y.unsigned_abs();
     let root = u64::from(sqrt(square));

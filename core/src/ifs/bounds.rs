@@ -37,9 +37,17 @@ impl<const N: usize> Ifs<N> {
     /// (`bounds_are_those_of_the_textbooks`), as long as no address of more than 128 letters is needed (contraction factors up to about 0.93)
     /// and no direction visits more than 16384 nodes; beyond that still outwards, but wider (`slow_spirals_are_bounded_all_the_same`).
     /// Cost: a node is 15 multiplications and a square root; the catalogue's attractors visit between 212 and 5792 of them
-    /// (`the_search_is_short_for_the_catalogue`), the fern 2616 in 766 thousand Cortex-M4 instructions. Stack: 128 entries of 24 bytes.
+    /// (`the_search_is_short_for_the_catalogue`), the fern 2616 in 692 thousand Cortex-M4 instructions. Stack: 128 entries of 24 bytes.
     pub fn bounds(&self) -> Bounds2 {
-        Search::new(self).run().0
+        self.search().0
+    }
+
+    /// The bounds, and how many nodes were visited.
+    fn search(&self) -> (Bounds2, u32) {
+        let mut search = Search::new(self.maps(), self.invariant_disc(), self.start(), self.deviation());
+        search.reach(self.start());
+        self.seeded_chaos_game(0).take(256).for_each(|p| search.reach(p));
+        search.run()
     }
 }
 
@@ -78,89 +86,98 @@ struct Node {
     next: usize,
 }
 
-/// The four directions: the index of the coordinate, and the sign.
-const DIRECTIONS: [(usize, i32); 4] = [(0, 1), (0, -1), (1, 1), (1, -1)];
+/// One of the four sides of the box.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// Outwards, with 30 fractional bits.
+    r: [i32; 2],
+    /// The support function of the disc in this direction, with 24 fractional bits.
+    disc: i32,
+    /// The same of a box that contains the attractor: what the searches tighten.
+    hull: i32,
+    /// What the attractor is known to reach, with 54 fractional bits.
+    reached: i64,
+}
+
+impl Side {
+    fn of(disc: Disc, r: [i32; 2]) -> Self {
+        // a coordinate of the centre, at most 64 with its radius
+        let centre = (Functional { r, t: 0 }.at(disc.centre) >> 30) as i32;
+        let far = centre + disc.radius.to_bits();
+        Self { r, disc: far, hull: far, reached: i64::MIN }
+    }
+
+    /// The attractor is known to come as near to a point as the deviation, with 54 fractional bits.
+    fn reach(&mut self, p: Point2, deviation: i64) {
+        self.reached = self.reached.max(Functional { r: self.r, t: -deviation }.at(p));
+    }
+
+    /// The coordinate of this side of the final box, outwards.
+    fn end(&self, deviation: i64) -> i32 {
+        (i64::from(self.hull) + (deviation >> 30)).min(self.disc.into()) as i32
+    }
+}
 
 struct Search<'a> {
     maps: &'a [Affine],
     disc: Disc,
-    /// Contains the attractor: what the searches tighten.
-    hull: Bounds2,
+    /// Right, left, upper and lower side.
+    sides: [Side; 4],
     /// A point of the attractor, within one unit.
     probe: Point2,
     /// How much one letter widens a node.
     widening: i64,
+    /// Of points from the attractor, with 54 fractional bits.
     deviation: i64,
-    /// Values that the attractor is known to reach in each direction.
-    reached: [i64; 4],
 }
 
 impl<'a> Search<'a> {
-    fn new<const N: usize>(ifs: &'a Ifs<N>) -> Self {
-        let disc = ifs.invariant_disc();
-        let probe = ifs.start();
-        let deviation = i64::from(ifs.deviation());
-        let mut reached = [i64::MIN; 4];
-        for p in ifs.seeded_chaos_game(0).take(256).chain([probe]) {
-            for (value, (axis, sign)) in reached.iter_mut().zip(DIRECTIONS) {
-                let bits = if axis == 0 { p.x.to_bits() } else { p.y.to_bits() };
-                *value = (*value).max((i64::from(bits) * i64::from(sign) - deviation) * ULP);
-            }
-        }
+    fn new(maps: &'a [Affine], disc: Disc, probe: Point2, deviation: u32) -> Self {
         let [x, y] = disc.reach();
         // the reach in units of 2^-24, times 2^-31, with 54 fractional bits
-        let widening = (x + y).div_euclid(2) + 1;
-        Self { maps: ifs.maps(), disc, hull: disc_box(disc), probe, widening, deviation, reached }
+        let widening = ((x + y) >> 1) + 1;
+        const ONE: i32 = 1 << 30;
+        let sides = [[ONE, 0], [-ONE, 0], [0, ONE], [0, -ONE]].map(|r| Side::of(disc, r));
+        Self { maps, disc, sides, probe, widening, deviation: i64::from(deviation) << 30 }
+    }
+
+    #[inline(never)]
+    fn reach(&mut self, p: Point2) {
+        self.sides.iter_mut().for_each(|side| side.reach(p, self.deviation));
     }
 
     /// The bounds, and how many nodes were visited.
-    fn run(mut self) -> (Bounds2, u32) {
+    #[inline(never)]
+    fn run(&mut self) -> (Bounds2, u32) {
         let mut visited = 0;
         for shift in PASSES {
-            let [right, left, top, bottom] = self.reached;
+            let [right, left, top, bottom] = self.sides.map(|side| side.reached);
             let extent = (right + left).max(top + bottom).max(0);
             let tolerance = (extent >> shift) + ULP;
-            for (index, (axis, sign)) in DIRECTIONS.into_iter().enumerate() {
-                let r = if axis == 0 { [sign * (1 << 30), 0] } else { [0, sign * (1 << 30)] };
-                let known = self.reached.get(index).copied().unwrap_or(i64::MIN);
-                let found = self.support(Functional { r, t: 0 }, known, tolerance);
-                visited += found.visited;
-                if let Some(value) = self.reached.get_mut(index) {
-                    *value = found.reached;
-                }
-                // up to a unit in the last place, not beyond what is known
-                let bits = (found.bound + ULP - 1) >> 30;
-                tighten(&mut self.hull, index, bits);
+            for index in 0..self.sides.len() {
+                visited += self.tighten(index, tolerance);
             }
         }
-        let mut bounds = self.hull;
-        let widened = |side: Real, by: i64, low: Real, high: Real| {
-            let bits = i64::from(side.to_bits()) + by;
-            // not `clamp`, which would have to prove that low <= high
-            Real::from_bits(bits.max(i64::from(low.to_bits())).min(i64::from(high.to_bits())) as i32)
-        };
-        let disc = disc_box(self.disc);
-        bounds.min.x = widened(bounds.min.x, -self.deviation, disc.min.x, disc.max.x);
-        bounds.min.y = widened(bounds.min.y, -self.deviation, disc.min.y, disc.max.y);
-        bounds.max.x = widened(bounds.max.x, self.deviation, disc.min.x, disc.max.x);
-        bounds.max.y = widened(bounds.max.y, self.deviation, disc.min.y, disc.max.y);
-        (bounds, visited)
+        let [right, left, top, bottom] = self.sides.map(|side| side.end(self.deviation));
+        let corner = |x: i32, y: i32| Point2::new(Real::from_bits(x), Real::from_bits(y));
+        (Bounds2 { min: corner(-left, -bottom), max: corner(right, top) }, visited)
     }
 
-    /// Bounds of the support function in the direction of `root`, with 54 fractional bits.
-    fn support(&self, root: Functional, known: i64, tolerance: i64) -> Support {
-        let mut found = Support { bound: known, reached: known, visited: 0 };
+    /// Moves a side inwards to the support function within a tolerance. Result: how many nodes were visited.
+    fn tighten(&mut self, index: usize, tolerance: i64) -> u32 {
+        let Some(Side { r, hull, reached: known, .. }) = self.sides.get(index).copied() else { return 0 };
+        let (mut bound, mut reached, mut visited) = (known, known, 0);
         let mut stack: Vec<Node, DEPTH> = Vec::new();
-        let mut candidate = Some(root);
+        let mut candidate = Some(Functional { r, t: 0 });
         loop {
             if let Some(functional) = candidate.take() {
-                found.visited += 1;
+                visited += 1;
                 let slack = self.widening * stack.len() as i64;
                 let highest = self.highest(&functional) + slack;
-                found.reached = found.reached.max(functional.at(self.probe) - slack - ULP);
-                let open = highest > found.reached + tolerance && found.visited < NODES;
+                reached = reached.max(functional.at(self.probe) - slack - ULP);
+                let open = highest > reached + tolerance && visited < NODES;
                 if !open || stack.push(Node { functional, next: 0 }).is_err() {
-                    found.bound = found.bound.max(highest);
+                    bound = bound.max(highest);
                 }
             }
             let Some(node) = stack.last_mut() else { break };
@@ -174,46 +191,24 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        found.bound = found.bound.max(found.reached);
-        found
+        if let Some(side) = self.sides.get_mut(index) {
+            side.reached = reached;
+            // up to a unit in the last place, not beyond what is known; `reached` is within the deviation of a point of the disc: above -2^31
+            let bits = (bound.max(reached) + ULP - 1) >> 30;
+            side.hull = bits.min(hull.into()) as i32;
+        }
+        visited
     }
 
     /// The largest value in the disc and in the box.
     fn highest(&self, f: &Functional) -> i64 {
         let [r, s] = f.r;
-        let Bounds2 { min, max } = self.hull;
-        let corner = Point2::new(if r < 0 { min.x } else { max.x }, if s < 0 { min.y } else { max.y });
+        let [right, left, top, bottom] = &self.sides;
+        let x = if r < 0 { -left.hull } else { right.hull };
+        let y = if s < 0 { -bottom.hull } else { top.hull };
         let norm = hypotenuse(i64::from(r), i64::from(s)) as i64;
+        let corner = Point2::new(Real::from_bits(x), Real::from_bits(y));
         f.at(corner).min(f.at(self.disc.centre) + norm * i64::from(self.disc.radius.to_bits()))
-    }
-}
-
-struct Support {
-    /// At least the support function.
-    bound: i64,
-    /// At most the support function.
-    reached: i64,
-    visited: u32,
-}
-
-/// Moves one side of the box inwards to a value in its direction.
-fn tighten(hull: &mut Bounds2, direction: usize, bits: i64) {
-    let clamped = |bits: i64| Real::from_bits(bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32);
-    match direction {
-        0 => hull.max.x = hull.max.x.min(clamped(bits)),
-        1 => hull.min.x = hull.min.x.max(clamped(-bits)),
-        2 => hull.max.y = hull.max.y.min(clamped(bits)),
-        _ => hull.min.y = hull.min.y.max(clamped(-bits)),
-    }
-}
-
-/// The box around a disc that reaches no farther than 64.
-fn disc_box(disc: Disc) -> Bounds2 {
-    let side = |z: Real, by: i32| Real::from_bits(z.to_bits().saturating_add(by));
-    let r = disc.radius.to_bits();
-    Bounds2 {
-        min: Point2::new(side(disc.centre.x, -r), side(disc.centre.y, -r)),
-        max: Point2::new(side(disc.centre.x, r), side(disc.centre.y, r)),
     }
 }
 
@@ -290,7 +285,7 @@ mod tests {
     fn the_search_is_short_for_the_catalogue() {
         let (mut least, mut most) = (u32::MAX, 0);
         for attractor in catalogue::ALL {
-            let visited = Search::new(&attractor.ifs::<LARGEST>().unwrap()).run().1;
+            let visited = attractor.ifs::<LARGEST>().unwrap().search().1;
             (least, most) = (least.min(visited), most.max(visited));
         }
         assert_eq!((least, most), (212, 5792));
@@ -323,7 +318,7 @@ mod tests {
         }
         for maps in [maps, varied] {
             let ifs = Ifs::<256>::proportional_to_determinant(&maps).unwrap();
-            let (bounds, visited) = Search::new(&ifs).run();
+            let (bounds, visited) = ifs.search();
             assert!(visited < 16 * (NODES + DEPTH as u32 * 256), "{visited}");
             let p = ifs.start();
             assert!(bounds.min.x <= p.x && p.x <= bounds.max.x && bounds.min.y <= p.y && p.y <= bounds.max.y);

@@ -8,14 +8,14 @@
 
 use super::affine::{Affine, hypotenuse};
 use crate::Error;
-use crate::num::{Real, Unit, Wide};
+use crate::num::{Real, Unit, Wide, nth, ratio};
 use crate::picture::Point2;
 
 /// How far from the axes an invariant disc may reach: half the range of [`Real`].
 pub(super) const REACH: i64 = 64 << 24;
 
 /// How often the centre is moved.
-const STEPS: u8 = 32;
+const STEPS: u32 = 32;
 
 /// A disc of the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,42 +31,6 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// An invariant disc of contractions, whose contraction factors are given, that reaches no farther than 64 from the axes.
-    ///
-    /// Cost: 33 square roots and divisions for each map.
-    pub(super) fn invariant(maps: &[Affine], factors: &[Unit]) -> Result<Self, Error> {
-        let mut sum = [0_i64; 2];
-        for (index, map) in maps.iter().enumerate() {
-            let p = fixed_point(map, index)?;
-            sum = [sum[0] + i64::from(p.x.to_bits()), sum[1] + i64::from(p.y.to_bits())];
-        }
-        let count = i64::try_from(maps.len()).unwrap_or(i64::MAX);
-        let mut centre = sum.map(|s| s.checked_div(count).unwrap_or(0));
-        let (mut best, mut worst) = radius_about(centre, maps, factors);
-        let mut best_centre = centre;
-        let mut best_worst = worst;
-        for step in 0..STEPS {
-            let Some(map) = maps.get(worst) else { break };
-            let p = fixed_point(map, worst)?;
-            let target = [i64::from(p.x.to_bits()), i64::from(p.y.to_bits())];
-            for (z, t) in centre.iter_mut().zip(target) {
-                *z += (t - *z) / (i64::from(step) + 2);
-            }
-            let radius;
-            (radius, worst) = radius_about(centre, maps, factors);
-            if radius < best {
-                (best, best_centre, best_worst) = (radius, centre, worst);
-            }
-        }
-        let reach = best_centre.iter().map(|z| z.abs()).max().unwrap_or(0).saturating_add(best);
-        if reach > REACH {
-            return Err(out_of_range("reach of the invariant disc", best_worst, reach));
-        }
-        // reach <= 2^30: both fit
-        let [x, y] = best_centre.map(|z| Real::from_bits(z as i32));
-        Ok(Self { centre: Point2::new(x, y), radius: Real::from_bits(best as i32) })
-    }
-
     /// How far the disc reaches from the axes, in each direction, with 24 fractional bits.
     pub(super) fn reach(&self) -> [i64; 2] {
         [self.centre.x, self.centre.y]
@@ -74,28 +38,76 @@ impl Disc {
     }
 }
 
-/// The radius of the least invariant disc about `z` that the estimate gives, rounded up, and the map that decides it.
-fn radius_about([x, y]: [i64; 2], maps: &[Affine], factors: &[Unit]) -> (i64, usize) {
-    let mut worst = (0, 0);
-    for (index, (map, factor)) in maps.iter().zip(factors).enumerate() {
-        // coefficients are below 1 and |z| <= 64, |t| <= 128: below 2^62
-        let moved = |l: Unit, m: Unit, t: Real, z: i64| {
-            let exact = i64::from(l.to_bits()) * x
-                + i64::from(m.to_bits()) * y
-                + ((i64::from(t.to_bits()) - z) << 30);
-            // away from zero to 24 bits; beyond 2^31 the radius is too large anyhow
-            (exact.abs() >> 30).saturating_add(1).min(1 << 31)
-        };
-        let distance = hypotenuse(moved(map.a, map.b, map.e, x), moved(map.c, map.d, map.f, y)) + 1;
-        let gap = (1_i64 << 30).saturating_sub(i64::from(factor.to_bits())).max(0) as u64;
-        // distance < 2^33
-        let radius =
-            (distance << 30).checked_div(gap).map_or(i64::MAX, |r| i64::try_from(r + 1).unwrap_or(i64::MAX));
-        if radius > worst.0 {
-            worst = (radius, index);
+/// Contractions, and a bound of the contraction factor of each.
+pub(super) struct Contractions<'a> {
+    pub(super) maps: &'a [Affine],
+    pub(super) factors: &'a [Unit],
+}
+
+impl Contractions<'_> {
+    /// An invariant disc that reaches no farther than 64 from the axes. Cost: 33 square roots for each map, and a division where it may decide.
+    #[inline(never)]
+    pub(super) fn invariant_disc(&self) -> Result<Disc, Error> {
+        let mut sum = [0_i64; 2];
+        for (index, map) in self.maps.iter().enumerate() {
+            let p = fixed_point(map, index)?;
+            sum = [sum[0] + i64::from(p.x.to_bits()), sum[1] + i64::from(p.y.to_bits())];
         }
+        // at most 256 maps
+        let mut centre = sum.map(|s| nth(s, self.maps.len() as u32) as i32);
+        let (mut best, mut worst) = self.radius_about(centre);
+        let mut best_centre = centre;
+        let mut best_worst = worst;
+        for step in 0..STEPS {
+            let Some(map) = self.maps.get(worst) else { break };
+            let p = fixed_point(map, worst)?;
+            for (z, target) in centre.iter_mut().zip([p.x, p.y]) {
+                *z += nth(i64::from(target.to_bits()) - i64::from(*z), step + 2) as i32;
+            }
+            let radius;
+            (radius, worst) = self.radius_about(centre);
+            if radius < best {
+                (best, best_centre, best_worst) = (radius, centre, worst);
+            }
+        }
+        let [x, y] = best_centre;
+        let reach = i64::from(x.abs().max(y.abs())) + best;
+        if reach > REACH {
+            return Err(out_of_range("reach of the invariant disc", best_worst, reach));
+        }
+        // reach <= 2^30: both fit
+        let centre = Point2::new(Real::from_bits(x), Real::from_bits(y));
+        Ok(Disc { centre, radius: Real::from_bits(best as i32) })
     }
-    worst
+
+    /// The radius of the least invariant disc about `z` that the estimate gives, rounded up, and the map that decides it.
+    #[inline(never)]
+    fn radius_about(&self, [x, y]: [i32; 2]) -> (i64, usize) {
+        let mut worst = (0, 0);
+        for (index, (map, factor)) in self.maps.iter().zip(self.factors).enumerate() {
+            let to_right = moved(map.a, map.b, map.e, [x, y], x);
+            let upwards = moved(map.c, map.d, map.f, [x, y], y);
+            let distance = hypotenuse(to_right, upwards) + 1;
+            // factors are at most 1; distance < 2^33
+            let gap = (1_u32 << 30).saturating_sub(factor.to_bits().unsigned_abs());
+            // most maps do not decide: a product tells
+            if distance << 30 >= (worst.0 as u64).saturating_mul(gap.into()) {
+                worst = (ratio(distance, 30, gap.into()).min(1 << 62) as i64 + 1, index);
+            }
+        }
+        worst
+    }
+}
+
+/// How far a row of a map moves a coordinate `z` of the point `(x, y)`, rounded up.
+#[inline(never)]
+fn moved(l: Unit, m: Unit, t: Real, [x, y]: [i32; 2], z: i32) -> i64 {
+    // coefficients are below 1 and |z| <= 64, |t| <= 128: below 2^62
+    let exact = i64::from(l.to_bits()) * i64::from(x)
+        + i64::from(m.to_bits()) * i64::from(y)
+        + ((i64::from(t.to_bits()) - i64::from(z)) << 30);
+    // beyond 2^31 the radius is too large anyhow
+    ((exact.abs() >> 30) + 1).min(1 << 31)
 }
 
 fn fixed_point(map: &Affine, index: usize) -> Result<Point2, Error> {
@@ -125,7 +137,7 @@ mod tests {
         for attractor in catalogue::ALL {
             let factors: heapless::Vec<_, 8> =
                 attractor.maps.iter().map(Affine::contraction_factor).collect();
-            let disc = Disc::invariant(attractor.maps, &factors).unwrap();
+            let disc = Contractions { maps: attractor.maps, factors: &factors }.invariant_disc().unwrap();
             let r = disc.radius.to_num::<f64>();
             let z = [disc.centre.x.to_num::<f64>(), disc.centre.y.to_num::<f64>()];
             for map in attractor.maps {
@@ -147,21 +159,24 @@ mod tests {
     fn a_square_lies_in_its_circumscribed_disc() {
         let square =
             [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[e, f]| Affine::from_ratios([1, 0, 0, 1, e, f], 2));
-        let disc = Disc::invariant(&square, &[Unit::from_num(0.5); 4]).unwrap();
+        let disc =
+            Contractions { maps: &square, factors: &[Unit::from_num(0.5); 4] }.invariant_disc().unwrap();
         let radius = disc.radius.to_num::<f64>();
         assert!(radius >= 0.5_f64.sqrt() && radius < 0.72, "{radius}");
     }
 
     #[test]
     fn a_disc_that_leaves_the_range_is_refused() {
+        let refused = |maps: &[Affine; 2], factor: Unit| {
+            Contractions { maps, factors: &[factor; 2] }.invariant_disc().unwrap_err()
+        };
         let far = Affine::from_thousandths([500, 0, 0, 500, 40_000, 0]);
         let near = Affine::from_thousandths([500, 0, 0, 500, 0, 0]);
-        let error = Disc::invariant(&[near, far], &[Unit::from_num(0.5); 2]).unwrap_err();
+        let error = refused(&[near, far], Unit::from_num(0.5));
         assert!(matches!(error, Error::OutOfRange { index: 1, .. }), "{error}");
         let slow = Affine::from_thousandths([999, 0, 0, 999, 0, 10]);
         let slow_too = Affine::from_thousandths([999, 0, 0, 999, 0, -100]);
-        let factor = slow.contraction_factor();
-        let error = Disc::invariant(&[slow, slow_too], &[factor; 2]).unwrap_err();
+        let error = refused(&[slow, slow_too], slow.contraction_factor());
         assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
     }
 }

@@ -9,7 +9,7 @@
 //! Left out: systems that contract on average only.
 
 use super::affine::Affine;
-use super::disc::Disc;
+use super::disc::{Contractions, Disc};
 use crate::Error;
 use crate::num::{Alias, Unit, Wide};
 use crate::picture::Point2;
@@ -36,7 +36,7 @@ pub struct Ifs<const N: usize> {
 impl<const N: usize> Ifs<N> {
     /// The system of these maps, each chosen with its probability.
     ///
-    /// Cost: 66 square roots and 33 divisions for each map, and a few thousand instructions more: 126 thousand Cortex-M4 instructions for the fern.
+    /// Cost: 35 square roots and up to 33 divisions for each map, and a few thousand instructions more: 161 thousand Cortex-M4 instructions for the fern.
     ///
     /// # Errors
     /// [`Error::TooFew`] without maps, [`Error::Capacity`] for more than `N` or 256, [`Error::LengthMismatch`] unless there is one probability for each map,
@@ -121,7 +121,7 @@ impl<const N: usize> Ifs<N> {
             }
         }
         let len = given.len();
-        let disc = Disc::invariant(given, &factors)?;
+        let disc = Contractions { maps: given, factors: &factors }.invariant_disc()?;
         let contraction_factor = factors.iter().copied().max().unwrap_or(Unit::ONE);
         Ok(Self {
             maps,

@@ -25,7 +25,7 @@ mod wide;
 pub use exponential::exp_minus;
 pub use limbs::Limbs;
 pub use logarithm::log2;
-pub(crate) use polynomial::{FRACTION, ONE, Polynomial, times};
+pub(crate) use polynomial::{FRACTION, ONE, Polynomial, part_of, times, twice_high};
 pub(crate) use quotient::{nth, quotient, ratio};
 pub use random::Alias;
 pub(crate) use root::root_and_reciprocal;

@@ -3,7 +3,7 @@
 //! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
 //! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
-use super::{mul_high, nth};
+use super::{mul_high, mul_high_u, nth};
 
 /// Fractional bits of values and coefficients.
 pub(crate) const FRACTION: u32 = 55;
@@ -23,7 +23,30 @@ pub(crate) struct Polynomial<const D: usize> {
 /// Out of line: constructors ask for many.
 #[inline(never)]
 pub(crate) fn times(value: i64, t: u64) -> i64 {
-    if t >= ONE { value } else { mul_high(value, t as i64) << 1 }
+    inline_times(value, t)
+}
+
+/// [`times`] for the walk along an address.
+#[inline(always)]
+fn inline_times(value: i64, t: u64) -> i64 {
+    if t >= ONE {
+        return value;
+    }
+    // `t` has no sign to be corrected for
+    let correction = if value < 0 { t } else { 0 };
+    (mul_high_u(value as u64, t).wrapping_sub(correction) << 1) as i64
+}
+
+/// `2^-63 a b`, for `b` with 63 fractional bits. Error: below 2 units, towards minus infinity.
+#[inline(never)]
+pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
+    mul_high(a, b) << 1
+}
+
+/// `a b`, both with 63 fractional bits, for `a` below 1. Error: below a unit, downwards.
+#[inline(never)]
+pub(crate) fn part_of(a: u64, b: u64) -> u64 {
+    mul_high_u(a << 1, b)
 }
 
 impl<const D: usize> Polynomial<D> {
@@ -34,7 +57,7 @@ impl<const D: usize> Polynomial<D> {
     pub(crate) fn at(&self, t: u64) -> i64 {
         let mut sum = 0_i64;
         for c in self.powers.iter().rev() {
-            sum = times(sum.wrapping_add(*c), t);
+            sum = inline_times(sum.wrapping_add(*c), t);
         }
         sum.wrapping_add(self.constant)
     }

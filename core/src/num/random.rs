@@ -30,45 +30,9 @@ impl<const N: usize> Alias<N> {
         if sum == 0 {
             return Err(Error::TooFew { what: "positive weights", given: 0, at_least: 1 });
         }
-        // Each slot holds `sum` parts; an item with weight w owns n w of them.
-        let mut parts = [0_u64; N];
-        let mut table = Self { threshold: [u32::MAX; N], other: [0; N], len: n as u32 };
-        for (i, (part, weight)) in parts.iter_mut().zip(weights).enumerate() {
-            *part = n as u64 * u64::from(*weight);
-            if let Some(other) = table.other.get_mut(i) {
-                *other = i as u8;
-            }
-        }
-        let mut settled = [false; N];
-        for _ in 0..n {
-            // the poorest item not settled yet, and the richest
-            let open = || {
-                parts
-                    .iter()
-                    .zip(&settled)
-                    .enumerate()
-                    .take(n)
-                    .filter(|(_, (_, s))| !**s)
-                    .map(|(i, (p, _))| (*p, i))
-            };
-            let (Some((poor, i)), Some((_, rich))) = (open().min(), open().max()) else { break };
-            if poor >= sum {
-                break;
-            }
-            // poor < sum < 2^40, so that the quotient is below 2^32
-            let fraction = ratio(poor, 32, sum) as u32;
-            if let (Some(t), Some(o), Some(s)) =
-                (table.threshold.get_mut(i), table.other.get_mut(i), settled.get_mut(i))
-            {
-                *t = fraction;
-                *o = rich as u8;
-                *s = true;
-            }
-            if let Some(p) = parts.get_mut(rich) {
-                *p = p.saturating_sub(sum - poor);
-            }
-        }
-        Ok(table)
+        let (mut threshold, mut other) = ([u32::MAX; N], core::array::from_fn(|i| i as u8));
+        share(weights, sum, &mut [0; N], &mut threshold, &mut other);
+        Ok(Self { threshold, other, len: n as u32 })
     }
 
     /// How many items there are.
@@ -90,6 +54,39 @@ impl<const N: usize> Alias<N> {
         match (self.threshold.get(slot), self.other.get(slot)) {
             (Some(threshold), Some(other)) if product as u32 >= *threshold => *other as usize,
             _ => slot,
+        }
+    }
+}
+
+/// Fills a table in which each of the items stands for itself.
+fn share(weights: &[u32], sum: u64, parts: &mut [u64], thresholds: &mut [u32], others: &mut [u8]) {
+    // Each slot holds `sum` parts; an item with weight w owns n w of them.
+    for (part, weight) in parts.iter_mut().zip(weights) {
+        *part = weights.len() as u64 * u64::from(*weight);
+    }
+    for _ in weights {
+        // the poorest item that still stands for itself, and the richest
+        let (mut poor, mut rich) = ((sum, 0), (0, 0));
+        for (i, ((part, other), _)) in parts.iter().zip(&*others).zip(weights).enumerate() {
+            if usize::from(*other) == i {
+                if *part < poor.0 {
+                    poor = (*part, i);
+                }
+                if *part >= rich.0 {
+                    rich = (*part, i);
+                }
+            }
+        }
+        let ((part, i), (_, rich)) = (poor, rich);
+        if part >= sum {
+            break;
+        }
+        // part < sum < 2^40, so that the quotient is below 2^32; what is open averages `sum`: the richest is another one and has enough
+        if let (Some(threshold), Some(other)) = (thresholds.get_mut(i), others.get_mut(i)) {
+            (*threshold, *other) = (ratio(part, 32, sum) as u32, rich as u8);
+        }
+        if let Some(left) = parts.get_mut(rich) {
+            *left = left.wrapping_sub(sum - part);
         }
     }
 }

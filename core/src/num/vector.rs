@@ -34,8 +34,8 @@ impl Vec3<Real> {
     /// The unit vector in this direction, none for the zero vector. Error: below `2^-27` in each component.
     #[inline]
     pub fn normalised(self) -> Option<Vec3<Unit>> {
-        let bits = [self.x.to_bits(), self.y.to_bits(), self.z.to_bits()];
-        if bits == [0; 3] { None } else { Some(unit(bits)) }
+        let [x, y, z] = [self.x.to_bits(), self.y.to_bits(), self.z.to_bits()];
+        if x | y | z == 0 { None } else { Some(unit([x, y, z])) }
     }
 }
 

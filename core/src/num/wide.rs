@@ -66,6 +66,7 @@ pub struct Reciprocal {
 
 impl Reciprocal {
     /// The reciprocal of `d`, which is taken as 1 when it is 0.
+    #[inline(never)]
     pub fn of(d: u64) -> Self {
         let d = d.max(1);
         let shift = d.leading_zeros();
@@ -73,11 +74,34 @@ impl Reciprocal {
         Self { mantissa: ratio(1 << 63, 63, d << shift), shift }
     }
 
+    /// How often 1 has to be halved to be at most `d` with 63 fractional bits.
+    #[inline]
+    pub(crate) fn halvings(self) -> u32 {
+        self.shift
+    }
+
     /// `v / d` with 63 fractional bits, for `v <= d`.
     #[inline]
     pub fn quotient(self, v: u64) -> u64 {
         // v << shift < 2^64; product of two numbers with 63 fractional bits has 126, its high half 62
         mul_high_u(v << self.shift, self.mantissa) << 1
+    }
+
+    /// `v / d` with 63 fractional bits for the `d` of which this is the reciprocal, rounded down, for `v < d`. Exact.
+    pub(crate) fn exact(self, v: u64, d: u64) -> u64 {
+        // 0 counts as 1: then v = 0
+        let d = d.max(1);
+        let mut quotient = self.quotient(v);
+        // the remainder, below 5 d: its two words
+        let product = (mul_high_u(quotient, d), quotient.wrapping_mul(d));
+        let (mut low, borrow) = (v << 63).overflowing_sub(product.1);
+        let mut high = (v >> 1).wrapping_sub(product.0).wrapping_sub(u64::from(borrow));
+        while high > 0 || low >= d {
+            high = high.wrapping_sub(u64::from(low < d));
+            low = low.wrapping_sub(d);
+            quotient += 1;
+        }
+        quotient
     }
 }
 
@@ -120,12 +144,13 @@ mod tests {
 
     #[test]
     fn a_quotient_is_low_by_less_than_two_to_the_minus_61() {
-        for d in [3, 7, 309, 1 << 62, (1 << 63) - 1, 0x6789_abcd_ef01_2345] {
+        for d in [3, 7, 309, 1 << 62, (1 << 63) - 1, 0x6789_abcd_ef01_2345, u64::MAX] {
             let r = Reciprocal::of(d);
             for v in [0, 1, d / 3, d / 2, d - 1, d] {
                 let exact = (u128::from(v) << 63) / u128::from(d);
                 let got = u128::from(r.quotient(v));
                 assert!(got <= exact && exact - got < 5, "{v} / {d}: {got} against {exact}");
+                assert!(v == d || u128::from(r.exact(v, d)) == exact, "{v} / {d}");
             }
         }
     }

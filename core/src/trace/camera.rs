@@ -1,5 +1,6 @@
 //! A pinhole camera: where the eye is, where it looks, how wide.
 
+use super::environment::between;
 use crate::Error;
 use crate::num::{Angle, Real, Unit, Vec3, Wide, nth, quotient, sin_cos};
 
@@ -25,21 +26,12 @@ impl Camera {
     /// [`Error::Degenerate`] if the eye is where it looks, or looks along `up`.
     pub fn new(eye: Vec3, look_at: Vec3, up: Vec3, field_of_view: Real) -> Result<Self, Error> {
         for (index, c) in [eye.x, eye.y, eye.z].into_iter().enumerate() {
-            if c <= -64 || c >= 64 {
+            if c.unsigned_abs().to_bits() >= 64 << 24 {
                 let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
                 return Err(Error::OutOfRange { what: "eye", index, value: c.into(), min, max });
             }
         }
-        if !(1..=120).contains(&field_of_view) {
-            let (min, max) = (Wide::from_num(1), Wide::from_num(120));
-            return Err(Error::OutOfRange {
-                what: "field of view",
-                index: 0,
-                value: field_of_view.into(),
-                min,
-                max,
-            });
-        }
+        between("field of view", 0, field_of_view.into(), Wide::ONE, Wide::from_num(120))?;
         let forward = look_at
             .minus(eye)
             .normalised()

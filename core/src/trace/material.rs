@@ -11,6 +11,15 @@ pub struct Light {
 }
 
 impl Light {
+    /// From the left and behind the eye of one who looks along `y`: the direction `(-1, -2, 3)`.
+    pub(super) const ORDINARY: Self = Self {
+        towards: Vec3::new(
+            Unit::from_bits(-286_969_574),
+            Unit::from_bits(-573_939_147),
+            Unit::from_bits(860_908_720),
+        ),
+    };
+
     /// A light in the direction `towards` (any length).
     ///
     /// # Errors
@@ -148,4 +157,14 @@ fn power(base: Unit, exponent: u16) -> Unit {
 #[inline]
 fn times(a: Unit, b: Unit) -> Unit {
     Unit::from_bits(((i64::from(a.to_bits()) * i64::from(b.to_bits()) + (1 << 29)) >> 30) as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ordinary_light_is_the_one_of_its_direction() {
+        assert_eq!(Light::new(Vec3::new((-1).into(), (-2).into(), 3.into())), Ok(Light::ORDINARY));
+    }
 }

@@ -6,54 +6,50 @@
 use core::ops::Range;
 
 use super::Camera;
-use crate::num::{quotient, reciprocal};
+use crate::num::{Unit, Vec3, quotient, reciprocal};
 
-/// The projected edges of a box, or none where a corner is not in front of the eye.
+/// The projected corners of a box, in pixels with 16 fractional bits, or none where one is not in front of the eye. Bit `k` of a corner's index says on
+/// which side it lies along axis `k`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Outline(Option<[Edge; 12]>);
+pub(super) struct Outline(Option<[(i32, i32); 8]>);
 
-/// An edge from its upper end downwards, in pixels with 16 fractional bits.
-#[derive(Debug, Clone, Copy, Default)]
-struct Edge {
-    top: (i32, i32),
-    bottom: (i32, i32),
-}
+/// The edges: a corner and a neighbour with one more bit set.
+const EDGES: [(u8, u8); 12] =
+    [(0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7), (6, 7)];
 
 impl Outline {
     /// The outline of the box `extent` (24 fractional bits) on a picture of `cols x rows` pixels.
     pub(super) fn new(extent: [[i32; 2]; 3], camera: &Camera, cols: u32, rows: u32) -> Self {
         let mut corners = [(0, 0); 8];
         for (index, corner) in corners.iter_mut().enumerate() {
-            let bit = |k: usize| (index >> k) & 1;
-            let Some(projected) =
-                project([extent[0][bit(0)], extent[1][bit(1)], extent[2][bit(2)]], camera, cols, rows)
-            else {
-                return Self(None);
-            };
+            let mut bits = index;
+            let point = extent.map(|[low, high]| {
+                let side = if bits & 1 == 0 { low } else { high };
+                bits >>= 1;
+                side
+            });
+            let Some(projected) = project(point, camera, cols, rows) else { return Self(None) };
             *corner = projected;
         }
-        let mut edges = [Edge::default(); 12];
-        // a corner and its neighbours with one more bit set
-        let pairs = (0..8_usize)
-            .flat_map(|a| [1, 2, 4].into_iter().filter(move |b| a & b == 0).map(move |b| (a, a | b)));
-        for (edge, (a, b)) in edges.iter_mut().zip(pairs) {
-            if let (Some(a), Some(b)) = (corners.get(a), corners.get(b)) {
-                *edge = if a.1 <= b.1 { Edge { top: *a, bottom: *b } } else { Edge { top: *b, bottom: *a } };
-            }
-        }
-        Self(Some(edges))
+        Self(Some(corners))
     }
 
     /// The columns of row `y` in which the box can be seen.
     pub(super) fn columns(&self, y: u32, cols: u32) -> Range<u32> {
-        let Some(edges) = &self.0 else { return 0..cols };
+        let Some(corners) = &self.0 else { return 0..cols };
         // the row and two pixels above and below: the samples of a wide filter lie up to that outside their pixel
         let (above, below) = (((y as i32) << 16) - (2 << 16), ((y as i32) << 16) + (3 << 16));
         let (mut left, mut right) = (i32::MAX, i32::MIN);
-        for Edge { top, bottom } in edges {
-            if top.1 > below || bottom.1 < above {
+        for (a, b) in EDGES {
+            // below 8: `get` only spares the proof to the compiler
+            let (Some(a), Some(b)) = (corners.get(usize::from(a & 7)), corners.get(usize::from(b & 7)))
+            else {
+                continue;
+            };
+            if a.1.min(b.1) > below || a.1.max(b.1) < above {
                 continue;
             }
+            let (top, bottom) = if a.1 <= b.1 { (a, b) } else { (b, a) };
             let fall = bottom.1.wrapping_sub(top.1) as u32;
             let run = i64::from(bottom.0) - i64::from(top.0);
             let (mantissa, shift) = reciprocal(fall);
@@ -79,12 +75,9 @@ impl Outline {
 
 /// The pixel coordinates of a point, 16 fractional bits; none if it is not at least `2^-8` in front of the eye or far outside the picture.
 fn project(point: [i32; 3], camera: &Camera, cols: u32, rows: u32) -> Option<(i32, i32)> {
-    let eye = [camera.eye.x, camera.eye.y, camera.eye.z].map(|c| i64::from(c.to_bits()));
-    let along = |axis: &crate::num::Vec3<crate::num::Unit>| {
-        let axis = [axis.x, axis.y, axis.z].map(|c| i64::from(c.to_bits()));
-        let products = point.iter().zip(eye).zip(axis).map(|((p, e), a)| ((i64::from(*p) - e) * a) >> 30);
-        products.sum::<i64>()
-    };
+    let offsets = [(point[0], camera.eye.x), (point[1], camera.eye.y), (point[2], camera.eye.z)]
+        .map(|(p, e)| i64::from(p) - i64::from(e.to_bits()));
+    let along = |axis: &Vec3<Unit>| scalar(&offsets, axis);
     let depth = along(&camera.forward);
     if depth < 1 << 16 {
         return None;
@@ -99,4 +92,11 @@ fn project(point: [i32; 3], camera: &Camera, cols: u32, rows: u32) -> Option<(i3
     let x = pixels(along(&camera.right))? + ((cols as i32) << 15);
     let y = ((rows as i32) << 15) - pixels(along(&camera.up))?;
     Some((x, y))
+}
+
+/// The scalar product with a direction, in the format of `v`, whose components are below `2^33`.
+#[inline(never)]
+fn scalar(v: &[i64; 3], axis: &Vec3<Unit>) -> i64 {
+    let axis = [axis.x, axis.y, axis.z];
+    v.iter().zip(axis).map(|(v, a)| (v * i64::from(a.to_bits())) >> 30).sum()
 }

@@ -91,15 +91,14 @@ impl<'a, const STACK: usize> RayCaster<'a, STACK> {
         // 2 k / rows with 30 fractional bits
         let footprint = nth(i64::from(camera.tangent) << 3, size.height).min(i64::from(i32::MAX));
         let footprint = Footprint::new(Unit::from_bits(footprint as i32));
-        let light = Light::new(Vec3::new((-1).into(), (-2).into(), 3.into()))?;
         Ok(Self {
             surface,
             camera,
             size,
             material: Material::DIFFUSE,
-            light,
+            light: Light::ORDINARY,
             environment: Environment::SKY,
-            pattern: Pattern::new(Sampling::Centre, Filter::Box)?,
+            pattern: Pattern::CENTRE,
             corner,
             right,
             down,

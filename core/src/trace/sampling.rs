@@ -1,7 +1,5 @@
 //! Where in a pixel rays are cast, and what each counts (eq. 52-53).
 
-use heapless::Vec;
-
 use super::environment::between;
 use crate::Error;
 use crate::num::{Real, Unit, Wide, exp_minus, nth, quotient};
@@ -53,16 +51,25 @@ impl Filter {
 const MOST: usize = 8;
 
 /// Samples and weights, ready for use.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Pattern {
     /// Place of a part's centre from the pixel's centre, in pixels, 24 fractional bits, and weight of its row or column, 30 bits.
-    parts: Vec<(i32, i32), MOST>,
+    parts: [(i32, i32); MOST],
+    /// Parts a side.
+    count: u8,
     /// Side of a part in pixels, 24 fractional bits.
     side: i32,
     seed: Option<u32>,
 }
 
 impl Pattern {
+    /// One sample in the centre: [`Sampling::Centre`] with [`Filter::Box`].
+    pub(crate) const CENTRE: Self = {
+        let mut parts = [(0, 0); MOST];
+        parts[0] = (0, Unit::ONE.to_bits());
+        Self { parts, count: 1, side: Real::ONE.to_bits(), seed: None }
+    };
+
     pub(crate) fn new(sampling: Sampling, filter: Filter) -> Result<Self, Error> {
         let (n, seed) = match sampling {
             Sampling::Centre => (1, None),
@@ -79,9 +86,9 @@ impl Pattern {
             }
         };
         let (count, width) = (i64::from(n), i64::from(width.to_bits()));
-        let mut parts = Vec::new();
+        let mut parts = [(0, 0); MOST];
         let mut sum = 0;
-        for i in 0..count {
+        for (i, part) in (0..count).zip(&mut parts) {
             let place = nth(width * (2 * i + 1 - count), 2 * u32::from(n));
             let weight = match filter {
                 Filter::Box => Unit::ONE,
@@ -92,44 +99,41 @@ impl Pattern {
                 }
             };
             sum += u64::from(weight.to_bits().unsigned_abs());
-            // at most MOST, as checked above
-            let _ = parts.push((place as i32, weight.to_bits()));
+            *part = (place as i32, weight.to_bits());
         }
         for (_, weight) in &mut parts {
             *weight = quotient(i64::from(*weight), 30, sum) as i32;
         }
-        Ok(Self { parts, side: nth(width, n.into()) as i32, seed })
+        Ok(Self { parts, count: n, side: nth(width, n.into()) as i32, seed })
     }
 
     /// Parts a side.
     pub(crate) fn parts_a_side(&self) -> u32 {
-        self.parts.len() as u32
+        self.count.into()
     }
 
     /// Whether the only sample is the pixel's centre.
     #[inline]
     pub(crate) fn is_centre(&self) -> bool {
-        self.parts.len() == 1 && self.seed.is_none()
+        self.count == 1 && self.seed.is_none()
     }
 
     /// The samples of pixel `(x, y)`: offsets from its centre in pixels (24 fractional bits, y downwards) and weights (30 bits).
     #[inline]
     pub(crate) fn samples(&self, x: u32, y: u32) -> impl Iterator<Item = (i32, i32, i32)> + '_ {
         let mut state = self.seed.map(|seed| hash(seed ^ hash(x.wrapping_add(hash(y)))));
-        self.parts.iter().flat_map(move |row| self.parts.iter().map(move |column| (row, column))).map(
-            move |(row, column)| {
-                let weight = ((i64::from(row.1) * i64::from(column.1)) >> 30) as i32;
-                let (mut dx, mut dy) = (column.0, row.0);
-                if let Some(state) = &mut state {
-                    *state = hash(state.wrapping_add(0x9e37_79b9));
-                    let jitter =
-                        |bits: u32| (((i64::from(bits) - 0x8000) * i64::from(self.side)) >> 16) as i32;
-                    dx += jitter(*state >> 16);
-                    dy += jitter(*state & 0xffff);
-                }
-                (dx, dy, weight)
-            },
-        )
+        let parts = || self.parts.iter().take(self.count.into());
+        parts().flat_map(move |row| parts().map(move |column| (row, column))).map(move |(row, column)| {
+            let weight = ((i64::from(row.1) * i64::from(column.1)) >> 30) as i32;
+            let (mut dx, mut dy) = (column.0, row.0);
+            if let Some(state) = &mut state {
+                *state = hash(state.wrapping_add(0x9e37_79b9));
+                let jitter = |bits: u32| (((i64::from(bits) - 0x8000) * i64::from(self.side)) >> 16) as i32;
+                dx += jitter(*state >> 16);
+                dy += jitter(*state & 0xffff);
+            }
+            (dx, dy, weight)
+        })
     }
 }
 
@@ -164,6 +168,11 @@ mod tests {
                 assert!(samples.iter().all(|s| offset(s.0).abs() <= reach && offset(s.1).abs() <= reach));
             }
         }
+    }
+
+    #[test]
+    fn the_centre_is_the_ordinary_pattern() {
+        assert_eq!(Pattern::new(Sampling::Centre, Filter::Box), Ok(Pattern::CENTRE));
     }
 
     #[test]

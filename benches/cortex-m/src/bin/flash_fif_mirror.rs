@@ -24,7 +24,7 @@ fn draw() -> Result<(), attractor::Error> {
     let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
     let g = Fif::<2, 1>::interpolating(&bb(knots), &bb([Scaling::from_bits(1 << 30); 2]))?;
     let g = g.integral::<2>(Wide::ZERO)?;
-    let mut memory = [Cell::ZERO; Pyramid::cells(2, 6)];
+    let mut memory = const { [Cell::ZERO; Pyramid::cells(2, 6)] };
     let pyramid = Pyramid::new(&g, bb(6), &mut memory)?;
     let at = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
     let camera = Camera::new(bb(at(-4, -3, 5)), bb(at(1, 1, 0)), at(0, 0, 1), bb(Real::from_num(32)))?;
