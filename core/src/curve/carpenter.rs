@@ -11,7 +11,7 @@
 
 use super::displacement::{
     Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, perpendicular, product, raised,
-    undone,
+    raised_across, undone,
 };
 use super::gaussian::{Deviate, Parameter, RandomFunction};
 use crate::Error;
@@ -166,7 +166,7 @@ impl Displacement for OneVariable {
     #[inline]
     fn midpoint(&self, part: &Part) -> Point2 {
         let g = product(self.offset, self.random.at(part.middle).to_bits());
-        displaced(part, Deviate::ZERO, Deviate::from_bits(g))
+        raised_across(part, g)
     }
 }
 

@@ -9,8 +9,10 @@
 //! self-similar. Both factors that the text prints give other spectra: `2^((1 - beta) / 2)` falls as `1/f^(beta + 2)`.
 //! Source: course unit V, section 5.6; `t` from Carpenter's table, so that the seed repeats the curve and so does every part of it.
 
-use super::displacement::{Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, product};
-use super::gaussian::{Deviate, RandomFunction};
+use super::displacement::{
+    Displacement, LEVELS, Part, checked_offset, checked_spectrum, product, raised_across,
+};
+use super::gaussian::RandomFunction;
 use crate::Error;
 use crate::num::{Real, Unit, sqrt};
 use crate::picture::Point2;
@@ -68,7 +70,7 @@ impl Displacement for Elbow {
     fn midpoint(&self, part: &Part) -> Point2 {
         let deviation = self.deviations.get(part.level as usize).copied().unwrap_or(0);
         let t = product(deviation, self.random.at(part.middle).to_bits());
-        displaced(part, Deviate::ZERO, Deviate::from_bits(t))
+        raised_across(part, t)
     }
 }
 

@@ -110,7 +110,11 @@ const DEPTH: usize = 16;
 const BY_LENGTH: Stop = Stop::Length(Real::from_bits(1 << 17));
 const BY_NORM: Stop = Stop::Norm(Real::from_bits(1 << 17));
 
-fn random<D: Displacement + Clone>(watch: &mut Watch<'_>, law: Result<D, attractor::Error>, stop: Stop) -> Tally {
+fn random<D: Displacement + Clone>(
+    watch: &mut Watch<'_>,
+    law: Result<D, attractor::Error>,
+    stop: Stop,
+) -> Tally {
     let Ok(law) = law else { return Tally::default() };
     match Subdivision::<D, DEPTH>::new(&law, &koch::SEGMENT, stop) {
         Ok(path) => walk(watch, &path),
