@@ -63,14 +63,15 @@ pub(crate) fn find(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(n, _)| *n == name).map(|(_, text)| *text)
 }
 
-/// The built-in scene whose name is nearest to a misspelt one.
-pub(crate) fn nearest(name: &str) -> &'static str {
+/// The built-in scene whose name is nearest to a misspelt one; none when nothing is near.
+pub(crate) fn nearest(name: &str) -> Option<&'static str> {
     let distance = |known: &str| {
         // a part of a name is nearer than its length says
         let part = known.contains(name) || known.split('-').any(|word| word == name);
-        strsim::damerau_levenshtein(name, known).saturating_sub(if part { 100 } else { 0 })
+        if part { 0 } else { strsim::damerau_levenshtein(name, known) }
     };
-    SCENES.iter().map(|(known, _)| *known).min_by_key(|known| distance(known)).unwrap_or("")
+    let (known, _) = SCENES.iter().min_by_key(|(known, _)| (distance(known), known.len()))?;
+    (distance(known) <= name.chars().count().div_ceil(3)).then_some(*known)
 }
 
 /// The text of a built-in data file.

@@ -31,6 +31,20 @@ const EXAMPLES: &str = "Examples:
   attractor sample figure-1-f --points 1000 > f.csv
   attractor accuracy";
 
+/// Used twice: at the end of the help, and when a window opens.
+macro_rules! keys {
+    () => {
+        "Keys
+  arrows, W A S D    pan; on a surface, walk round it
+  + -, wheel         zoom, about the mouse with the wheel; a click looks there
+  [ ]                half as many iterations, twice as many
+  R                  the scene as its file says, read again
+  Enter              save what is shown as NAME-1.png, and print the lines of a scene file that come back here
+  N P, Page keys     next scene, previous scene
+  Esc                close"
+    };
+}
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Say what there is: scenes, kinds of scene files, commands
@@ -145,9 +159,15 @@ pub(crate) struct Spectrum {
     pub(crate) scene: String,
 }
 
+/// What the window understands.
+#[cfg_attr(not(feature = "window"), expect(dead_code, reason = "said when a window opens"))]
+pub(crate) const KEYS: &str = keys!();
+
 #[derive(Debug, Args)]
-#[command(after_help = "Keys: left/up the scene before, right/down the next one, Esc closes.
-Needs: apt install libsdl2-dev; cargo run --release -p attractor-sim --features window -- window SCENE")]
+#[command(after_help = concat!(
+    keys!(),
+    "\n\nNeeds: apt install libsdl2-dev; cargo run --release -p attractor-sim --features window -- window SCENE"
+))]
 pub(crate) struct Window {
     /// Name of a built-in scene, or path of a TOML file
     #[arg(value_name = "SCENE")]

@@ -17,6 +17,13 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Fail> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    if !directory.is_dir() {
+        let directory = directory.display();
+        return Err(Fail::new(format_args!(
+            "{}: cannot be written: there is no directory {directory}",
+            path.display()
+        )));
+    }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".attractor-").suffix(".part");
     #[cfg(unix)]

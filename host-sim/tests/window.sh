@@ -1,16 +1,18 @@
 #!/bin/sh
-# The window under Xvfb: it shows the picture that dump writes, arrow keys change it, Esc closes it.
+# The window under Xvfb: it shows the picture that dump writes, keys change the scene, keys and mouse move about in it, and what it saves can be
+# shown again from the lines that it prints; Esc closes it.
 # Needs: apt install libsdl2-dev xvfb xdotool imagemagick
 # Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]
 set -eu
 cd "$(dirname "$0")/../.."
 shots=${1:-$(mktemp -d)}
 mkdir -p "$shots"
+shots=$(cd "$shots" && pwd)
 if [ "${ATTRACTOR_UNDER_XVFB:-}" != 1 ]; then
     cargo build --release --quiet -p attractor-sim --features window
-    ATTRACTOR_UNDER_XVFB=1 exec timeout 120 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
+    ATTRACTOR_UNDER_XVFB=1 exec timeout 180 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
 fi
-attractor=target/release/attractor
+attractor=$PWD/target/release/attractor
 fail() {
     echo "window: $1" >&2
     [ -z "${pid:-}" ] || kill "$pid" 2>/dev/null || true
@@ -25,23 +27,90 @@ shows() {
     done
     fail "does not show $1 (see $shots/$2.png)"
 }
-"$attractor" dump figure-6-gg figure-6-ff-diffuse -o "$shots/dump" >/dev/null
-"$attractor" window figure-6-gg &
-pid=$!
-window=$(timeout 20 xdotool search --sync --onlyvisible --name '^attractor$' | head -1)
-[ -n "$window" ] || fail "did not open"
+# Opens a window on a scene, in the directory of the shots.
+open() {
+    cd "$shots"
+    "$attractor" window "$1" >"$shots/said" 2>"$shots/keys" &
+    pid=$!
+    cd - >/dev/null
+    window=$(timeout 20 xdotool search --sync --onlyvisible --name '^attractor$' | head -1)
+    [ -n "$window" ] || fail "did not open"
+    xdotool windowfocus "$window"
+    sleep 0.2
+}
+closes() {
+    xdotool key Escape
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+        sleep 0.3
+        kill -0 "$pid" 2>/dev/null || break
+    done
+    kill -0 "$pid" 2>/dev/null && fail "Esc does not close it"
+    wait "$pid" || fail "ended with code $?"
+}
+"$attractor" dump figure-6-gg figure-6-ff-diffuse fern -o "$shots/dump" >/dev/null
+
+open figure-6-gg
+grep -q 'Enter *save' "$shots/keys" || fail "does not say its keys"
 shows "$shots/dump/figure-6-gg.png" first
-xdotool windowfocus "$window"
-sleep 0.2
-xdotool key Right
+xdotool key n
 shows "$shots/dump/figure-6-ff-diffuse.png" next
-xdotool key Left
+xdotool key Page_Up
 shows "$shots/dump/figure-6-gg.png" back
-xdotool key Escape
-for _ in 1 2 3 4 5 6 7 8 9 10; do
-    sleep 0.3
-    kill -0 "$pid" 2>/dev/null || break
+# round the surface, and home again
+xdotool key Right Right plus
+sleep 1
+import -window "$window" "$shots/round.png"
+[ "$(compare -metric AE "$shots/dump/figure-6-gg.png" "$shots/round.png" null: 2>&1)" != 0 ] || fail "does not walk round a surface"
+xdotool key r
+shows "$shots/dump/figure-6-gg.png" home
+closes
+
+# into the Mandelbrot set by keys and mouse, about a point where it looks the same at every depth: past 32 bits, past 64, past 128
+cat >"$shots/tip.toml" <<'END'
+kind = "mandelbrot"
+centre = ["0", "1"]
+width = "3"
+palette = "dusk"
+cycle = 16
+END
+"$attractor" dump "$shots/tip.toml" -o "$shots/dump/tip.png" >/dev/null
+open "$shots/tip.toml"
+shows "$shots/dump/tip.png" tip
+i=0
+while [ $i -lt 120 ]; do
+    xdotool key plus
+    i=$((i + 1))
 done
-kill -0 "$pid" 2>/dev/null && fail "Esc does not close it"
-wait "$pid" || fail "ended with code $?"
-echo "window: shows the picture, follows the arrow keys, closes on Esc"
+xdotool key bracketleft
+sleep 1
+xdotool mousemove --window "$window" 100 90 click 1 click 4
+sleep 2
+xdotool key Return
+# what is being drawn is finished first
+i=0
+while [ $i -lt 60 ]; do
+    sleep 0.5
+    i=$((i + 1))
+    grep -q max_dwell "$shots/said" && break
+done
+closes
+grep -q '^tip-1.png$' "$shots/said" || fail "does not name the file that it saved"
+# the lines that it printed make a scene: the same picture
+{
+    grep -v -e centre -e width "$shots/tip.toml"
+    grep -v '\.png$' "$shots/said"
+} >"$shots/place.toml"
+"$attractor" dump "$shots/place.toml" -o "$shots/place.png" >/dev/null
+[ "$(compare -metric AE "$shots/tip-1.png" "$shots/place.png" null: 2>&1)" = 0 ] || fail "the lines it prints show something else than what it saved"
+grep -Eq '^width = "0\.0{30}' "$shots/place.toml" || fail "did not get deep: $(cat "$shots/place.toml")"
+[ "$(convert "$shots/tip-1.png" -format %k info:)" -gt 9 ] || fail "shows nothing at depth (see $shots/tip-1.png)"
+
+# a scene that shows all there is stays, and says so
+open fern
+shows "$shots/dump/fern.png" fern
+xdotool key plus
+sleep 0.5
+shows "$shots/dump/fern.png" still
+grep -q 'fern: .*all there is' "$shots/keys" || fail "does not say why it does not zoom"
+closes
+echo "window: shows the picture, follows the keys and the mouse, saves what it shows, closes on Esc"

@@ -8,12 +8,13 @@ use attractor::picture::Field as _;
 use embedded_graphics::geometry::Size;
 
 use super::escape::Keys;
+use super::motion::Sight;
 use crate::fail::Fail;
 use crate::number;
 use crate::source::{Num, Source};
 
 /// 380 fractional bits: 114 decimal places.
-const LIMBS: usize = 12;
+pub(super) const LIMBS: usize = 12;
 /// A unit of the 32-bit format: no display shows a view as narrow as this in it.
 pub(super) const UNIT: f64 = 1.0 / (1 << 29) as f64;
 /// The widest view that may be too fine for it, on the largest display.
@@ -24,10 +25,7 @@ pub(super) type Picture<'a> = DeepMandelbrot<'a, LIMBS>;
 
 /// Centre and width of a view, all digits kept.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Deep {
-    centre: Complex<Limbs<LIMBS>>,
-    width: Limbs<LIMBS>,
-}
+pub(super) struct Deep(pub(super) Sight<LIMBS>);
 
 impl Deep {
     /// None for a view that 32 bits show on every display.
@@ -48,7 +46,7 @@ impl Deep {
             // the coarsest grid there is: what it refuses, every size refuses
             DeepView::new(centre, width_bits, Size::new(1, 1))
                 .map_err(|error| source.fail(width.span(), "width", error))?;
-            Ok(Self { centre, width: width_bits })
+            Ok(Self(Sight { centre, width: width_bits }))
         };
         match deep() {
             Ok(deep) => Ok(Some(deep)),
@@ -59,7 +57,7 @@ impl Deep {
 
     /// The view on a display of this size.
     pub(super) fn view(&self, size: Size) -> Result<View, Fail> {
-        DeepView::new(self.centre, self.width, size).map_err(Fail::new)
+        DeepView::new(self.0.centre, self.0.width, size).map_err(Fail::new)
     }
 }
 
@@ -102,6 +100,27 @@ fn exact(number: Limbs<LIMBS>) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// The nearest decimal number that [`Limbs`] reads back.
+pub(super) fn decimal(number: Limbs<LIMBS>) -> String {
+    let text = exact(number);
+    let Some(point) = text.find('.') else { return text };
+    let end = point + 1 + Limbs::<LIMBS>::DECIMAL_PLACES;
+    let (Some(kept), Some(next)) = (text.get(..end), text.as_bytes().get(end)) else { return text };
+    let mut digits = kept.as_bytes().to_vec();
+    if *next >= b'5' {
+        // nines become zeros up to the first digit that is none; the format ends below 8
+        for digit in digits.iter_mut().rev().filter(|digit| digit.is_ascii_digit()) {
+            if *digit < b'9' {
+                *digit += 1;
+                break;
+            }
+            *digit = b'0';
+        }
+    }
+    let text = String::from_utf8_lossy(&digits);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,9 +129,26 @@ mod tests {
     fn all_digits_of_a_deep_coordinate_are_printed() {
         for text in ["0", "1", "-0.5", "-1.9990234375", "3.0000000000009094947017729282379150390625"] {
             assert_eq!(exact(text.parse().unwrap()), text);
+            assert_eq!(decimal(text.parse().unwrap()), text);
         }
         let third: Limbs<LIMBS> = "-0.333333333333333333333333333333333333".parse().unwrap();
         assert!(exact(third).parse::<Limbs<LIMBS>>().is_err());
         assert!(exact(third).starts_with("-0.3333333333333333333333333333333333"));
+    }
+
+    #[test]
+    fn a_printed_coordinate_is_read_back_within_a_unit_of_the_last_decimal_place() {
+        for text in ["-1.9", "0.1", "0.9999999999999999999999999999999999", "1e-100", "-3e-114"] {
+            let number: Limbs<LIMBS> = text.parse().unwrap();
+            let short = decimal(number);
+            assert!(short.len() < 120 && exact(number).len() > 300, "{short}");
+            let back: Limbs<LIMBS> = short.parse().unwrap();
+            assert_eq!(back, number);
+        }
+        let third = Limbs::from_wide(attractor::num::Wide::ONE).unwrap().divided(3).0;
+        assert_eq!(decimal(third), format!("0.{}", "3".repeat(114)));
+        let almost =
+            Limbs::<LIMBS>::ZERO.plus_units(-1).plus(&Limbs::from_wide(attractor::num::Wide::ONE).unwrap());
+        assert_eq!(decimal(almost), "1");
     }
 }

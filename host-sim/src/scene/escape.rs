@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use attractor::escape::{Complex, MAX_DWELL, View};
-use attractor::num::Wide;
+use attractor::num::{Limbs, Wide};
 use attractor::picture::MAX_SIDE;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
@@ -12,6 +12,7 @@ use toml::Spanned;
 
 use super::coloring::Coloring;
 use super::deep::{self, Deep};
+use super::motion::{Motion, Sight};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::{self, exact};
@@ -59,6 +60,7 @@ pub(super) struct Escape {
     width: Option<Wide>,
     home: (Wide, Wide),
     deep: Option<Deep>,
+    goes_deep: bool,
     pub(super) max_dwell: u32,
     pub(super) coloring: Coloring,
     pub(super) equalised: bool,
@@ -114,6 +116,7 @@ impl Escape {
             width,
             home: (home_width, home_height),
             deep,
+            goes_deep: keys.goes_deep,
             max_dwell,
             coloring,
             equalised: keys.equalised,
@@ -135,6 +138,63 @@ impl Escape {
             return Err(Fail::new(format_args!("{}: coloring: {WHOLE}", self.file)));
         }
         deep.view(size).map(Some)
+    }
+
+    /// Moves about on a display of this size. Each doubling of the scale adds iterations: finer detail needs longer orbits.
+    ///
+    /// The message says why not.
+    pub(super) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        /// Iterations that a doubling adds.
+        const FINER: u32 = 32;
+        const EDGE: &str = "there is nothing further out";
+        let max_dwell = match motion {
+            Motion::Iterate { more: true } => self.max_dwell.saturating_mul(2),
+            Motion::Iterate { more: false } => self.max_dwell / 2,
+            Motion::Zoom { closer: true, .. } => self.max_dwell.saturating_add(FINER),
+            Motion::Zoom { closer: false, .. } => {
+                if self.max_dwell > 2 * FINER {
+                    self.max_dwell - FINER
+                } else {
+                    self.max_dwell
+                }
+            }
+            Motion::Pan { .. } => self.max_dwell,
+        };
+        let sight = self.sight(size)?.after(motion, size).ok_or_else(|| Fail::new(EDGE))?;
+        let centre = Complex::new(sight.centre.re.to_wide(), sight.centre.im.to_wide());
+        let (width, deep) = (Some(sight.width.to_wide()), self.goes_deep.then_some(Deep(sight)));
+        let before = (self.centre, self.width, self.deep);
+        (self.centre, self.width, self.deep) = (centre, width, deep);
+        let possible = match self.deep_view(size) {
+            Ok(Some(_)) => Ok(()),
+            Ok(None) => self.view(size).map(|_| ()),
+            Err(fail) => Err(fail),
+        };
+        if let Err(fail) = possible {
+            (self.centre, self.width, self.deep) = before;
+            return Err(fail);
+        }
+        self.max_dwell = max_dwell.clamp(1, MAX_DWELL);
+        Ok(())
+    }
+
+    /// The middle and the width with all their digits.
+    fn sight(&self, size: Size) -> Result<Sight<{ deep::LIMBS }>, Fail> {
+        if let Some(Deep(sight)) = self.deep {
+            return Ok(sight);
+        }
+        let view = self.view(size)?;
+        let limbs =
+            |v: Wide| Limbs::from_wide(v).ok_or_else(|| Fail::new("the view is too wide to move about in"));
+        let centre = Complex::new(limbs(view.centre().re)?, limbs(view.centre().im)?);
+        Ok(Sight { centre, width: limbs(view.width())? })
+    }
+
+    /// Where the viewer stands, as lines of a scene file.
+    pub(super) fn place(&self, size: Size) -> Result<String, Fail> {
+        let Sight { centre, width } = self.sight(size)?;
+        let [re, im, width] = [centre.re, centre.im, width].map(deep::decimal);
+        Ok(format!("centre = [\"{re}\", \"{im}\"]\nwidth = \"{width}\"\nmax_dwell = {}\n", self.max_dwell))
     }
 
     /// The palette on a display of colour `C`.

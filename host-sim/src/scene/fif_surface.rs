@@ -16,6 +16,8 @@ use toml::Spanned;
 use super::environment::{Around, Board, Sky, Surroundings};
 use super::fif_curve::abscissa;
 use super::function::{DEGREE, Description, Function, MAPS};
+use super::motion::Motion;
+use super::orbit::Orbit;
 use super::{Request, Watch, draw_field};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -74,6 +76,7 @@ pub(super) struct FifSurface {
     f: Function,
     g: Function,
     camera: Camera,
+    orbit: Option<Orbit>,
     light: Option<Light>,
     material: Material,
     environment: Environment,
@@ -105,11 +108,13 @@ impl FifSurface {
             }
             samples => samples.map_or(1, Spanned::into_inner),
         };
+        let (camera, orbit) = camera(source, &file.camera)?;
         let scene = Self {
             file: source.name.clone(),
             f: file.f.get_ref().compile(source, "f.")?,
             g: file.g.get_ref().compile(source, "g.")?,
-            camera: camera(source, &file.camera)?,
+            camera,
+            orbit,
             light: light.transpose()?,
             material: match file.material.unwrap_or(Surfaced::Diffuse) {
                 Surfaced::Diffuse => Material::DIFFUSE,
@@ -173,6 +178,22 @@ impl FifSurface {
         Ok(caster)
     }
 
+    /// Moves the camera round what it looks at; the message says why not.
+    pub(super) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        let Some(orbit) = &self.orbit else {
+            return Err(Fail::new("the camera moves about only where z is up"));
+        };
+        let orbit = orbit.after(motion, size);
+        self.camera = orbit.camera()?;
+        self.orbit = Some(orbit);
+        Ok(())
+    }
+
+    /// Where the viewer stands, as lines of a scene file.
+    pub(super) fn place(&self) -> Option<String> {
+        self.orbit.as_ref().map(Orbit::place)
+    }
+
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
@@ -227,7 +248,8 @@ fn vector(source: &Source, value: &Spanned<[Num; 3]>, key: &str) -> Result<Vec3,
     Ok(Vec3::new(x, y, z))
 }
 
-fn camera(source: &Source, given: &Spanned<Eye>) -> Result<Camera, Fail> {
+/// The camera, and its orbit unless the scene says which way is up.
+fn camera(source: &Source, given: &Spanned<Eye>) -> Result<(Camera, Option<Orbit>), Fail> {
     let eye = given.get_ref();
     let up = match &eye.up {
         Some(up) => vector(source, up, "camera.up")?,
@@ -239,15 +261,17 @@ fn camera(source: &Source, given: &Spanned<Eye>) -> Result<Camera, Fail> {
     };
     let (from, to) =
         (vector(source, &eye.eye, "camera.eye")?, vector(source, &eye.look_at, "camera.look_at")?);
-    Camera::new(from, to, up, field_of_view).map_err(|error| match (&error, &eye.field_of_view) {
-        (attractor::Error::OutOfRange { what: "field of view", .. }, Some(angle)) => {
-            source.fail(angle.span(), "camera.field_of_view", error)
-        }
-        (attractor::Error::Degenerate { what: "up" | "angle between view and up" }, _)
-            if eye.up.is_some() =>
-        {
-            source.fail(eye.up.as_ref().map_or(0..0, Spanned::span), "camera.up", error)
-        }
-        _ => source.fail(eye.eye.span(), "camera.eye", error),
-    })
+    let camera =
+        Camera::new(from, to, up, field_of_view).map_err(|error| match (&error, &eye.field_of_view) {
+            (attractor::Error::OutOfRange { what: "field of view", .. }, Some(angle)) => {
+                source.fail(angle.span(), "camera.field_of_view", error)
+            }
+            (attractor::Error::Degenerate { what: "up" | "angle between view and up" }, _)
+                if eye.up.is_some() =>
+            {
+                source.fail(eye.up.as_ref().map_or(0..0, Spanned::span), "camera.up", error)
+            }
+            _ => source.fail(eye.eye.span(), "camera.eye", error),
+        })?;
+    Ok((camera, eye.up.is_none().then(|| Orbit::new(from, to, field_of_view))))
 }

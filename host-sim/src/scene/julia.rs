@@ -12,6 +12,7 @@ use toml::Spanned;
 
 use super::coloring::{self, Coloring};
 use super::escape::{self, Escape, Grey, Keys};
+use super::motion::Motion;
 use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -77,6 +78,16 @@ impl JuliaScene {
 
     fn picture(&self, request: &Request) -> Result<Julia, Fail> {
         Julia::new(self.escape.view(request.size)?, self.c, self.escape.max_dwell).map_err(Fail::new)
+    }
+
+    /// Moves about on a display of this size; the message says why not.
+    pub(super) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        self.escape.go(size, motion)
+    }
+
+    /// Where the viewer stands, as lines of a scene file.
+    pub(super) fn place(&self, size: Size) -> Result<String, Fail> {
+        self.escape.place(size)
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

@@ -6,12 +6,14 @@ use std::io::Write;
 use attractor::escape::Mandelbrot;
 use attractor::num::Wide;
 use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::coloring::{self, Coloring};
 use super::deep::{self, Picture};
 use super::escape::{self, Escape, Grey, Keys};
+use super::motion::Motion;
 use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -66,6 +68,16 @@ impl MandelbrotScene {
 
     fn picture(&self, request: &Request) -> Result<Mandelbrot, Fail> {
         Mandelbrot::new(self.0.view(request.size)?, self.0.max_dwell).map_err(Fail::new)
+    }
+
+    /// Moves about on a display of this size; the message says why not.
+    pub(super) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        self.0.go(size, motion)
+    }
+
+    /// Where the viewer stands, as lines of a scene file.
+    pub(super) fn place(&self, size: Size) -> Result<String, Fail> {
+        self.0.place(size)
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

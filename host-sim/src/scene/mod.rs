@@ -16,6 +16,8 @@ mod julia;
 mod julia_set;
 mod law;
 mod mandelbrot;
+mod motion;
+mod orbit;
 mod polyline;
 mod random_curve;
 mod system;
@@ -38,6 +40,7 @@ use crate::fail::Fail;
 use crate::source::Source;
 
 pub(crate) use graph::Graph;
+pub(crate) use motion::Motion;
 
 /// What can be measured of a scene.
 #[derive(Debug)]
@@ -95,9 +98,9 @@ pub(crate) fn load(scene: &str) -> Result<Scene, Fail> {
     let path = Path::new(scene);
     let looks_like_a_path = path.components().count() > 1 || path.extension().is_some() || path.exists();
     if !looks_like_a_path {
-        let nearest = builtin::nearest(scene);
+        let hint = builtin::nearest(scene).map(|name| format!("; did you mean {name}?")).unwrap_or_default();
         return Err(Fail::new(format_args!(
-            "SCENE = {scene}: no such scene is built in and no such file is there; did you mean {nearest}? (`attractor list` names all)"
+            "SCENE = {scene}: no such scene is built in and no such file is there{hint} (`attractor list` names all)"
         )));
     }
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
@@ -146,6 +149,29 @@ impl Scene {
         match &self.kind {
             Kind::FifCurve(scene) => Some(Subject::Graph(scene.graph())),
             Kind::Ifs(scene) => Some(Subject::Set(scene.ifs())),
+            _ => None,
+        }
+    }
+
+    /// Moves about on a display of this size; the message says why not.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window moves about"))]
+    pub(crate) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        let reason = match &mut self.kind {
+            Kind::Mandelbrot(scene) => return scene.go(size, motion),
+            Kind::Julia(scene) => return scene.go(size, motion),
+            Kind::FifSurface(scene) => return scene.go(size, motion),
+            _ => "this kind of scene shows all there is",
+        };
+        Err(Fail::new(format_args!("{}: {reason}", self.name)))
+    }
+
+    /// Where the viewer stands, as lines of a scene file; nothing for a kind in which nobody moves.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window moves about"))]
+    pub(crate) fn place(&self, size: Size) -> Option<String> {
+        match &self.kind {
+            Kind::Mandelbrot(scene) => scene.place(size).ok(),
+            Kind::Julia(scene) => scene.place(size).ok(),
+            Kind::FifSurface(scene) => scene.place(),
             _ => None,
         }
     }
