@@ -11,6 +11,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod built_in;
 mod crc;
 mod float;
 mod inputs;

@@ -21,6 +21,7 @@ use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888};
 use embedded_graphics::primitives::Rectangle;
 
 use crate::Machine;
+use crate::built_in::{MONO_ONLY, PAIRS as PAIRS_OF_SCENES};
 use crate::kernels::figure_1;
 use crate::sink::{Colour, Failure, Outcome, Stage};
 use crate::surface::{g_integral, mirror};
@@ -40,18 +41,22 @@ pub struct Scene {
     pub show: Show,
 }
 
-type Show = fn(&mut Stage<'_>) -> Result<(), Failure>;
+pub(crate) type Show = fn(&mut Stage<'_>) -> Result<(), Failure>;
 
-const fn colour(name: &'static str, show: Show) -> Scene {
-    Scene { name, size: Size::new(240, 240), bits: 16, small: true, show }
+/// The usual displays.
+pub(crate) const COLOUR: Size = Size::new(240, 240);
+pub(crate) const MONO: Size = Size::new(128, 64);
+
+pub(crate) const fn colour(name: &'static str, show: Show) -> Scene {
+    Scene { name, size: COLOUR, bits: 16, small: true, show }
 }
 
-const fn mono(name: &'static str, show: Show) -> Scene {
-    Scene { name, size: Size::new(128, 64), bits: 1, small: true, show }
+pub(crate) const fn mono(name: &'static str, show: Show) -> Scene {
+    Scene { name, size: MONO, bits: 1, small: true, show }
 }
 
 /// For machines with more than 16 KiB of RAM.
-const fn roomy(scene: Scene) -> Scene {
+pub(crate) const fn roomy(scene: Scene) -> Scene {
     Scene { small: false, ..scene }
 }
 
@@ -67,9 +72,28 @@ impl Scene {
     }
 }
 
-/// The table. The first rows are the floor: a picture that computes nothing.
+/// The table: what is drawn here, and the [built-in scenes](crate::built_in).
+pub static ALL: &[Scene] = &{
+    const PAIRS: &[Scene] = PAIRS_OF_SCENES.as_flattened();
+    const MORE: usize = OWN.len() + PAIRS.len();
+    let mut all = [OWN[0]; MORE + MONO_ONLY.len()];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = match i {
+            0..OWNED => OWN[i],
+            OWNED..MORE => PAIRS[i - OWNED],
+            _ => MONO_ONLY[i - MORE],
+        };
+        i += 1;
+    }
+    all
+};
+
+const OWNED: usize = OWN.len();
+
+/// The first rows are the floor: a picture that computes nothing.
 #[rustfmt::skip]
-pub static ALL: &[Scene] = &[
+const OWN: &[Scene] = &[
     colour("blank", blank::<Rgb565>),
     mono("blank", blank::<BinaryColor>),
     colour("waves", waves::<Rgb565>),
@@ -77,10 +101,10 @@ pub static ALL: &[Scene] = &[
     colour("mandelbrot home", mandelbrot::<Rgb565>),
     mono("mandelbrot home", mandelbrot::<BinaryColor>),
     Scene { size: Size::new(640, 480), ..roomy(colour("mandelbrot rp2040", rp2040::<Rgb565>)) },
-    colour("julia", julia::<Rgb565>),
-    mono("julia", julia::<BinaryColor>),
-    colour("fern", fern::<Rgb565>),
-    mono("fern", fern::<BinaryColor>),
+    colour("julia course unit", julia::<Rgb565>),
+    mono("julia course unit", julia::<BinaryColor>),
+    colour("fern in dots", fern::<Rgb565>),
+    mono("fern in dots", fern::<BinaryColor>),
     colour("fif graph", graph::<Rgb565>),
     mono("fif graph", graph::<BinaryColor>),
     roomy(colour("fif mirror", fif_mirror::<Rgb565, 8, { Pyramid::cells(2, 8) }>)),

@@ -207,6 +207,24 @@ macro_rules! elbow_in_floats {
 elbow!(elbow_f32, elbow_by_length_f32, f32, mul_add, f32::to_bits);
 elbow!(elbow_f64, elbow_by_length_f64, f64, |a: f64, b: f64, c: f64| a * b + c, fold);
 
+#[inline(never)]
+pub(super) fn elbow_law(watch: &mut Watch<'_>) -> Tally {
+    watch.time(|| {
+        let Ok(law) = Elbow::new(black_box(OFFSET), TWO, SEED) else { return Tally::default() };
+        let digest = |sum: u32, k| sum.rotate_left(1) ^ law.standard_deviation(k).to_bits() as u32;
+        Tally { checksum: (0..32).fold(0, digest), units: 1 }
+    })
+}
+
+#[inline(never)]
+pub(super) fn offset_of_ratio(watch: &mut Watch<'_>) -> Tally {
+    const RATIO: Real = Real::lit("1.3");
+    watch.time(|| {
+        let Ok(law) = OneVariable::with_ratio(black_box(RATIO), SEED) else { return Tally::default() };
+        Tally { checksum: law.offset().to_bits() as u32, units: 1 }
+    })
+}
+
 table! {
     /// Parameters between two knots.
     PARAMETERS: u32, i => mixed(i) as u32

@@ -168,6 +168,25 @@ pub(super) fn moments(watch: &mut Watch<'_>) -> Tally {
     })
 }
 
+#[inline(never)]
+pub(super) fn system(watch: &mut Watch<'_>) -> Tally {
+    watch.time(|| {
+        let Ok(fern) = black_box(&BARNSLEY_FERN).ifs::<4>() else { return Tally::default() };
+        Tally { checksum: fern.contraction_factor().to_bits() as u32 ^ fern.deviation(), units: 1 }
+    })
+}
+
+#[inline(never)]
+pub(super) fn bounds(watch: &mut Watch<'_>) -> Tally {
+    let Ok(fern) = BARNSLEY_FERN.ifs::<4>() else { return Tally::default() };
+    watch.time(|| {
+        let Bounds2 { min, max } = black_box(&fern).bounds();
+        let parts = [min.x, min.y, max.x, max.y];
+        let checksum = parts.iter().fold(0_u32, |sum, v| sum.rotate_left(1) ^ v.to_bits() as u32);
+        Tally { checksum, units: 1 }
+    })
+}
+
 /// The order of the copies that are counted.
 const ORDER: usize = 5;
 const NEAR: Point2 = Point2::new(Real::lit("0.5"), Real::lit("0.25"));
