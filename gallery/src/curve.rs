@@ -2,6 +2,7 @@
 
 use attractor::Error;
 use attractor::curve::{Generator, Refined};
+use attractor::num::Real;
 use attractor::picture::{Point2, Window};
 use embedded_graphics::geometry::Size;
 
@@ -27,30 +28,46 @@ pub struct CurvePicture<'a, const S: usize, const DEPTH: usize> {
     pub pencil: Pencil,
 }
 
+/// How far a curve is refined.
+#[derive(Debug, Clone, Copy)]
+enum Limit {
+    Order(u32),
+    Length(Real),
+}
+
 impl<'a, const S: usize, const DEPTH: usize> CurvePicture<'a, S, DEPTH> {
-    fn measured(
-        &self,
-        path: Refined<'a, S, DEPTH>,
-        size: Size,
-    ) -> Result<(Refined<'a, S, DEPTH>, u32, Window), Error> {
-        let extent = Extent::of(path.clone())?;
-        Ok((path, extent.points, Window::fit(extent.room(), inner(size, 2).size)?))
+    fn walk(&self, limit: Limit) -> Result<Refined<'a, S, DEPTH>, Error> {
+        match limit {
+            Limit::Order(order) => self.generator.refined(self.base, order),
+            Limit::Length(length) => self.generator.refined_to(self.base, length),
+        }
     }
 
-    /// The path on a display of this size, how many points it has, and the window that shows it.
-    ///
-    /// # Errors
-    /// Those of [`Generator::refined`] and [`Window::fit`].
-    pub fn path(&self, size: Size) -> Result<(Refined<'a, S, DEPTH>, u32, Window), Error> {
+    /// How many points it then has, and the window that shows it. The path is walked, not kept: it takes more room than what is known of it.
+    #[inline(never)]
+    fn measured(&self, limit: Limit, size: Size) -> Result<(Limit, u32, Window), Error> {
+        let extent = Extent::of(self.walk(limit)?)?;
+        Ok((limit, extent.points, Window::fit(extent.room(), inner(size, 2).size)?))
+    }
+
+    fn resolved(&self, size: Size) -> Result<(Limit, u32, Window), Error> {
+        if let Some(order) = self.order {
+            return self.measured(Limit::Order(order), size);
+        }
         let points = |order: u32| {
             (self.generator.len() as u64).saturating_pow(order).saturating_mul(self.base.len().max(1) as u64)
         };
-        let order = self.order.unwrap_or_else(|| (0..6).rev().find(|k| points(*k) <= SHAPE).unwrap_or(0));
-        let path = self.measured(self.generator.refined(self.base, order)?, size)?;
-        match self.order {
-            Some(_) => Ok(path),
-            None => self.measured(self.generator.refined_to(self.base, pitch(&path.2))?, size),
-        }
+        let shape = (0..6).rev().find(|k| points(*k) <= SHAPE).unwrap_or(0);
+        let (_, _, window) = self.measured(Limit::Order(shape), size)?;
+        self.measured(Limit::Length(pitch(&window)), size)
+    }
+
+    /// The path on a display of this size.
+    ///
+    /// # Errors
+    /// Those of [`Generator::refined`] and [`Window::fit`].
+    pub fn path(&self, size: Size) -> Result<Refined<'a, S, DEPTH>, Error> {
+        self.walk(self.resolved(size)?.0)
     }
 
     /// Draws it. `turns` is needed where it is filled: [`crate::ground_words`].
@@ -64,17 +81,17 @@ impl<'a, const S: usize, const DEPTH: usize> CurvePicture<'a, S, DEPTH> {
         turns: &mut [u32],
         watch: Watch<'_, D>,
     ) -> Result<(), Error> {
-        let (path, points, window) = self.path(size)?;
+        let (limit, points, window) = self.resolved(size)?;
         let corner = inner(size, 2).top_left;
         if self.filled {
-            let area = Area::of(path.clone(), &window, (size, corner), turns)?;
+            let area = Area::of(self.walk(limit)?, &window, (size, corner), turns)?;
             if !self.pencil.area(&area, target, watch) {
                 return Ok(());
             }
         } else {
             paper(size, target);
         }
-        self.pencil.line(path, points, (window, corner), target, watch);
+        self.pencil.line(self.walk(limit)?, points, (window, corner), target, watch);
         Ok(())
     }
 }

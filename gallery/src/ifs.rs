@@ -67,9 +67,10 @@ impl<const N: usize> IfsPicture<'_, N> {
             });
         }
         paper(size, target);
+        let colors: [D::Color; N] = core::array::from_fn(|map| solid(self.palette.at(self.level(map))));
         let mut dots = game.with_maps().map(|(map, point)| {
-            let color = solid::<D::Color>(self.palette.at(self.level(map)));
-            window.pixel(point).map(|pixel| Pixel(room.top_left + pixel, color))
+            let pixel = room.top_left + window.pixel(point)?;
+            Some(Pixel(pixel, *colors.get(map)?))
         });
         let portions = points.div_ceil(PORTION);
         for portion in 0..portions {

@@ -29,23 +29,25 @@ pub struct RandomCurvePicture<'a, L, const LEVELS: usize> {
 type Curve<'a, L, const LEVELS: usize> = Subdivision<'a, L, LEVELS>;
 
 impl<'a, L: Displacement + Clone, const LEVELS: usize> RandomCurvePicture<'a, L, LEVELS> {
-    fn measured(&self, stop: Stop, size: Size) -> Result<(Curve<'a, L, LEVELS>, Extent, Window), Error> {
-        let curve = Subdivision::new(self.law, self.knots, stop)?;
-        let extent = Extent::of(curve.clone())?;
-        let (room, size) = (extent.room(), inner(size, 2).size);
-        let window = if self.graph { Window::stretch(room, size) } else { Window::fit(room, size) };
-        Ok((curve, extent, window?))
+    fn walk(&self, stop: Stop) -> Result<Curve<'a, L, LEVELS>, Error> {
+        Subdivision::new(self.law, self.knots, stop)
     }
 
-    fn sized(&self, size: Size) -> Result<(Curve<'a, L, LEVELS>, Extent, Window), Error> {
-        let stop = match self.stop {
-            Some(stop) => stop,
-            None => {
-                let (_, _, window) = self.measured(Stop::Parameter(Parameter::from_bits(1 << 24)), size)?;
-                Stop::Length(pitch(&window))
-            }
-        };
-        self.measured(stop, size)
+    /// What it then takes, and the window that shows it. The path is walked, not kept: it takes more room than what is known of it.
+    #[inline(never)]
+    fn measured(&self, stop: Stop, size: Size) -> Result<(Stop, Extent, Window), Error> {
+        let extent = Extent::of(self.walk(stop)?)?;
+        let (room, size) = (extent.room(), inner(size, 2).size);
+        let window = if self.graph { Window::stretch(room, size) } else { Window::fit(room, size) };
+        Ok((stop, extent, window?))
+    }
+
+    fn resolved(&self, size: Size) -> Result<(Stop, Extent, Window), Error> {
+        if let Some(stop) = self.stop {
+            return self.measured(stop, size);
+        }
+        let (_, _, window) = self.measured(Stop::Parameter(Parameter::from_bits(1 << 24)), size)?;
+        self.measured(Stop::Length(pitch(&window)), size)
     }
 
     /// The path on a display of this size.
@@ -53,7 +55,7 @@ impl<'a, L: Displacement + Clone, const LEVELS: usize> RandomCurvePicture<'a, L,
     /// # Errors
     /// Those of [`Subdivision::new`] and [`Window::fit`].
     pub fn path(&self, size: Size) -> Result<Curve<'a, L, LEVELS>, Error> {
-        Ok(self.sized(size)?.0)
+        self.walk(self.resolved(size)?.0)
     }
 
     /// Draws it. `turns` is needed where it is filled: [`crate::ground_words`].
@@ -67,7 +69,7 @@ impl<'a, L: Displacement + Clone, const LEVELS: usize> RandomCurvePicture<'a, L,
         turns: &mut [u32],
         watch: Watch<'_, D>,
     ) -> Result<(), Error> {
-        let (curve, extent, window) = self.sized(size)?;
+        let (stop, extent, window) = self.resolved(size)?;
         let corner = inner(size, 2).top_left;
         if self.filled {
             // what is open is closed below: the ground under a graph
@@ -75,14 +77,14 @@ impl<'a, L: Displacement + Clone, const LEVELS: usize> RandomCurvePicture<'a, L,
             let below = [max.x, min.x].map(|x| Step::LineTo(Point2::new(x, min.y)));
             let below = below.into_iter().chain(self.knots.first().map(|p| Step::LineTo(*p)));
             let below = below.filter(|_| !self.pencil.closed);
-            let area = Area::of(curve.clone().chain(below), &window, (size, corner), turns)?;
+            let area = Area::of(self.walk(stop)?.chain(below), &window, (size, corner), turns)?;
             if !self.pencil.area(&area, target, watch) {
                 return Ok(());
             }
         } else {
             paper(size, target);
         }
-        self.pencil.line(curve, extent.points, (window, corner), target, watch);
+        self.pencil.line(self.walk(stop)?, extent.points, (window, corner), target, watch);
         Ok(())
     }
 }

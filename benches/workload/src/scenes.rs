@@ -21,7 +21,7 @@ use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888};
 use embedded_graphics::primitives::Rectangle;
 
 use crate::Machine;
-use crate::built_in::{MONO_ONLY, PAIRS as PAIRS_OF_SCENES};
+use crate::built_in::{self, MONO_ONLY};
 use crate::kernels::figure_1;
 use crate::sink::{Colour, Failure, Outcome, Stage};
 use crate::surface::{g_integral, mirror};
@@ -72,24 +72,46 @@ impl Scene {
     }
 }
 
-/// The table: what is drawn here, and the [built-in scenes](crate::built_in).
+/// The table: what is drawn here, and the built-in scenes of the command. An image for Armv6-M, which alone lacks atomic exchange, has only those
+/// that a machine with 16 KiB of RAM draws: all of them would not fit its flash either.
 pub static ALL: &[Scene] = &{
-    const PAIRS: &[Scene] = PAIRS_OF_SCENES.as_flattened();
-    const MORE: usize = OWN.len() + PAIRS.len();
-    let mut all = [OWN[0]; MORE + MONO_ONLY.len()];
-    let mut i = 0;
-    while i < all.len() {
-        all[i] = match i {
-            0..OWNED => OWN[i],
-            OWNED..MORE => PAIRS[i - OWNED],
-            _ => MONO_ONLY[i - MORE],
-        };
+    let mut all = [OWN[0]; count(OWNED + PAIRS.len() + MONO_ONLY.len())];
+    let (mut i, mut kept) = (0, 0);
+    while kept < all.len() {
+        if fits(i) {
+            all[kept] = row(i);
+            kept += 1;
+        }
         i += 1;
     }
     all
 };
 
 const OWNED: usize = OWN.len();
+const PAIRS: &[Scene] = built_in::PAIRS.as_flattened();
+
+const fn row(i: usize) -> Scene {
+    if i < OWNED {
+        OWN[i]
+    } else if i < OWNED + PAIRS.len() {
+        PAIRS[i - OWNED]
+    } else {
+        MONO_ONLY[i - OWNED - PAIRS.len()]
+    }
+}
+
+const fn fits(i: usize) -> bool {
+    row(i).small || cfg!(not(all(target_arch = "arm", not(target_has_atomic = "32"))))
+}
+
+const fn count(rows: usize) -> usize {
+    let (mut i, mut kept) = (0, 0);
+    while i < rows {
+        kept += fits(i) as usize;
+        i += 1;
+    }
+    kept
+}
 
 /// The first rows are the floor: a picture that computes nothing.
 #[rustfmt::skip]

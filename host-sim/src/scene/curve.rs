@@ -109,7 +109,7 @@ impl CurveScene {
 
     /// `x,y` of the first vertices.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        vertices(self.picture().path(request.size).map_err(Fail::new)?.0, points, out)
+        vertices(self.picture().path(request.size).map_err(Fail::new)?, points, out)
     }
 }
 

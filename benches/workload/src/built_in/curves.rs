@@ -1,7 +1,7 @@
 //! Refined and random curves.
 
 use attractor::Error;
-use attractor::curve::catalogue::Curve;
+use attractor::curve::catalogue::{Curve, LARGEST};
 use attractor::curve::{
     Displacement, Elbow, Generator, LineToLine, OneVariable, Refined, Subdivision, TwoVariable, coast, koch,
 };
@@ -28,7 +28,7 @@ pub(super) const SQUARE: [Point2; 5] =
     [point(ZERO, ZERO), point(ZERO, ONE), point(ONE, ONE), point(ONE, ZERO), point(ZERO, ZERO)];
 
 /// A curve of core's catalogue, on its own base unless another is given.
-pub(super) fn named<C: Colour + Ink, const S: usize, const WORDS: usize>(
+pub(super) fn named<C: Colour + Ink, const WORDS: usize>(
     stage: &mut Stage<'_>,
     curve: &Curve,
     order: u32,
@@ -37,13 +37,13 @@ pub(super) fn named<C: Colour + Ink, const S: usize, const WORDS: usize>(
 ) -> Result<(), Failure> {
     let triangle = koch::triangle(Point2::default(), ONE);
     let usual = if curve.closed { &triangle[..] } else { &koch::SEGMENT[..] };
-    refined::<C, S, WORDS>(stage, curve.generator(), base.unwrap_or(usual), Some(order), palette)
+    refined::<C, WORDS>(stage, curve.generator(), base.unwrap_or(usual), Some(order), palette)
 }
 
-/// `WORDS` are lent for the ground of a closed curve.
-fn refined<C: Colour + Ink, const S: usize, const WORDS: usize>(
+/// `WORDS` are lent for the ground of a closed curve. There is code for one size of generators only: for each its own would not fit the smallest flash.
+fn refined<C: Colour + Ink, const WORDS: usize>(
     stage: &mut Stage<'_>,
-    generator: Result<Generator<S>, Error>,
+    generator: Result<Generator<LARGEST>, Error>,
     base: &[Point2],
     order: Option<u32>,
     palette: Named,
@@ -51,9 +51,9 @@ fn refined<C: Colour + Ink, const S: usize, const WORDS: usize>(
     let generator = &generator?;
     let closed = base.first() == base.last();
     let pencil = Pencil { palette, closed };
-    let picture = CurvePicture::<S, DEPTH> { generator, base, order, filled: closed, pencil };
+    let picture = CurvePicture::<LARGEST, DEPTH> { generator, base, order, filled: closed, pencil };
     let (size, mut turns) = (stage.size(), [0; WORDS]);
-    let bytes = size_of_val(generator) + size_of::<Refined<'_, S, DEPTH>>() + size_of_val(&turns);
+    let bytes = size_of_val(generator) + size_of::<Refined<'_, LARGEST, DEPTH>>() + size_of_val(&turns);
     stage.draw::<C>(bytes, |sink| picture.draw(size, sink, &mut turns, &mut |_, _, _| true))
 }
 
@@ -67,7 +67,7 @@ pub(super) fn cesaro<C: Colour + Ink, const WORDS: usize>(stage: &mut Stage<'_>)
     ];
     const BASE: [Point2; 5] =
         [point(ZERO, ZERO), point(ONE, ZERO), point(ONE, ONE), point(ZERO, ONE), point(ZERO, ZERO)];
-    refined::<C, 4, WORDS>(stage, Generator::polyline(&SPIKE), &BASE, None, Named::Fire)
+    refined::<C, WORDS>(stage, Generator::polyline(&SPIKE), &BASE, None, Named::Fire)
 }
 
 /// `WORDS` are lent for the ground of a closed curve or of a graph.
@@ -87,20 +87,20 @@ fn random<C: Colour + Ink, L: Displacement + Clone, const WORDS: usize>(
     stage.draw::<C>(bytes, |sink| picture.draw(size, sink, &mut turns, &mut |_, _, _| true))
 }
 
-pub(super) fn elbow<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+pub(super) fn elbow<C: Colour + Ink, const WORDS: usize>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     const DEVIATION: Unit = Unit::lit("0.3");
     let law = Elbow::new(DEVIATION, const { Real::lit("2") }, 7);
-    random::<C, _, 0>(stage, law, (&koch::SEGMENT, false), Named::Fire)
+    random::<C, _, WORDS>(stage, law, (&koch::SEGMENT, false), Named::Fire)
 }
 
-pub(super) fn carpenter_1<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+pub(super) fn carpenter_1<C: Colour + Ink, const WORDS: usize>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     let law = OneVariable::with_ratio(const { Real::lit("1.3") }, 1980);
-    random::<C, _, 0>(stage, law, (&koch::SEGMENT, false), Named::Dusk)
+    random::<C, _, WORDS>(stage, law, (&koch::SEGMENT, false), Named::Dusk)
 }
 
-pub(super) fn carpenter_2<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+pub(super) fn carpenter_2<C: Colour + Ink, const WORDS: usize>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     let law = TwoVariable::new(const { Unit::lit("0.3") }, 1980);
-    random::<C, _, 0>(stage, law, (&koch::SEGMENT, false), Named::Moss)
+    random::<C, _, WORDS>(stage, law, (&koch::SEGMENT, false), Named::Moss)
 }
 
 pub(super) fn mountain_line<C: Colour + Ink, const WORDS: usize>(

@@ -71,26 +71,28 @@ pub(super) const TERDRAGON: [Affine; 3] = [
     Affine::new([HALF, HEIGHT, HEIGHT.unwrapped_neg(), HALF], [R5, R28.unwrapped_neg()]),
 ];
 
+/// Room for maps. One for all: code for each number of them would not fit the smallest flash.
+const MAPS: usize = 8;
 type Game<'a, const N: usize> = ChaosGame<'a, Xoshiro128PlusPlus, N>;
 
 /// An attractor of core's catalogue, each map in a colour.
-pub(super) fn named<C: Colour + Ink, const N: usize>(
+pub(super) fn named<C: Colour + Ink>(
     stage: &mut Stage<'_>,
     attractor: &Attractor,
     palette: Named,
 ) -> Result<(), Failure> {
-    by_maps::<C, N>(stage, (attractor.maps, attractor.probabilities), palette)
+    by_maps::<C>(stage, (attractor.maps, attractor.probabilities), palette)
 }
 
-pub(super) fn by_maps<C: Colour + Ink, const N: usize>(
+pub(super) fn by_maps<C: Colour + Ink>(
     stage: &mut Stage<'_>,
     (maps, probabilities): (&[Affine], &[Unit]),
     palette: Named,
 ) -> Result<(), Failure> {
-    let ifs = Ifs::<N>::new(maps, probabilities)?;
+    let ifs = Ifs::<MAPS>::new(maps, probabilities)?;
     let picture = IfsPicture { ifs: &ifs, points: None, shading: Shading::Maps, palette };
     let look = (stage.size(), SEED);
-    let bytes = size_of_val(&ifs) + size_of::<Game<'_, N>>();
+    let bytes = size_of_val(&ifs) + size_of::<Game<'_, MAPS>>();
     stage.draw::<C>(bytes, |sink| picture.draw(look, sink, &mut [], &mut |_, _, _| true))
 }
 
@@ -150,17 +152,17 @@ pub(super) const BOX: [Point2; 5] = {
 /// Room for orders.
 const DEPTH: usize = 12;
 
-pub(super) fn copies<C: Colour + Ink, const N: usize>(
+pub(super) fn copies<C: Colour + Ink>(
     stage: &mut Stage<'_>,
     attractor: &Attractor,
     shape: &[Point2],
     orders: &[u32],
     palette: Named,
 ) -> Result<(), Failure> {
-    let ifs = attractor.ifs::<N>()?;
-    let copies = Copies::<N, DEPTH>::new(&ifs, shape, orders, palette)?;
+    let ifs = attractor.ifs::<4>()?;
+    let copies = Copies::<4, DEPTH>::new(&ifs, shape, orders, palette)?;
     let size = stage.size();
-    let bytes = size_of_val(&ifs) + size_of_val(&copies) + size_of::<CopiedPath<'_, N, DEPTH>>();
+    let bytes = size_of_val(&ifs) + size_of_val(&copies) + size_of::<CopiedPath<'_, 4, DEPTH>>();
     stage.draw::<C>(bytes, |sink| copies.draw(size, sink, &mut |_, _, _| true))
 }
 
