@@ -29,7 +29,7 @@ struct End {
     level: u32,
 }
 
-/// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size on a 32-bit machine: 12 bytes a level, and 96.
+/// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size on a 32-bit machine: 12 bytes a level, and 88.
 #[derive(Debug, Clone)]
 pub struct Subdivision<'a, D, const LEVELS: usize> {
     law: &'a D,

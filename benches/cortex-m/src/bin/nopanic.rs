@@ -105,8 +105,8 @@ fn systems() -> Result<(), Error> {
 
 fn curves() -> Result<(), Error> {
     use attractor::curve::{
-        Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Parameter, Part, RandomFunction,
-        TwoVariable, dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over,
+        Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Parameter, Part,
+        RandomFunction, TwoVariable, dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over,
     };
     let (one, seed) = (bb(Real::ONE), bb(1));
     if let Some(curve) = attractor::curve::catalogue::find(bb("gosper")) {
