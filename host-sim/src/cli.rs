@@ -10,7 +10,7 @@ use embedded_graphics::geometry::Size;
 use crate::color::ColorDepth;
 
 /// The most points of a sample or of a chaos game.
-pub(crate) const MAX_POINTS: u32 = 1 << 24;
+pub(crate) use attractor_gallery::MAX_POINTS;
 /// The most pixels of a file.
 pub(crate) const MAX_PIXELS: u64 = 1 << 26;
 

@@ -1,9 +1,9 @@
 //! Colour depths: which colour type of embedded-graphics a display has, and how its pixels go into a PNG file.
 
 use attractor::draw::Ink;
+pub(crate) use attractor_gallery::ground;
 use clap::ValueEnum;
-use embedded_graphics::geometry::Point;
-use embedded_graphics::pixelcolor::{BinaryColor, Gray2, Gray4, Gray8, Rgb565, Rgb888, RgbColor};
+use embedded_graphics::pixelcolor::{BinaryColor, Gray2, Gray4, Gray8, Rgb565, Rgb888};
 
 /// The colour of a display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -28,18 +28,6 @@ pub(crate) trait Depth:
 {
     /// Bits of a grey sample, none for colour.
     const GREY_BITS: Option<u8>;
-}
-
-/// The colour at its brightest, never dithered away: for lines and dots.
-pub(crate) fn solid<C: Ink>(rgb: Rgb888) -> C {
-    // Bayer's lowest threshold
-    C::ink(rgb, Point::zero())
-}
-
-/// A dark ground: black on displays that could only show it as scattered dots.
-pub(crate) fn ground<C: Ink>(rgb: Rgb888) -> Rgb888 {
-    // Bayer's highest threshold
-    if C::ink(rgb, Point::new(0, 7)) == C::ink(Rgb888::BLACK, Point::zero()) { Rgb888::BLACK } else { rgb }
 }
 
 impl Depth for Rgb565 {

@@ -1,45 +1,12 @@
 //! Palettes by name: the colours of core's draw room for a scene file.
 
-use attractor::draw::{CourseUnit, Cycled, Gradient, Grey, Level, Leveled, Lifted, Palette, gradients, hex};
+use attractor::draw::{Cycled, Level, Leveled, Lifted, Palette, hex};
+pub(crate) use attractor_gallery::Named;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use serde::Deserialize;
 use toml::Spanned;
 
 use crate::fail::Fail;
 use crate::source::Source;
-
-/// The palettes that have a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Named {
-    CourseUnit,
-    Grey,
-    Dusk,
-    Fire,
-    Ocean,
-    Moss,
-    Even,
-    Porcelain,
-}
-
-impl Named {
-    /// The colour of a level.
-    pub(crate) fn at(self, level: Level) -> Rgb888 {
-        fn on<const N: usize>(gradient: &Gradient<N>, level: Level) -> Rgb888 {
-            gradient.at(level)
-        }
-        match self {
-            Self::CourseUnit => CourseUnit.rgb(level),
-            Self::Grey => Grey.rgb(level),
-            Self::Dusk => on(&gradients::DUSK, level),
-            Self::Fire => on(&gradients::FIRE, level),
-            Self::Ocean => on(&gradients::OCEAN, level),
-            Self::Moss => on(&gradients::MOSS, level),
-            Self::Even => on(&gradients::EVEN, level),
-            Self::Porcelain => on(&gradients::PORCELAIN, level),
-        }
-    }
-}
 
 /// A palette with what a scene may ask of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,6 +4,7 @@
 #![no_std]
 
 mod board;
+mod sizes;
 mod wire;
 
 pub use attractor_workload as workload;

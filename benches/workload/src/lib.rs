@@ -11,6 +11,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod built_in;
 mod crc;
 mod escape_scenes;
 mod float;

@@ -21,6 +21,7 @@ use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 
 use crate::Machine;
+use crate::built_in::{self, MONO_ONLY};
 use crate::escape_scenes as escape;
 use crate::kernels::figure_1;
 use crate::sink::{Colour, Failure, Outcome, Stage};
@@ -41,18 +42,22 @@ pub struct Scene {
     pub show: Show,
 }
 
-type Show = fn(&mut Stage<'_>) -> Result<(), Failure>;
+pub(crate) type Show = fn(&mut Stage<'_>) -> Result<(), Failure>;
 
-const fn colour(name: &'static str, show: Show) -> Scene {
-    Scene { name, size: Size::new(240, 240), bits: 16, small: true, show }
+/// The usual displays.
+pub(crate) const COLOUR: Size = Size::new(240, 240);
+pub(crate) const MONO: Size = Size::new(128, 64);
+
+pub(crate) const fn colour(name: &'static str, show: Show) -> Scene {
+    Scene { name, size: COLOUR, bits: 16, small: true, show }
 }
 
-const fn mono(name: &'static str, show: Show) -> Scene {
-    Scene { name, size: Size::new(128, 64), bits: 1, small: true, show }
+pub(crate) const fn mono(name: &'static str, show: Show) -> Scene {
+    Scene { name, size: MONO, bits: 1, small: true, show }
 }
 
 /// For machines with more than 16 KiB of RAM.
-const fn roomy(scene: Scene) -> Scene {
+pub(crate) const fn roomy(scene: Scene) -> Scene {
     Scene { small: false, ..scene }
 }
 
@@ -68,9 +73,50 @@ impl Scene {
     }
 }
 
-/// The table. The first rows are the floor: a picture that computes nothing.
+/// The table: what is drawn here, and the built-in scenes of the command. An image for Armv6-M, which alone lacks atomic exchange, has only those
+/// that a machine with 16 KiB of RAM draws: all of them would not fit its flash either.
+pub static ALL: &[Scene] = &{
+    let mut all = [OWN[0]; count(OWNED + PAIRS.len() + MONO_ONLY.len())];
+    let (mut i, mut kept) = (0, 0);
+    while kept < all.len() {
+        if fits(i) {
+            all[kept] = row(i);
+            kept += 1;
+        }
+        i += 1;
+    }
+    all
+};
+
+const OWNED: usize = OWN.len();
+const PAIRS: &[Scene] = built_in::PAIRS.as_flattened();
+
+const fn row(i: usize) -> Scene {
+    if i < OWNED {
+        OWN[i]
+    } else if i < OWNED + PAIRS.len() {
+        PAIRS[i - OWNED]
+    } else {
+        MONO_ONLY[i - OWNED - PAIRS.len()]
+    }
+}
+
+const fn fits(i: usize) -> bool {
+    row(i).small || cfg!(not(all(target_arch = "arm", not(target_has_atomic = "32"))))
+}
+
+const fn count(rows: usize) -> usize {
+    let (mut i, mut kept) = (0, 0);
+    while i < rows {
+        kept += fits(i) as usize;
+        i += 1;
+    }
+    kept
+}
+
+/// The first rows are the floor: a picture that computes nothing.
 #[rustfmt::skip]
-pub static ALL: &[Scene] = &[
+const OWN: &[Scene] = &[
     colour("blank", blank::<Rgb565>),
     mono("blank", blank::<BinaryColor>),
     colour("waves", waves::<Rgb565>),
@@ -94,8 +140,8 @@ pub static ALL: &[Scene] = &[
     roomy(mono("deep-30", escape::deep_30::<BinaryColor>)),
     roomy(colour("deep-100", escape::deep_100::<Rgb565>)),
     roomy(mono("deep-100", escape::deep_100::<BinaryColor>)),
-    colour("fern", fern::<Rgb565>),
-    mono("fern", fern::<BinaryColor>),
+    colour("fern in dots", fern::<Rgb565>),
+    mono("fern in dots", fern::<BinaryColor>),
     colour("fif graph", graph::<Rgb565>),
     mono("fif graph", graph::<BinaryColor>),
     roomy(colour("fif mirror", fif_mirror::<Rgb565, 8, { Pyramid::cells(2, 8) }>)),

@@ -109,11 +109,12 @@ impl<'m> Stage<'m> {
     /// Asks for `bytes` of RAM before the object that takes them is built.
     ///
     /// # Errors
-    /// [`Failure::Ram`] when the machine has less; a quarter of what is free is left to the stack.
+    /// [`Failure::Ram`] when the machine has less; a quarter of what is free, 8 KiB at most, is left to the stack.
     pub fn claim(&mut self, bytes: usize) -> Result<(), Failure> {
         let free = self.machine.ram_free();
-        if bytes > free - free / 4 {
-            return Err(Failure::Ram { needed: bytes, free: free - free / 4 });
+        let free = free - (free / 4).min(8 << 10);
+        if bytes > free {
+            return Err(Failure::Ram { needed: bytes, free });
         }
         self.outcome.ram_bytes = bytes;
         Ok(())
@@ -128,16 +129,31 @@ impl<'m> Stage<'m> {
         D: Drawable,
         D::Color: Colour,
     {
+        self.draw::<D::Color>(ram_bytes, |sink| {
+            let Ok(_) = drawable.draw(sink);
+            Ok(())
+        })
+    }
+
+    /// Measures what `draw` does, for pictures that borrow memory while they are drawn. What was [claimed](Stage::claim) before is not asked for again.
+    ///
+    /// # Errors
+    /// What `draw` says; [`Failure::Ram`], as [`Stage::claim`].
+    pub fn draw<C: Colour>(
+        &mut self,
+        ram_bytes: usize,
+        draw: impl FnOnce(&mut Sink<'_, C>) -> Result<(), attractor::Error>,
+    ) -> Result<(), Failure> {
         // what was claimed before is built already, and no longer free
         self.claim(ram_bytes.saturating_sub(self.outcome.ram_bytes))?;
-        let mut sink = Sink::<D::Color>::new(&mut *self.machine, self.size, true);
+        let mut sink = Sink::<C>::new(&mut *self.machine, self.size, true);
         sink.machine.paint_stack();
         sink.resume();
-        let Ok(_) = drawable.draw(&mut sink);
+        draw(&mut sink)?;
         sink.pause();
         let stack_bytes = sink.machine.stack_used();
         let (crc, spent, calls) = (sink.crc, sink.spent, sink.calls);
-        let mut empty = Sink::<D::Color>::new(&mut *self.machine, self.size, false);
+        let mut empty = Sink::<C>::new(&mut *self.machine, self.size, false);
         empty.repeat(calls);
         let floor = empty.spent;
         self.outcome = Outcome {

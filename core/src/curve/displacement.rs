@@ -48,16 +48,25 @@ pub fn displaced(part: &Part, along: Deviate, across: Deviate) -> Point2 {
     let (dx, dy) = (to.x.saturating_sub(from.x), to.y.saturating_sub(from.y));
     let (g, h) = (i64::from(along.to_bits()), i64::from(across.to_bits()));
     let (dx, dy) = (i64::from(dx.to_bits()), i64::from(dy.to_bits()));
-    // |p1 + p2| <= 2^32; each product is at most 2^62, the sum saturates
-    let x = doubled(from.x, to.x).saturating_add(dx * g).saturating_add(-(dy * h));
-    let y = doubled(from.y, to.y).saturating_add(dy * g).saturating_add(dx * h);
+    // |p1 + p2| <= 2^32 and each product is at most 2^62: the second sum saturates, the first cannot
+    let x = (doubled(from.x, to.x) + dx * g).saturating_sub(dy * h);
+    let y = (doubled(from.y, to.y) + dy * g).saturating_add(dx * h);
     Point2::new(rounded(x), rounded(y))
+}
+
+/// The midpoint for `g = across i`, across with 28 fractional bits.
+#[inline(always)]
+pub(super) fn raised_across(part: &Part, across: i32) -> Point2 {
+    let (from, to) = (part.from, part.to);
+    let (dx, dy) = (to.x.saturating_sub(from.x), to.y.saturating_sub(from.y));
+    Point2::new(raised(from.x, to.x, dy, across.wrapping_neg()), raised(from.y, to.y, dx, across))
 }
 
 /// The midpoint of two coordinates raised by `g` times a length.
 #[inline]
 pub(super) fn raised(a: Real, b: Real, length: Real, g: i32) -> Real {
-    rounded(doubled(a, b).saturating_add(i64::from(length.to_bits()) * i64::from(g)))
+    // below 2^60 + 2^62
+    rounded(doubled(a, b) + i64::from(length.to_bits()) * i64::from(g))
 }
 
 /// `(a + b) / 2` with 52 fractional bits, and the half unit that rounds to 24.

@@ -58,7 +58,7 @@ impl Cell {
     const EMPTY: Self = Self { start: [0; 2], vector: [0; 2], show: [0; 2], ratio: 0, orientation: 0 };
 }
 
-/// A generator of at most `S <= 127` segments. Size: 64 bytes a segment, and 28.
+/// A generator of at most `S <= 127` segments. Size: 64 bytes a segment, and 16 on a 32-bit machine.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Generator<const S: usize> {
     /// The segments in the order of a walk from start to end, and of a walk from end to start.

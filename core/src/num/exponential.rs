@@ -2,7 +2,7 @@
 
 use super::{Real, Unit};
 
-/// `e^-x`. Domain: `x >= 0`; less counts as 0. Error: below `2^-27`. Cost: 7 multiplications.
+/// `e^-x`. Domain: `x >= 0`; less counts as 0. Error: below `2^-27`. Cost: 160 Cortex-M4 instructions.
 pub fn exp_minus(x: Real) -> Unit {
     // x / ln 2 with 32 fractional bits
     const PER_LN_2: i64 = 0x5c55_1d95; // 2^30 / ln 2

@@ -8,11 +8,11 @@ use attractor::picture::Field;
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 
-use super::chart::PAPER;
 use super::{Watch, draw_field};
 use crate::color::{Depth, ground};
 use crate::fail::Fail;
 use crate::palette::Colors;
+use attractor_gallery::PAPER;
 
 /// The key `coloring`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]

@@ -3,17 +3,16 @@
 use std::convert::Infallible;
 use std::io::Write;
 
+use attractor::Error;
 use attractor::curve::koch;
-use attractor::ifs::{CopiedPath, Ifs, MAX_MAPS, catalogue};
-use attractor::picture::{Bounds2, Point2, Window};
+use attractor::ifs::{Ifs, MAX_MAPS, catalogue};
+use attractor::picture::Point2;
+use attractor_gallery::Copies;
 use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::geometry::{Point, Size};
-use embedded_graphics::primitives::Rectangle;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::curve::vertices;
-use super::plot::{Extent, Pencil, inner};
 use super::polyline::{self, Points};
 use super::system::{Maps, system};
 use super::{Request, Watch};
@@ -48,8 +47,6 @@ pub(super) struct CopierScene {
     ifs: Box<Ifs<MAX_MAPS>>,
     shape: Vec<Point2>,
     orders: Vec<u32>,
-    /// What all orders take: one scale for all, so that convergence shows.
-    room: Bounds2,
     palette: Named,
 }
 
@@ -66,26 +63,11 @@ impl CopierScene {
             None => koch::SEGMENT.to_vec(),
         };
         let orders = orders(source, file.orders.as_ref(), ifs.maps().len(), shape.len())?;
-        let palette = file.palette.unwrap_or(Named::Even);
-        let mut scene = Self {
-            ifs,
-            shape,
-            orders,
-            room: Bounds2 { min: Point2::default(), max: Point2::default() },
-            palette,
-        };
-        let mut extent: Option<Extent> = None;
-        for order in &scene.orders {
-            let path = scene.path(*order).map_err(|fail| match (&file.polyline, fail) {
-                (Some(list), Fail::Message(reason)) => source.fail(list.span(), "polyline", reason),
-                (_, fail) => fail,
-            })?;
-            let this = Extent::of(path)?;
-            extent = Some(extent.map_or(this, |before| before.with(this)));
-        }
-        if let Some(extent) = extent {
-            scene.room = extent.room();
-        }
+        let scene = Self { ifs, shape, orders, palette: file.palette.unwrap_or(Named::Even) };
+        scene.copies().map_err(|error| match &file.polyline {
+            Some(list) => source.fail(list.span(), "polyline", error),
+            None => Fail::new(error),
+        })?;
         Ok(scene)
     }
 
@@ -94,8 +76,8 @@ impl CopierScene {
         &self.ifs
     }
 
-    fn path(&self, order: u32) -> Result<CopiedPath<'_, MAX_MAPS, DEPTH>, Fail> {
-        Ok(self.ifs.copier(&self.shape, order).map_err(Fail::new)?.path())
+    fn copies(&self) -> Result<Copies<'_, MAX_MAPS, DEPTH>, Error> {
+        Copies::new(&self.ifs, &self.shape, &self.orders, self.palette)
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -103,24 +85,13 @@ impl CopierScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        Pencil::paper(request.size, target);
-        let pencil = Pencil { palette: self.palette, closed: false };
-        let panels = panels(inner(request.size), self.orders.len() as u32, &self.room);
-        let all = self.orders.len() as u32;
-        for (done, (order, panel)) in (1..).zip(self.orders.iter().zip(panels)) {
-            let window = Window::fit(self.room, panel.size).map_err(Fail::new)?;
-            let points = Extent::of(self.path(*order)?)?.points;
-            let part = &mut |target: &mut D, _, _| watch(target, done, all);
-            if !pencil.line(self.path(*order)?, points, (window, panel.top_left), target, part) {
-                break;
-            }
-        }
-        Ok(())
+        self.copies().and_then(|copies| copies.draw(request.size, target, watch)).map_err(Fail::new)
     }
 
     /// `x,y` of the first vertices of the last order.
     pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        vertices(self.path(self.orders.last().copied().unwrap_or(0))?, points, out)
+        let last = self.orders.last().copied().unwrap_or(0);
+        vertices(self.copies().and_then(|copies| copies.path(last)).map_err(Fail::new)?, points, out)
     }
 }
 
@@ -155,36 +126,4 @@ fn orders(
         }
     };
     list.get_ref().iter().enumerate().map(order).collect()
-}
-
-/// As many equal rectangles as large as possible for this shape; the last row in the middle.
-fn panels(area: Rectangle, count: u32, room: &Bounds2) -> Vec<Rectangle> {
-    let (width, height) = (area.size.width, area.size.height);
-    let gap = width.min(height) / 24;
-    let side = |whole: u32, parts: u32| (whole.saturating_sub(gap * (parts - 1)) / parts).max(1);
-    let cell = |columns: u32| Size::new(side(width, columns), side(height, count.div_ceil(columns)));
-    let extent = |min: attractor::num::Real, max: attractor::num::Real| {
-        (i64::from(max.to_bits()) - i64::from(min.to_bits())).max(1)
-    };
-    let (x, y) = (extent(room.min.x, room.max.x), extent(room.min.y, room.max.y));
-    // pixels a unit, times 2^56
-    let scale = |columns: &u32| {
-        let cell = cell(*columns);
-        let pixels = |side: u32, extent: i64| (i128::from(side) << 56) / i128::from(extent);
-        pixels(cell.width, x).min(pixels(cell.height, y))
-    };
-    // of equals the first
-    let columns = (1..=count).rev().max_by_key(scale).unwrap_or(1);
-    let (cell, rows) = (cell(columns), count.div_ceil(columns));
-    let used = |side: u32, parts: u32| side * parts + gap * (parts - 1);
-    let top = height.saturating_sub(used(cell.height, rows)) / 2;
-    let place = |i: u32| {
-        let (row, column) = (i / columns, i % columns);
-        let in_row = columns.min(count - row * columns);
-        let left = width.saturating_sub(used(cell.width, in_row)) / 2;
-        let offset =
-            Point::new((left + column * (cell.width + gap)) as i32, (top + row * (cell.height + gap)) as i32);
-        Rectangle::new(area.top_left + offset, cell)
-    };
-    (0..count).map(place).collect()
 }

@@ -6,14 +6,12 @@ use std::io::Write;
 use attractor::Error;
 use attractor::curve::{Generator, Refined, catalogue, koch};
 use attractor::num::{Angle, Real, Wide};
-use attractor::picture::{Point2, Step, Window};
+use attractor::picture::{Point2, Step};
+use attractor_gallery::{CurvePicture, Pencil, ground_words};
 use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::area::Area;
-use super::plot::{Extent, Pencil, inner, pitch};
 use super::polyline::{self, Points};
 use super::trail::Trail;
 use super::{Request, Watch};
@@ -111,22 +109,9 @@ impl CurveScene {
         Trail { finer_than: Box::new(finer_than), theory: Some(theory), boundary, law: None }
     }
 
-    /// The path on a display of this size, and what it takes.
-    fn path(&self, size: Size) -> Result<(Refined<'_, SEGMENTS, DEPTH>, Extent, Window), Fail> {
-        let area = inner(size).size;
-        let order = self.order.unwrap_or_else(|| {
-            // the shape at least: a few thousand points
-            (0..6).rev().find(|k| points(&self.generator, &self.base, *k) <= 1 << 12).unwrap_or(0)
-        });
-        let mut path = self.refined(order).map_err(Fail::new)?;
-        let mut extent = Extent::of(path.clone())?;
-        let mut window = Window::fit(extent.room(), area).map_err(Fail::new)?;
-        if self.order.is_none() {
-            path = self.generator.refined_to(&self.base, pitch(&window)).map_err(Fail::new)?;
-            extent = Extent::of(path.clone())?;
-            window = Window::fit(extent.room(), area).map_err(Fail::new)?;
-        }
-        Ok((path, extent, window))
+    fn picture(&self) -> CurvePicture<'_, SEGMENTS, DEPTH> {
+        let Self { generator, base, order, filled, pencil } = self;
+        CurvePicture { generator, base, order: *order, filled: *filled, pencil: *pencil }
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -134,23 +119,14 @@ impl CurveScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        let (path, extent, window) = self.path(request.size)?;
-        let corner = inner(request.size).top_left;
-        if self.filled {
-            let area = Area::of(path.clone(), &window, request.size, corner);
-            if !self.pencil.area(area, target, watch) {
-                return Ok(());
-            }
-        } else {
-            Pencil::paper(request.size, target);
-        }
-        self.pencil.line(path, extent.points, (window, corner), target, watch);
-        Ok(())
+        self.picture()
+            .draw(request.size, target, &mut vec![0; ground_words(request.size)], watch)
+            .map_err(Fail::new)
     }
 
     /// `x,y` of the first vertices.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        vertices(self.path(request.size)?.0, points, out)
+        vertices(self.picture().path(request.size).map_err(Fail::new)?, points, out)
     }
 }
 

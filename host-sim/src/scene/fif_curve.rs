@@ -3,16 +3,16 @@
 use std::convert::Infallible;
 use std::io::Write;
 
+use attractor::fif::{Cell, Pyramid};
 use attractor::num::Wide;
+use attractor_gallery::{CELLS_ACROSS, Chart, depth_for};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::chart::Chart;
 use super::data::{self, Table};
 use super::function::{Description, Fixed, Function};
 use super::graph::Graph;
-use super::nested::Nested;
 use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -94,13 +94,11 @@ impl FifCurve {
         D::Color: Depth,
     {
         let fif = &self.function.fixed;
-        let nested = Nested::new(fif, &self.contractions, request.size);
-        let chart = Chart::new(fif, request.size, nested.height(), self.palette)?;
-        if chart.draw(target, watch, &nested) {
-            nested.draw(&chart, target);
-            watch(target, request.size.height, request.size.height);
-        }
-        Ok(())
+        let mut cells = vec![Cell::ZERO; Pyramid::cells(fif.maps(), depth_for(fif.maps(), CELLS_ACROSS))];
+        let mut columns = vec![0; request.size.width as usize];
+        Chart::new(fif, request.size, &self.contractions, self.palette, &mut cells)
+            .and_then(|chart| chart.draw(target, &mut columns, watch))
+            .map_err(Fail::new)
     }
 
     /// `x,fixed,reference,error` at `points` equally spaced abscissae, first and last knot included.

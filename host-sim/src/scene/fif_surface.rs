@@ -6,6 +6,7 @@ use std::io::Write;
 use attractor::fif::{Cell, Factor, Pyramid, Surface};
 use attractor::num::{Real, Vec3};
 use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
+use attractor_gallery::depth_for;
 use attractor_reference as reference;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -14,7 +15,7 @@ use toml::Spanned;
 
 use super::environment::{Around, Board, Sky, Surroundings};
 use super::fif_curve::abscissa;
-use super::function::{DEGREE, Description, Function, MAPS, depth_for};
+use super::function::{DEGREE, Description, Function, MAPS};
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::{Request, Watch, draw_field};

@@ -1,7 +1,7 @@
 //! A fractal interpolation function of a scene file, in fixed point and as the reference: knots, vertical scalings, polynomials, integrals.
 
 use attractor::Error;
-use attractor::fif::{Fif, Knot, Pyramid};
+use attractor::fif::{Fif, Knot};
 use attractor::num::{Scaling, Wide};
 use attractor_reference as reference;
 use serde::Deserialize;
@@ -170,19 +170,4 @@ impl Description {
             _ => source.fail(self.vertical_scaling.span(), &format!("{prefix}vertical_scaling"), error),
         }
     }
-}
-
-/// The depth at which a pyramid has at least `cells` cells at its finest level, and no more than about a million in all.
-pub(super) fn depth_for(maps: usize, cells: u32) -> u32 {
-    let mut depth = 0;
-    let mut finest = 1_usize;
-    while finest < cells as usize
-        && depth < Pyramid::MAX_DEPTH
-        && maps > 1
-        && Pyramid::cells(maps, depth + 1) <= 1 << 20
-    {
-        depth += 1;
-        finest *= maps;
-    }
-    depth
 }

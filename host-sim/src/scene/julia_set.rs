@@ -6,32 +6,24 @@ use std::io::Write;
 use attractor::escape::{Complex, JuliaSet, SimpleCase};
 use attractor::num::{Real, Wide};
 use attractor::picture::{Point2, Step, Window};
+use attractor_gallery::{JuliaSetPicture, Method};
 use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::chart::PAPER;
-use super::density;
-use super::ifs::density_color;
-use super::plot::{Extent, inner, pitch};
 use super::trail::Trail;
-use super::{Request, Watch, draw_field};
+use super::{Request, Watch};
 use crate::cli::MAX_POINTS;
-use crate::color::{Depth, ground};
+use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Source};
 use crate::theory::Theory;
 
-/// Points that show how large the set is.
-const SCOUTS: usize = 1 << 14;
-/// How often the pruned method goes on from a cell of the size of a pixel.
+/// How often the pruned method goes on from a cell where the set is measured.
 const HITS: u8 = 12;
-/// The grid covers the square of side 4; finer than this it would only be larger.
-const CELLS: i64 = 1 << 12;
-/// The same where the set is measured.
+/// The finest grid then.
 const FINEST: i64 = 1 << 13;
 
 #[derive(Debug, Deserialize)]
@@ -47,23 +39,9 @@ struct File {
     palette: Option<Named>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Method {
-    /// A coin flip a point.
-    Plain,
-    /// The tree of all preimages without its crowded branches.
-    Pruned,
-}
-
 /// A Julia set ready to be drawn.
 #[derive(Debug)]
-pub(super) struct JuliaSetScene {
-    set: JuliaSet,
-    method: Method,
-    points: Option<u32>,
-    palette: Named,
-}
+pub(super) struct JuliaSetScene(JuliaSetPicture);
 
 impl JuliaSetScene {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
@@ -74,49 +52,18 @@ impl JuliaSetScene {
             n @ 1..=MAX_POINTS => Ok(n),
             _ => Err(source.fail(points.span(), "points", format!("allowed is 1 to {MAX_POINTS}"))),
         });
-        Ok(Self {
-            set,
-            method: file.method.unwrap_or(Method::Pruned),
-            points: points.transpose()?,
-            palette: file.palette.unwrap_or(Named::Fire),
-        })
+        let (method, palette) = (file.method.unwrap_or(Method::Pruned), file.palette.unwrap_or(Named::Fire));
+        Ok(Self(JuliaSetPicture { set, method, points: points.transpose()?, palette }))
     }
 
     /// What measurements need of it.
     pub(super) fn trail(&self) -> Trail<'_> {
-        trail(self.set)
+        trail(self.0.set)
     }
 
-    fn window(&self, request: &Request) -> Result<Window, Fail> {
-        let scouts = self.set.seeded_backward_iteration(1).take(SCOUTS);
-        let extent = Extent::of(scouts.map(Step::MoveTo))?;
-        // the set is its own image under z -> -z; a scout may stop short of the farthest point
-        let most = |a: Real, b: Real| a.abs().max(b.abs()).saturating_add(Real::lit("0.01"));
-        let mut bounds = extent.bounds;
-        let reach = Point2::new(most(bounds.min.x, bounds.max.x), most(bounds.min.y, bounds.max.y));
-        (bounds.min, bounds.max) = (Point2::new(-reach.x, -reach.y), reach);
-        Window::fit(bounds, inner(request.size).size).map_err(Fail::new)
-    }
-
-    /// The points for a display of this size, no more than `most`.
-    fn found(&self, request: &Request, window: &Window, most: u32) -> Result<Vec<Point2>, Fail> {
-        let most = most as usize;
-        match self.method {
-            Method::Plain => Ok(self.set.seeded_backward_iteration(request.seed).take(most).collect()),
-            Method::Pruned => {
-                let cells = ((4 << 24) / i64::from(pitch(window).to_bits().max(1))).clamp(1, CELLS);
-                let side = cells as usize;
-                let mut hits = vec![0; side * side];
-                let points = self.set.pruned_iteration(side, HITS, &mut hits).map_err(Fail::new)?;
-                Ok(points.take(most).collect())
-            }
-        }
-    }
-
-    /// As the scene says, else 8 a pixel.
-    fn most(&self, size: Size) -> u32 {
-        let pixels = size.width.saturating_mul(size.height).saturating_mul(8);
-        self.points.unwrap_or(pixels.clamp(1, MAX_POINTS))
+    /// The grid of the pruned method.
+    fn hits(&self, window: &Window) -> Vec<u8> {
+        vec![0; self.0.grid(window).pow(2)]
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -124,25 +71,23 @@ impl JuliaSetScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        let window = self.window(request)?;
-        let points = self.found(request, &window, self.most(request.size))?;
-        let margin = inner(request.size).top_left.x.unsigned_abs();
-        let paper = ground::<D::Color>(PAPER);
-        let color = |hits| density_color(self.palette, paper, density::level(hits));
-        density::counted(points.into_iter(), window, request.size, margin, |framed| {
-            draw_field(&framed, color, target, watch);
-        })?;
-        Ok(())
+        let size = request.size;
+        let mut hits = self.hits(&self.0.window(size).map_err(Fail::new)?);
+        let mut counts = vec![0; (size.width * size.height) as usize];
+        self.0.draw((size, request.seed), target, (&mut counts, &mut hits), watch).map_err(Fail::new)
     }
 
     /// `x,y` of the first points.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        let window = self.window(request)?;
+        let window = self.0.window(request.size).map_err(Fail::new)?;
         writeln!(out, "x,y")?;
-        for p in self.found(request, &window, points)? {
-            writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
-        }
-        Ok(())
+        let print = |found: &mut dyn Iterator<Item = Point2>| -> Result<(), Fail> {
+            for p in found {
+                writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
+            }
+            Ok(())
+        };
+        self.0.found((&window, request.seed, points), &mut self.hits(&window), print).map_err(Fail::new)?
     }
 }
 

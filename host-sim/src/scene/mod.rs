@@ -1,13 +1,10 @@
 //! Scenes: what a name or a TOML file describes, compiled and ready to be drawn or sampled.
 
-mod area;
-mod chart;
 mod coloring;
 mod copier;
 mod curve;
 mod data;
 mod deep;
-mod density;
 mod environment;
 mod escape;
 mod fif_curve;
@@ -21,9 +18,7 @@ mod julia_set;
 mod law;
 mod mandelbrot;
 mod motion;
-mod nested;
 mod orbit;
-mod plot;
 mod polyline;
 mod random_curve;
 mod system;
@@ -33,8 +28,7 @@ use std::convert::Infallible;
 use std::io::Write;
 use std::path::Path;
 
-use attractor::draw::{Palette, Picture, RowCursor};
-use attractor::picture::Field;
+use attractor_gallery::{Watch, draw_field};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use serde::Deserialize;
@@ -69,9 +63,6 @@ pub(crate) struct Request {
     pub(crate) size: Size,
     pub(crate) seed: u64,
 }
-
-/// Called after each portion with the target, the portions done and those in all; `false` stops the drawing.
-pub(crate) type Watch<'a, D> = &'a mut dyn FnMut(&mut D, u32, u32) -> bool;
 
 /// A scene of any kind.
 #[derive(Debug)]
@@ -236,30 +227,6 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.sample(request, out),
             Kind::Julia(scene) => scene.sample(request, out),
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
-        }
-    }
-}
-
-/// Draws a field row by row; whether it was finished.
-fn draw_field<F, P, D>(field: F, palette: P, target: &mut D, watch: Watch<'_, D>) -> bool
-where
-    F: Field,
-    P: Palette<F::Value>,
-    D: DrawTarget<Error = Infallible>,
-    D::Color: Depth,
-{
-    let rows = field.size().height;
-    let picture = Picture::<F, P, D::Color>::new(field, palette);
-    let mut cursor = RowCursor::new();
-    loop {
-        match cursor.draw_next(&picture, target) {
-            Ok(true) => {
-                if !watch(target, cursor.row(), rows) {
-                    return false;
-                }
-            }
-            Ok(false) => return true,
-            Err(impossible) => match impossible {},
         }
     }
 }

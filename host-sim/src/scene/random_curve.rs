@@ -6,16 +6,14 @@ use std::io::Write;
 use attractor::Error;
 use attractor::curve::{Stop, Subdivision, coast, koch};
 use attractor::num::Real;
-use attractor::picture::{Point2, Step, Window};
+use attractor::picture::{Point2, Step};
+use attractor_gallery::{Pencil, RandomCurvePicture, ground_words};
 use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::area::Area;
 use super::curve::vertices;
 use super::law::{Law, Name, Parameters, law};
-use super::plot::{Extent, Pencil, inner, pitch};
 use super::polyline::{self, Points};
 use super::trail::Trail;
 use super::{Request, Watch};
@@ -129,29 +127,10 @@ impl RandomCurve {
         Trail { finer_than: Box::new(finer_than), theory, boundary: None, law: Some(&self.law) }
     }
 
-    fn window(&self, extent: &Extent, size: Size) -> Result<Window, Fail> {
-        let (room, size) = (extent.room(), inner(size).size);
-        match self.law {
-            Law::LineToLine(..) => Window::stretch(room, size),
-            _ => Window::fit(room, size),
-        }
-        .map_err(Fail::new)
-    }
-
-    /// The path on a display of this size, and what it takes.
-    fn path(&self, size: Size) -> Result<(Curve<'_>, Extent, Window), Fail> {
-        let stop = match self.stop {
-            Some(stop) => stop,
-            None => {
-                let coarse = Stop::Parameter(attractor::curve::Parameter::from_bits(1 << 24));
-                let extent = Extent::of(self.curve(coarse).map_err(Fail::new)?)?;
-                Stop::Length(pitch(&self.window(&extent, size)?))
-            }
-        };
-        let curve = self.curve(stop).map_err(Fail::new)?;
-        let extent = Extent::of(curve.clone())?;
-        let window = self.window(&extent, size)?;
-        Ok((curve, extent, window))
+    fn picture(&self) -> RandomCurvePicture<'_, Law, LEVELS> {
+        let Self { law, knots, stop, filled, pencil } = self;
+        let graph = matches!(law, Law::LineToLine(..));
+        RandomCurvePicture { law, graph, knots, stop: *stop, filled: *filled, pencil: *pencil }
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -159,28 +138,14 @@ impl RandomCurve {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        let (curve, extent, window) = self.path(request.size)?;
-        let corner = inner(request.size).top_left;
-        if self.filled {
-            // what is open is closed below: the ground under a graph
-            let (min, max) = (extent.bounds.min, extent.bounds.max);
-            let below = [max.x, min.x].map(|x| Step::LineTo(Point2::new(x, min.y)));
-            let below = below.into_iter().chain(self.knots.first().map(|p| Step::LineTo(*p)));
-            let below = below.filter(|_| !self.pencil.closed);
-            let area = Area::of(curve.clone().chain(below), &window, request.size, corner);
-            if !self.pencil.area(area, target, watch) {
-                return Ok(());
-            }
-        } else {
-            Pencil::paper(request.size, target);
-        }
-        self.pencil.line(curve, extent.points, (window, corner), target, watch);
-        Ok(())
+        self.picture()
+            .draw(request.size, target, &mut vec![0; ground_words(request.size)], watch)
+            .map_err(Fail::new)
     }
 
     /// `x,y` of the first points.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        vertices(self.path(request.size)?.0, points, out)
+        vertices(self.picture().path(request.size).map_err(Fail::new)?, points, out)
     }
 }
 

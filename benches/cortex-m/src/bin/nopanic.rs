@@ -36,6 +36,9 @@ fn main() -> ! {
     // what is refused is refused: only panics count
     let _ = bb(functions());
     let _ = bb(systems());
+    let _ = bb(curves());
+    let _ = bb(copies());
+    let _ = bb(julia_sets());
     let _ = bb(escape());
     let _ = bb(rays());
     let _ = bb(drawing());
@@ -100,6 +103,104 @@ fn systems() -> Result<(), Error> {
         a.contraction_factor(),
         a.fixed_point(),
     ));
+    Ok(())
+}
+
+fn curves() -> Result<(), Error> {
+    use attractor::curve::{
+        Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Parameter, Part,
+        RandomFunction, TwoVariable, dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over,
+    };
+    let (one, seed) = (bb(Real::ONE), bb(1));
+    if let Some(curve) = attractor::curve::catalogue::find(bb("gosper")) {
+        refined(&curve.generator::<{ attractor::curve::catalogue::LARGEST }>()?)?;
+    }
+    let points = bb([[Wide::ZERO; 2], [Wide::ONE; 2], [Wide::ZERO; 2]]);
+    bb(Generator::<4>::polyline(bb(&points[..])).is_ok());
+    bb(Generator::<4>::oriented_polyline(bb(&points[..]), bb(&[Orientation::Reversed])).is_ok());
+    refined(&Generator::<4>::turtle(bb("F+F--F+F"), turn_over(bb(6)))?)?;
+    bb((koch::triangle(point(0), one), koch::length(bb(3)).map(koch::Fraction::to_wide)));
+    bb((koch::snowflake_perimeter(bb(3)), koch::snowflake_area(bb(3))));
+    bb((dimension_of_ratio(one).ok(), dimension_of_spectrum(one).ok()));
+    let t = bb(Parameter::ONE);
+    let random = RandomFunction::new(seed);
+    let (along, across) = (random.at(t), random.independent().at(t));
+    let part = Part { from: point(0), to: point(1), middle: t, level: bb(3), span: one };
+    bb(displaced(&part, along, across));
+    bb(Elbow::new(bb(Unit::ONE), one, seed)?.standard_deviation(bb(3)));
+    let elbow = bb(Elbow::self_similar(one, seed))?;
+    let graph = bb(LineToLine::with_spectrum(bb(Unit::ONE), one, seed))?;
+    bb(LineToLine::new(bb(Unit::ONE), seed)?.extrapolated(point(0), point(1), t).is_ok());
+    let plane = bb(OneVariable::with_ratio(one, seed))?;
+    bb((OneVariable::new(bb(Unit::ONE), seed)?.offset(), plane.extrapolated(point(0), point(1), t).is_ok()));
+    let both = bb(TwoVariable::new(bb(Unit::ONE), seed))?;
+    bb(both.extrapolated(point(0), point(1), t).is_ok());
+    bb((elbow.midpoint(&part), graph.midpoint(&part), plane.midpoint(&part), both.midpoint(&part)));
+    divided(&elbow)?;
+    divided(&graph)?;
+    divided(&plane)?;
+    divided(&both)
+}
+
+fn refined<const S: usize>(generator: &attractor::curve::Generator<S>) -> Result<(), Error> {
+    let base = bb([point(0), point(1 << 24), point(0)]);
+    bb((generator.len(), generator.is_empty(), generator.lengthening(), generator.contraction_factor()));
+    bb(generator.dimension());
+    let generator = generator.clone().through(bb([Unit::ONE; 2]))?;
+    bb(generator.refined::<12>(bb(&base), bb(3))?.last());
+    bb(generator.refined_to::<12>(bb(&base), bb(Real::ONE))?.last());
+    Ok(())
+}
+
+fn divided<L: attractor::curve::Displacement>(law: &L) -> Result<(), Error> {
+    use attractor::curve::{Parameter, Stop, Subdivision};
+    let knots = bb([point(0), point(1 << 24), point(2 << 24)]);
+    for stop in [Stop::Parameter(Parameter::ONE), Stop::Norm(Real::ONE), Stop::Length(Real::ONE)] {
+        let mut curve = Subdivision::<_, 16>::new(law, bb(&knots), bb(stop))?;
+        bb((curve.next(), curve.parameter()));
+        bb(curve.between(bb(Parameter::ZERO), bb(Parameter::ONE)).last());
+    }
+    Ok(())
+}
+
+fn copies() -> Result<(), Error> {
+    use attractor::ifs::{Affine, Density};
+    let ifs = catalogue::BARNSLEY_FERN.ifs::<4>()?;
+    let shape = bb([point(0), point(1)]);
+    bb(ifs.copier::<12>(bb(&shape), bb(3))?.points().last());
+    bb(ifs.copier::<12>(bb(&shape), bb(3))?.path().last());
+    bb(ifs.moments())?;
+    bb((Affine::from_thousandths(bb([1; 6])), Affine::from_millionths(bb([1; 6]))));
+    bb((Affine::from_ratios(bb([1; 6]), bb(3)), Affine::new(bb([Unit::ONE; 4]), bb([Real::ONE; 2]))));
+    let window = Window::fit(ifs.bounds(), bb(Size::new(8, 8)))?;
+    let (mut counts, mut maps) = ([0_u16; 64], [0; 64]);
+    let mut density = Density::new(window, bb(&mut counts[..]))?.with_maps(bb(&mut maps[..]))?;
+    let mut game = ifs.seeded_chaos_game(bb(1));
+    bb((game.next(), game.last_map()));
+    density.extend(game.clone().with_maps().take(bb(10)));
+    density.extend(game.take(bb(10)));
+    density.record(point(0));
+    density.record_from(bb(1), point(0));
+    bb((density.counts().last(), density.window(), density.peak(), density.quantile(bb(50))));
+    bb(density.linear(bb(3)).row(bb(1), bb(0)..bb(8)).last());
+    bb(density.logarithmic(bb(3)).row(bb(1), bb(0)..bb(8)).nth(bb(3)));
+    let mut few = [0_u8; 64];
+    let mut density = Density::new(window, bb(&mut few[..]))?;
+    density.record(point(0));
+    bb(density.linear(bb(3)).row(bb(1), bb(0)..bb(8)).last());
+    Ok(())
+}
+
+fn julia_sets() -> Result<(), Error> {
+    use attractor::escape::JuliaSet;
+    let set = JuliaSet::new(Complex::new(bb(Wide::ZERO), bb(Wide::ZERO)))?;
+    bb((set.constant().sqrt(), set.fixed_points(), set.connectedness(bb(100))?, set.simple_case()));
+    let mut walk = set.seeded_backward_iteration(bb(1));
+    bb((walk.next_preimage(), walk.next()));
+    bb(set.backward_iteration(rng()).take(bb(10)).last());
+    let mut hits = [0; 64];
+    let mut pruned = set.pruned_iteration(bb(8), bb(3), bb(&mut hits[..]))?;
+    bb((pruned.next(), pruned.hits().last()));
     Ok(())
 }
 
@@ -252,6 +353,7 @@ fn numbers() {
     bb(num::mul_high_u(bb(0), bb(0)));
     bb(num::round_shift(bb(0), bb(0)));
     bb(num::scale31(bb(0), bb(0)));
+    bb((num::log2(bb(0)), num::exp_minus(bb(num::Real::ONE))));
     bb(num::Reciprocal::of(bb(0)).quotient(bb(0)));
     if let Ok(alias) = num::Alias::<8>::new(bb(&[1, 2, 3])) {
         bb(alias.pick(bb(0)));

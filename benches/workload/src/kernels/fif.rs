@@ -3,6 +3,8 @@
 use attractor::Error;
 use attractor::fif::{Fif, Knot};
 use attractor::num::{Angle, Scaling, Wide};
+use attractor::rand_xoshiro::Xoshiro128PlusPlus;
+use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use super::{Tally, Watch, fold};
 use crate::float::mul_add;
@@ -48,6 +50,48 @@ pub(super) fn integral(watch: &mut Watch<'_>) -> Tally {
     let Some(f) = integral else { return Tally::default() };
     watch.over(&PLACES, |u| f.at(Angle::from_bits(u)).to_bits() as u32)
 }
+
+const POINTS: u32 = 2048;
+const SEED: u64 = 7;
+
+#[inline(never)]
+pub(super) fn game(watch: &mut Watch<'_>) -> Tally {
+    let Ok(f) = figure_1() else { return Tally::default() };
+    let start = f.chaos_game(Xoshiro128PlusPlus::seed_from_u64(SEED));
+    watch.time(|| {
+        let mut checksum = 0_u32;
+        for p in start.clone().take(POINTS as usize) {
+            checksum = checksum.rotate_left(1) ^ p.x.to_bits() as u32 ^ p.y.to_bits() as u32;
+        }
+        Tally { checksum, units: POINTS }
+    })
+}
+
+macro_rules! game {
+    ($name:ident, $float:ty, $fused:expr, $fold:expr) => {
+        /// The same game: two intervals of one width need no search.
+        #[inline(never)]
+        pub(super) fn $name(watch: &mut Watch<'_>) -> Tally {
+            let maps: [[$float; 4]; 2] = core::hint::black_box([[0.0, 0.0, 1.0, 0.5], [0.5, 1.0, -1.0, 0.5]]);
+            let start = Xoshiro128PlusPlus::seed_from_u64(SEED);
+            watch.time(|| {
+                let mut rng = start.clone();
+                let (mut u, mut y): ($float, $float) = (0.0, 0.0);
+                let mut checksum = 0_u32;
+                for _ in 0..POINTS {
+                    let [start, constant, linear, scaling] = maps[(rng.next_u32() >> 31) as usize];
+                    y = $fused(scaling, y, $fused(linear, u, constant));
+                    u = $fused(u, 0.5, start);
+                    checksum = checksum.rotate_left(1) ^ $fold(u) ^ $fold(y);
+                }
+                Tally { checksum, units: POINTS }
+            })
+        }
+    };
+}
+
+game!(game_f32, f32, mul_add, f32::to_bits);
+game!(game_f64, f64, |a: f64, b: f64, c: f64| a * b + c, fold);
 
 /// The same two walks in floating point: from the last digit to the first for 24 digits, and forwards along the pre-images for any abscissa,
 /// until the horizontal factor is below the resolution of the type.

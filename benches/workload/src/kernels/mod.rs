@@ -4,6 +4,8 @@
 //! [`Watch::time`], or to `Watch::over` for a table of inputs; only that is counted. It returns a checksum of everything it computed
 //! (so that nothing is optimised away, and so that host and target can be compared) and how many units of work it did.
 
+mod backward;
+mod curve;
 mod deep;
 mod escape;
 mod fif;
@@ -126,6 +128,8 @@ pub static ALL: &[Kernel] = &[
     beside("reciprocal_sqrt", "call", num::reciprocal_sqrt_fixed, num::reciprocal_sqrt_f32, num::reciprocal_sqrt_f64),
     beside("sqrt", "call", num::sqrt_fixed, num::sqrt_f32, num::sqrt_f64),
     beside("sin_cos", "call", num::sin_cos_fixed, num::sin_cos_f32, num::sin_cos_f64),
+    beside("log2", "call", num::log2_fixed, num::log2_f32, num::log2_f64),
+    beside("exp_minus", "call", num::exp_minus_fixed, num::exp_minus_f32, num::exp_minus_f64),
     beside("dwell fine", "iteration", escape::fine, escape::plain_f32, escape::plain_f64),
     beside("dwell coarse", "iteration", escape::coarse, escape::plain_f32, escape::plain_f64),
     Kernel { f32: None, ..beside("dwell 64", "iteration", deep::word64, escape::plain_f32, escape::plain_f64) },
@@ -149,12 +153,35 @@ pub static ALL: &[Kernel] = &[
     alone("distance estimate", "pixel of the home view", deep::distance),
     alone("period", "pixel of the home view", deep::period),
     beside("chaos game", "point", ifs::fern_fixed, ifs::fern_f32, ifs::fern_f64),
+    beside("density u16", "point", ifs::density_u16, ifs::density_f32, ifs::density_f64),
+    beside("density u8", "point", ifs::density_u8, ifs::density_f32, ifs::density_f64),
+    roomy(alone("density with maps", "point", ifs::density_with_maps)),
+    alone("ifs", "fern set up", ifs::system),
+    alone("bounds", "fern", ifs::bounds),
+    alone("moments", "fern", ifs::moments),
+    beside("copied point", "image of one point", ifs::copied_point, ifs::copied_f32, ifs::copied_f64),
+    alone("copied path", "point of an image of four", ifs::copied_path),
+    beside("koch", "vertex of order 6", curve::koch_fixed, curve::koch_f32, curve::koch_f64),
+    alone("gosper", "vertex of order 4", curve::gosper),
+    alone("dragon", "vertex of order 11", curve::dragon),
+    beside("elbow", "point", curve::elbow, curve::elbow_f32, curve::elbow_f64),
+    beside("elbow by length", "point", curve::elbow_by_length, curve::elbow_by_length_f32, curve::elbow_by_length_f64),
+    alone("line to line", "point", curve::line_to_line),
+    alone("one variable", "point", curve::one_variable),
+    alone("two variable", "point", curve::two_variable),
+    alone("elbow law", "set up", curve::elbow_law),
+    alone("offset of a ratio", "call", curve::offset_of_ratio),
+    alone("deviate", "call", curve::deviate),
+    beside("backward", "point", backward::plain, backward::plain_f32, backward::plain_f64),
+    alone("backward pruned", "point", backward::pruned),
+    beside("complex sqrt", "call", backward::root, backward::root_f32, backward::root_f64),
     beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
     beside("fif dyadic level", "level", fif::dyadic_level, fif::dyadic_level_f32, fif::dyadic_level_f64),
     beside("fif", "call at any abscissa", fif::any, fif::any_f32, fif::any_f64),
     beside("fif level", "level", fif::any_level, fif::any_level_f32, fif::any_level_f64),
     alone("fif integrate", "function of 2 maps", fif::integrate),
     beside("fif integral", "call of 24 levels", fif::integral, fif::integral_f32, fif::integral_f64),
+    beside("fif chaos game", "point", fif::game, fif::game_f32, fif::game_f64),
     roomy(beside("ray", "ray that hits or misses", trace::rays, trace::rays_float::<f32>, trace::rays_float::<f64>)),
     roomy(beside("box test", "box", trace::box_fixed, trace::box_float::<f32>, trace::box_float::<f64>)),
     roomy(beside("walk", "box that a walk tests", trace::walks, trace::walks_float::<f32>, trace::walks_float::<f64>)),

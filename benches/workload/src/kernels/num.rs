@@ -152,6 +152,43 @@ pub(super) fn sin_cos_f64(watch: &mut Watch<'_>) -> Tally {
     })
 }
 
+#[inline(never)]
+pub(super) fn log2_fixed(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES, num::log2)
+}
+
+#[inline(never)]
+pub(super) fn log2_f32(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES_F32, |v| libm::log2f(v).to_bits())
+}
+
+#[inline(never)]
+pub(super) fn log2_f64(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&SQUARES_F64, |v| fold(libm::log2(v)))
+}
+
+table! {
+    /// Exponents from 0 to 16, 24 fractional bits.
+    EXPONENTS: i32, i => (mixed(i) >> 36) as i32
+}
+table!(EXPONENTS_F32: f32, i => EXPONENTS[i] as f32 / 16_777_216.0);
+table!(EXPONENTS_F64: f64, i => EXPONENTS[i] as f64 / 16_777_216.0);
+
+#[inline(never)]
+pub(super) fn exp_minus_fixed(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&EXPONENTS, |v| num::exp_minus(num::Real::from_bits(v)).to_bits() as u32)
+}
+
+#[inline(never)]
+pub(super) fn exp_minus_f32(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&EXPONENTS_F32, |v| libm::expf(-v).to_bits())
+}
+
+#[inline(never)]
+pub(super) fn exp_minus_f64(watch: &mut Watch<'_>) -> Tally {
+    watch.over(&EXPONENTS_F64, |v| fold(libm::exp(-v)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,6 +202,12 @@ mod tests {
             assert!((f64::from(ANGLES_F32[i]) - ANGLES_F64[i]).abs() < 1e-6);
             let (mantissa, shift) = num::reciprocal(WORDS[i]);
             assert!((f64::from(mantissa) / (1_u64 << shift) as f64 * WORDS_F64[i] - 1.0).abs() < 1e-8);
+            assert!(
+                (f64::from(num::log2(SQUARES[i])) / 16_777_216.0 - libm::log2(SQUARES_F64[i])).abs() < 1e-6
+            );
+            let power = num::exp_minus(num::Real::from_bits(EXPONENTS[i])).to_num::<f64>();
+            assert!((power - libm::exp(-EXPONENTS_F64[i])).abs() < 1e-8);
+            assert!((f64::from(EXPONENTS_F32[i]) - EXPONENTS_F64[i]).abs() < 1e-5);
             assert!((f64::from(num::sqrt(SQUARES[i])) - libm::sqrt(SQUARES_F64[i])).abs() <= 1.0);
         }
     }

@@ -1,72 +1,101 @@
 //! The chart of a function: margins, axes, the ground under the curve, the curve, its knots.
 
-use std::convert::Infallible;
-use std::ops::Range;
+use core::ops::Range;
 
+use attractor::Error;
 use attractor::draw::{Level, Stroke, hex};
-use attractor::fif::{Cell, Pyramid};
+use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Wide};
 use attractor::picture::{Bounds2, Field, Point2, Window};
 use embedded_graphics::Pixel;
-use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::Drawable;
 
-use super::function::{Fixed, depth_for};
-use super::nested::Nested;
-use super::{Watch, draw_field};
-use crate::color::{Depth, ground, solid};
-use crate::fail::Fail;
-use crate::palette::Named;
+use crate::ink::{ground, solid};
+use crate::named::Named;
+use crate::nested::Nested;
+use crate::page::{Display, PAPER, Watch, draw_field};
 
-/// The ground of every chart.
-pub(super) const PAPER: Rgb888 = hex(0x0b0e1a);
+/// A pyramid for the range of a function has about as many cells at its finest level: halves of halves, seven times.
+pub const CELLS_ACROSS: u32 = 128;
+
+/// The depth at which a pyramid has at least `cells` cells at its finest level, and no more than about a million in all.
+pub const fn depth_for(maps: usize, cells: u32) -> u32 {
+    let mut depth = 0;
+    let mut finest = 1_usize;
+    while finest < cells as usize
+        && depth < Pyramid::MAX_DEPTH
+        && maps > 1
+        && Pyramid::cells(maps, depth + 1) <= 1 << 20
+    {
+        depth += 1;
+        finest *= maps;
+    }
+    depth
+}
+
 /// Axes and the lines through the knots.
 const RULE: Rgb888 = hex(0x3a4260);
 /// Knots and other marks.
-pub(super) const MARK: Rgb888 = hex(0xffb454);
+pub(crate) const MARK: Rgb888 = hex(0xffb454);
 /// More knots than this are not marked.
 const MARKED: usize = 16;
 
 /// Where a function is drawn.
 #[derive(Debug)]
-pub(super) struct Chart<'a> {
-    fif: &'a Fixed,
+pub struct Chart<'a, const N: usize, const D: usize> {
+    fif: &'a Fif<N, D>,
+    nested: Nested,
     size: Size,
     /// Left and top of the plot.
-    pub(super) corner: Point,
-    pub(super) window: Window,
+    pub(crate) corner: Point,
+    pub(crate) window: Window,
     /// Row of the axis in the plot.
     axis: i64,
     palette: Named,
 }
 
-impl<'a> Chart<'a> {
-    /// A chart on all of `size` but `below` rows at the bottom.
-    pub(super) fn new(fif: &'a Fixed, size: Size, below: u32, palette: Named) -> Result<Self, Fail> {
+impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
+    /// The chart of a function on all of `size`; below it the intervals of the maps of an address, the outermost first, at most 16 (figure 2).
+    /// `cells` has room for a pyramid of the depth that [`CELLS_ACROSS`] takes; afterwards it is free again.
+    ///
+    /// # Errors
+    /// [`Error::BufferLength`] with the cells needed, and what the function's range or the size may be wrong with.
+    pub fn new(
+        fif: &'a Fif<N, D>,
+        size: Size,
+        address: &[usize],
+        palette: Named,
+        cells: &mut [Cell],
+    ) -> Result<Self, Error> {
+        let nested = Nested::new(fif, address, size);
         let side = size.width.min(size.height);
         let margin = if side < 32 { 0 } else { (side / 16).max(3) };
         let inner = Size::new(
             size.width.saturating_sub(2 * margin).max(1),
-            size.height.saturating_sub(2 * margin + below).max(1),
+            size.height.saturating_sub(2 * margin + nested.height()).max(1),
         );
-        let (min, max) = range(fif)?;
+        let (min, max) = range(fif, cells)?;
         let bounds = Bounds2 { min: Point2::new(Real::ZERO, min), max: Point2::new(Real::ONE, max) };
-        let window = Window::stretch(bounds, inner).map_err(Fail::new)?;
+        let window = Window::stretch(bounds, inner)?;
         let axis = window.raster(Point2::new(Real::ZERO, Real::ZERO.clamp(min, max))).1;
         let corner = Point::new(margin as i32, margin as i32);
-        Ok(Self { fif, size, corner, window, axis, palette })
+        Ok(Self { fif, nested, size, corner, window, axis, palette })
     }
 
-    /// Draws it; whether it was finished.
-    pub(super) fn draw<D>(&self, target: &mut D, watch: Watch<'_, D>, nested: &Nested) -> bool
-    where
-        D: DrawTarget<Error = Infallible>,
-        D::Color: Depth,
-    {
-        let field = Ground::of(self, nested);
-        let paper = ground::<D::Color>(PAPER);
+    /// Draws it. `columns` has room for a number for each column of the display.
+    ///
+    /// # Errors
+    /// [`Error::BufferLength`] with the numbers needed.
+    pub fn draw<T: Display>(
+        &self,
+        target: &mut T,
+        columns: &mut [i32],
+        watch: Watch<'_, T>,
+    ) -> Result<(), Error> {
+        let field = Ground::of(self, columns)?;
+        let paper = ground::<T::Color>(PAPER);
         let palette = |value: Place| match value {
             Place::Paper => paper,
             Place::Rule => RULE,
@@ -74,10 +103,10 @@ impl<'a> Chart<'a> {
             Place::Under(level) => self.palette.at(Level(8_000 + level.0 / 4)),
         };
         if !draw_field(field, palette, target, watch) {
-            return false;
+            return Ok(());
         }
         let inner = self.window.size();
-        let line = solid::<D::Color>(self.palette.at(Level(56_000)));
+        let line = solid::<T::Color>(self.palette.at(Level(56_000)));
         let graph = self.fif.graph(inner.width.saturating_mul(8));
         let Ok(_) = Stroke::new(graph, self.window, line).at(self.corner).draw(target);
         if self.fif.maps() <= MARKED {
@@ -87,11 +116,13 @@ impl<'a> Chart<'a> {
                 self.mark(at, target);
             }
         }
-        true
+        self.nested.draw(self, target);
+        watch(target, self.size.height, self.size.height);
+        Ok(())
     }
 
     /// The pixel that shows a point with a unit abscissa.
-    pub(super) fn pixel(&self, at: Point2) -> Point {
+    pub(crate) fn pixel(&self, at: Point2) -> Point {
         let (column, row) = self.window.raster(at);
         let size = self.window.size();
         let inside = |v: i64, side: u32| v.clamp(0, i64::from(side) - 1) as i32;
@@ -99,14 +130,10 @@ impl<'a> Chart<'a> {
     }
 
     /// A dot of 3 x 3 pixels, of 5 x 5 on a large display.
-    pub(super) fn mark<D>(&self, at: Point2, target: &mut D)
-    where
-        D: DrawTarget<Error = Infallible>,
-        D::Color: Depth,
-    {
+    pub(crate) fn mark<T: Display>(&self, at: Point2, target: &mut T) {
         let centre = self.pixel(at);
         let reach = if self.size.width.min(self.size.height) < 200 { 1 } else { 2 };
-        let color = solid::<D::Color>(MARK);
+        let color = solid::<T::Color>(MARK);
         let dots = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| Point::new(x, y)));
         // without its corners, so that it looks round
         let dots = dots.filter(|p| reach == 1 || p.x.abs() + p.y.abs() <= 3);
@@ -114,25 +141,32 @@ impl<'a> Chart<'a> {
     }
 
     /// The curve at a unit abscissa.
-    pub(super) fn value(&self, u: Real) -> Real {
+    pub(crate) fn value(&self, u: Real) -> Real {
         let (from, to) = self.fif.domain();
         let width = i128::from(to.to_bits()) - i128::from(from.to_bits());
         let offset = (width * i128::from(u.to_bits())) >> 24;
         self.fif.at(Wide::from_bits((i128::from(from.to_bits()) + offset) as i64))
     }
 
-    fn knot_columns(&self) -> Vec<i32> {
-        let (from, to) = self.fif.domain();
-        let column = |x: Wide| self.pixel(Point2::new(fraction(from, to, x), Real::ZERO)).x;
-        if self.fif.maps() <= MARKED { self.fif.knots().map(|k| column(k.x)).collect() } else { Vec::new() }
+    /// The columns of the knots, if they are marked; the others do not occur.
+    fn knot_columns(&self) -> [i32; MARKED + 1] {
+        let mut columns = [i32::MIN; MARKED + 1];
+        if self.fif.maps() <= MARKED {
+            let (from, to) = self.fif.domain();
+            for (column, knot) in columns.iter_mut().zip(self.fif.knots()) {
+                *column = self.pixel(Point2::new(fraction(from, to, knot.x), Real::ZERO)).x;
+            }
+        }
+        columns
     }
 }
 
 /// The smallest and largest values, rigorous and tight, with the axis if it is near.
-fn range(fif: &Fixed) -> Result<(Real, Real), Fail> {
-    let depth = depth_for(fif.maps(), 4096);
-    let mut cells = vec![Cell::ZERO; Pyramid::cells(fif.maps(), depth)];
-    let root = Pyramid::new(fif, depth, &mut cells).map_err(Fail::new)?.root();
+fn range<const N: usize, const D: usize>(fif: &Fif<N, D>, cells: &mut [Cell]) -> Result<(Real, Real), Error> {
+    let depth = depth_for(fif.maps(), CELLS_ACROSS);
+    let (given, needed) = (cells.len(), Pyramid::cells(fif.maps(), depth));
+    let cells = cells.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+    let root = Pyramid::new(fif, depth, cells)?.root();
     let (mut min, mut max) = (root.min, root.max);
     let quarter = Real::from_bits(((i64::from(max.to_bits()) - i64::from(min.to_bits())) / 4) as i32);
     if min > 0 && min <= quarter {
@@ -165,31 +199,33 @@ enum Place {
 }
 
 /// The ground as a field: for each column the row of the curve.
-struct Ground<'a> {
-    chart: &'a Chart<'a>,
+struct Ground<'a, const N: usize, const D: usize> {
+    chart: &'a Chart<'a, N, D>,
     /// Rows of the display, from the left edge of the plot.
-    curve: Vec<i32>,
-    knots: Vec<i32>,
+    curve: &'a [i32],
+    knots: [i32; MARKED + 1],
     /// The plot's last row.
     bottom: i32,
     /// Columns of the narrowest of the nested intervals.
     focus: Option<Range<i32>>,
 }
 
-impl<'a> Ground<'a> {
-    fn of(chart: &'a Chart<'a>, nested: &Nested) -> Self {
+impl<'a, const N: usize, const D: usize> Ground<'a, N, D> {
+    fn of(chart: &'a Chart<'_, N, D>, rows: &'a mut [i32]) -> Result<Self, Error> {
         let columns = chart.window.size().width;
-        let row = |column: u32| {
+        let (given, needed) = (rows.len(), columns as usize);
+        let curve = rows.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+        for (column, row) in (0..columns).zip(curve.iter_mut()) {
             let u = Real::from_bits(((u64::from(2 * column + 1) << 24) / u64::from(2 * columns)) as i32);
-            chart.pixel(Point2::new(u, chart.value(u))).y
-        };
-        Self {
+            *row = chart.pixel(Point2::new(u, chart.value(u))).y;
+        }
+        Ok(Self {
             chart,
-            curve: (0..columns).map(row).collect(),
+            curve,
             knots: chart.knot_columns(),
             bottom: chart.corner.y + chart.window.size().height as i32 - 1,
-            focus: nested.focus(chart),
-        }
+            focus: chart.nested.focus(chart),
+        })
     }
 
     fn at(&self, x: i32, y: i32) -> Place {
@@ -217,18 +253,33 @@ impl<'a> Ground<'a> {
     }
 }
 
-impl Field for Ground<'_> {
+impl<const N: usize, const D: usize> Field for Ground<'_, N, D> {
     type Value = Place;
-    type Row<'b>
-        = Box<dyn Iterator<Item = Place> + 'b>
+    type Row<'r>
+        = GroundRow<'r, N, D>
     where
-        Self: 'b;
+        Self: 'r;
 
     fn size(&self) -> Size {
         self.chart.size
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-        Box::new(x.map(move |x| self.at(x as i32, y as i32)))
+        GroundRow { ground: self, y: y as i32, x }
+    }
+}
+
+/// A row of the ground.
+struct GroundRow<'a, const N: usize, const D: usize> {
+    ground: &'a Ground<'a, N, D>,
+    y: i32,
+    x: Range<u32>,
+}
+
+impl<const N: usize, const D: usize> Iterator for GroundRow<'_, N, D> {
+    type Item = Place;
+
+    fn next(&mut self) -> Option<Place> {
+        Some(self.ground.at(self.x.next()? as i32, self.y))
     }
 }

@@ -1,22 +1,24 @@
 //! The density of an attractor with a margin around it.
 
-use std::iter::{Chain, RepeatN, repeat_n};
-use std::ops::Range;
+use core::iter::{Chain, RepeatN, repeat_n};
+use core::ops::Range;
 
+use attractor::Error;
 use attractor::draw::{Level, Leveled as _};
 use attractor::ifs::{Density, Hits, Toned, TonedRow};
 use attractor::picture::{Field, Point2, Window};
 use embedded_graphics::geometry::Size;
+use embedded_graphics::pixelcolor::Rgb888;
 
-use crate::fail::Fail;
+use crate::named::Named;
 
 /// A density on a larger display: nothing falls on the margin.
 #[derive(Debug)]
-pub(super) struct Framed<'a> {
-    pub(super) density: Toned<'a, u16>,
-    pub(super) size: Size,
+pub(crate) struct Framed<'a> {
+    pub(crate) density: Toned<'a, u16>,
+    pub(crate) size: Size,
     /// Width of the margin on the left and above.
-    pub(super) margin: u32,
+    pub(crate) margin: u32,
 }
 
 impl Field for Framed<'_> {
@@ -45,23 +47,29 @@ impl Field for Framed<'_> {
     }
 }
 
-/// How often each pixel of `window`, which lies within a margin of `size`, was hit by `points`; then shown by `show`.
-pub(super) fn counted<R>(
+/// How often each pixel of `window`, which lies within a margin of `size`, was hit by `points`; then shown by `show`. `counts` has room for the window's pixels.
+pub(crate) fn counted<R>(
     points: impl Iterator<Item = Point2>,
     window: Window,
-    size: Size,
-    margin: u32,
+    (size, margin): (Size, u32),
+    counts: &mut [u16],
     show: impl FnOnce(Framed<'_>) -> R,
-) -> Result<R, Fail> {
-    let mut counts = vec![0_u16; (window.size().width * window.size().height) as usize];
-    let mut hits = Density::new(window, &mut counts).map_err(Fail::new)?;
+) -> Result<R, Error> {
+    let (given, needed) = (counts.len(), (window.size().width * window.size().height) as usize);
+    let counts = counts.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+    let mut hits = Density::new(window, counts)?;
     hits.extend(points);
     // the scale ends where fewer than one hit pixel in 50 lie above
     Ok(show(Framed { density: hits.linear(hits.quantile(50)), size, margin }))
 }
 
 /// The square root of the tone, twice: neither the trunk nor the finest leaves are lost. None where no point fell.
-pub(super) fn level(hits: Hits) -> Option<Level> {
+fn level(hits: Hits) -> Option<Level> {
     let root = |level: u32| (level * u32::from(u16::MAX)).isqrt();
     (hits.count > 0).then(|| Level(root(root(u32::from(hits.level().0))) as u16))
+}
+
+/// Paper where nothing was hit, else the palette without its darkest part.
+pub(crate) fn color(palette: Named, paper: Rgb888, hits: Hits) -> Rgb888 {
+    level(hits).map_or(paper, |level| palette.at(Level(level.0 / 4 * 3 + 16_000)))
 }

@@ -1,0 +1,97 @@
+//! The built-in scenes on the target are those of the command, pixel for pixel.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use attractor_workload::{Crc32, Machine, scenes};
+use embedded_graphics::geometry::Size;
+use embedded_graphics::primitives::Rectangle;
+
+/// Scene, colour, size and CRC-32 of the display's bytes, as the command draws it.
+const GOLDENS: &str = include_str!("../../../host-sim/tests/goldens.txt");
+
+/// Scenes of the command that the target does not draw, in one colour or at all, and why.
+const MISSING: &[(&str, &str)] = &[
+    ("julia-dendrite rgb565", "counts of 96,800 bytes beside a grid of 108,900: more than 128 KiB"),
+    ("san-marco rgb565", "counts of 96,800 bytes beside a grid of 84,681: more than 128 KiB"),
+    ("sunspots", "its 308 scalings are fitted on the host, in f64"),
+    ("mandelbrot", ESCAPE),
+    ("mandelbrot-periods", ESCAPE),
+    ("filaments", ESCAPE),
+    ("seahorse-valley", ESCAPE),
+    ("seahorse-smooth", ESCAPE),
+    ("deep-30", ESCAPE),
+    ("deep-100", ESCAPE),
+    ("julia", ESCAPE),
+    ("dendrite", ESCAPE),
+];
+
+/// For the time being.
+const ESCAPE: &str =
+    "of the escape-time pictures the target draws its own: `mandelbrot home`, `julia course unit`";
+
+/// A display with pixels.
+struct Frame {
+    size: Size,
+    bits: u8,
+    pixels: Vec<u16>,
+}
+
+impl Machine for Frame {
+    fn instructions(&mut self) -> u32 {
+        0
+    }
+
+    fn pixels(&mut self, area: Rectangle, offset: usize, colours: &[u16]) {
+        let (width, columns) = (self.size.width as usize, area.size.width as usize);
+        for (i, colour) in (offset..).zip(colours) {
+            let (x, y) = (area.top_left.x as usize + i % columns, area.top_left.y as usize + i / columns);
+            self.pixels[y * width + x] = *colour;
+        }
+    }
+}
+
+impl Frame {
+    /// What a driver would send: 16 bits big-endian, or packed bits with the leftmost pixel highest.
+    fn crc(&self) -> String {
+        let mut crc = Crc32::default();
+        if self.bits == 1 {
+            for byte in self.pixels.chunks(8) {
+                crc.byte(byte.iter().fold(0, |byte, pixel| byte << 1 | *pixel as u8));
+            }
+        } else {
+            self.pixels.iter().flat_map(|pixel| pixel.to_be_bytes()).for_each(|byte| crc.byte(byte));
+        }
+        format!("{:08x}", crc.value())
+    }
+}
+
+#[test]
+fn the_target_draws_what_the_command_draws() {
+    let mut goldens = BTreeMap::new();
+    for line in GOLDENS.lines().filter(|line| !line.starts_with('#')) {
+        let words: Vec<_> = line.split(' ').collect();
+        goldens.insert((words[0], words[1]), words[3]);
+    }
+    let mut drawn = 0;
+    let mut different = Vec::new();
+    for scene in scenes::ALL {
+        let key = (scene.name, if scene.bits == 1 { "mono" } else { "rgb565" });
+        let Some(golden) = goldens.remove(&key) else { continue };
+        let pixels = vec![0; (scene.size.width * scene.size.height) as usize];
+        let mut frame = Frame { size: scene.size, bits: scene.bits, pixels };
+        scene.run(&mut frame).unwrap_or_else(|failure| panic!("{key:?}: {failure}"));
+        if frame.crc() != golden {
+            different.push(key);
+        }
+        drawn += 1;
+    }
+    assert!(different.is_empty(), "other pixels than the command's: {different:#?}");
+    assert!(drawn >= 70, "{drawn}");
+    let excuse = |(name, color): &(&str, &str)| {
+        MISSING.iter().position(|(key, _)| key == name || *key == format!("{name} {color}"))
+    };
+    let left: Vec<_> = goldens.keys().filter(|key| excuse(key).is_none()).collect();
+    assert!(left.is_empty(), "neither drawn on the target nor excused: {left:#?}");
+    let excused: BTreeSet<_> = goldens.keys().filter_map(excuse).collect();
+    assert_eq!(excused.len(), MISSING.len(), "some are excused and drawn all the same");
+}

@@ -1,0 +1,32 @@
+//! What the built-in scenes look like: margins, paper, a line whose colour changes along it, the ground under a graph.
+//!
+//! The command `attractor` and the images for the target draw with this code, so that they show the same pixels. It does what firmware would do: no allocation,
+//! buffers are lent, colours are those of any display.
+#![no_std]
+#![deny(missing_docs)]
+
+mod area;
+mod chart;
+mod copier;
+mod curve;
+mod density;
+mod ifs;
+mod ink;
+mod julia_set;
+mod named;
+mod nested;
+mod page;
+mod pencil;
+mod random_curve;
+
+pub use area::ground_words;
+pub use chart::{CELLS_ACROSS, Chart, depth_for};
+pub use copier::Copies;
+pub use curve::CurvePicture;
+pub use ifs::{IfsPicture, Shading};
+pub use ink::{ground, solid};
+pub use julia_set::{JuliaSetPicture, Method};
+pub use named::Named;
+pub use page::{Display, MAX_POINTS, PAPER, Watch, draw_field};
+pub use pencil::Pencil;
+pub use random_curve::RandomCurvePicture;
