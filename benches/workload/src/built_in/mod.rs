@@ -66,7 +66,7 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both!("pentigree", |stage, C| sets::named::<C>(stage, &attractors::PENTIGREE, Named::Even)),
     both!("sierpinski-carpet", |stage, C| sets::by_maps::<C>(stage, (&sets::CARPET, &sets::EIGHTHS), Named::Dusk)),
     both_roomy(both!("spiral", |stage, C, I| sets::density::<C, 3, { PIXELS[I] }>(stage, &attractors::SPIRAL, Named::Ocean))),
-    both!("terdragon", |stage, C| sets::by_maps::<C>(stage, (&sets::TERDRAGON, &sets::THIRDS), Named::Ocean)),
+    both!("terdragon", |stage, C| sets::named::<C>(stage, &attractors::TERDRAGON, Named::Ocean)),
     both_roomy(both!("tree", |stage, C, I| sets::density::<C, 4, { PIXELS[I] }>(stage, &attractors::FRACTAL_TREE, Named::Moss))),
     both!("koch-snowflake", |stage, C, I| curves::named::<C, { GROUND[I] }>(stage, &curve::KOCH_SNOWFLAKE, 5, None, Named::Ocean)),
     both!("hilbert", |stage, C, I| curves::named::<C, { GROUND[I] }>(stage, &curve::HILBERT, 5, None, Named::Even)),

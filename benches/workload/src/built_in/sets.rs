@@ -17,7 +17,6 @@ const THIRD: Unit = Unit::lit("0.33333333333");
 const SIXTH: Unit = Unit::lit("0.16666666667");
 /// `sqrt(3) / 6`.
 const HEIGHT: Unit = Unit::lit("0.28867513459");
-const ROOT: Unit = Unit::lit("0.57735026919");
 const NONE: Unit = Unit::ZERO;
 const HALF: Unit = Unit::lit("0.5");
 
@@ -63,12 +62,6 @@ pub(super) const KOCH: [Affine; 4] = [
     Affine::new([SIXTH, HEIGHT.unwrapped_neg(), HEIGHT, SIXTH], [R3, Real::ZERO]),
     Affine::new([SIXTH, HEIGHT, HEIGHT.unwrapped_neg(), SIXTH], [R5, R28]),
     scaled(THIRD, at(R6, Real::ZERO)),
-];
-
-pub(super) const TERDRAGON: [Affine; 3] = [
-    Affine::new([HALF, HEIGHT, HEIGHT.unwrapped_neg(), HALF], [Real::ZERO, Real::ZERO]),
-    Affine::new([NONE, ROOT.unwrapped_neg(), ROOT, NONE], [R5, R28.unwrapped_neg()]),
-    Affine::new([HALF, HEIGHT, HEIGHT.unwrapped_neg(), HALF], [R5, R28.unwrapped_neg()]),
 ];
 
 /// Room for maps. One for all: code for each number of them would not fit the smallest flash.
