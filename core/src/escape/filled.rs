@@ -16,10 +16,13 @@ use crate::picture::Field;
 
 /// Any picture of dwells whose inside is filled in as its rows are drawn, with two lent bits a pixel.
 ///
-/// Rows may be asked for in any order; from top to bottom no inner pixel is computed in vain. FIGURES
+/// Rows may be asked for in any order. It pays where an inner pixel costs `Num` iterations, as in [`DeepMandelbrot`](super::DeepMandelbrot). Cortex-M4 instructions a pixel of
+/// 64 x 64 at 1000 iterations, plain and filled (`cargo xtask target`): a copy of the set in 64 bits 13,948 and 5,956; one at 1e-101 by perturbation 31,576 and 10,145.
+/// Not where cycles end the loop and the two largest parts are known: the whole set 241 and 356, a filled Julia set 233 and 278, a view between
+/// seahorses 2,730 and 2,895.
 ///
-/// Error: of 240 x 240 pixels of the whole set at 1000 iterations, of the valley of seahorses 0.05 wide and of a Julia set none differ from the plain picture
-/// (`filling_changes_few_pixels`).
+/// Error: of the 57,600 pixels of a picture at 1000 iterations none differ from the plain picture for the whole set and for three Julia sets, 15 at the valley
+/// of seahorses 0.05 wide, 6 between them 0.0065 wide, 4 for a copy of period 3 (`filling_changes_few_pixels` prints them).
 ///
 /// ```
 /// use attractor::escape::{Filled, Mandelbrot, View};
