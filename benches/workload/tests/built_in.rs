@@ -14,20 +14,7 @@ const MISSING: &[(&str, &str)] = &[
     ("julia-dendrite rgb565", "counts of 96,800 bytes beside a grid of 108,900: more than 128 KiB"),
     ("san-marco rgb565", "counts of 96,800 bytes beside a grid of 84,681: more than 128 KiB"),
     ("sunspots", "its 308 scalings are fitted on the host, in f64"),
-    ("mandelbrot", ESCAPE),
-    ("mandelbrot-periods", ESCAPE),
-    ("filaments", ESCAPE),
-    ("seahorse-valley", ESCAPE),
-    ("seahorse-smooth", ESCAPE),
-    ("deep-30", ESCAPE),
-    ("deep-100", ESCAPE),
-    ("julia", ESCAPE),
-    ("dendrite", ESCAPE),
 ];
-
-/// For the time being.
-const ESCAPE: &str =
-    "of the escape-time pictures the target draws its own: `mandelbrot home`, `julia course unit`";
 
 /// A display with pixels.
 struct Frame {

@@ -24,8 +24,8 @@ impl<P: EscapeTime> Distance<P> {
     /// The estimate at a point, in pixels of the view.
     ///
     /// Domain: all. Result: saturated at the end of [`Real`], none where the orbit does not escape. Error: below 1 in 1000 of the estimate and one unit,
-    /// beside that of the orbit (`the_estimate_agrees_with_float`). Cost: the dwell, the same number of steps once more with a derivative, two logarithms:
-    /// 7.1 million Cortex-M4 instructions for the whole set on 60 x 50 pixels, against 0.54 million of the dwell alone.
+    /// beside that of the orbit (`the_estimate_agrees_with_float`). Cost: the dwell, in words the same number of steps once more, each with a derivative, two
+    /// logarithms: 2,048 Cortex-M4 instructions a pixel of the home view at 100 iterations, the dwell alone 185 (`cargo xtask target`).
     pub fn value_at(&self, point: P::Point) -> Option<Real> {
         let (estimate, exponent) = estimate(&self.0.ending_with_derivative(point)?)?;
         let (pitch, below) = self.0.pitch();

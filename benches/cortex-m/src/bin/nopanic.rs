@@ -239,7 +239,7 @@ fn colorings<P: EscapeTime + Copy>(picture: P, point: P::Point) -> Result<(), Er
     let mut canvas = Canvas::new(picture, bb(&mut counts[..]))?;
     canvas.pan(bb(1), bb(-1))?;
     bb((canvas.computed(), canvas.row(row().0, row().1).nth(bb(3))));
-    let mut bits = [0; 75];
+    let mut bits = [0; 150];
     let filled = Filled::new(picture, bb(&mut bits[..]))?;
     bb((Filled::<P>::bytes(bb(Size::new(1, 1))), filled.dwell_at(bb(1), bb(1))));
     bb(filled.row(row().0, row().1).nth(bb(3)));
