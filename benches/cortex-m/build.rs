@@ -28,7 +28,6 @@ REGION_ALIAS(\"REGION_STACK\", RAM);
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rustc-check-cfg=cfg(small)");
     let target = env::var("TARGET").expect("cargo sets TARGET");
     let out = env::var("OUT_DIR").expect("cargo sets OUT_DIR");
     let Some((_, memory)) = MEMORIES.iter().find(|(name, _)| target.starts_with(name)) else {
@@ -38,9 +37,6 @@ fn main() {
     println!("cargo:rustc-link-search={out}");
     if target.starts_with("riscv") {
         println!("cargo:rustc-link-arg-bins=-Tmemory.x");
-    }
-    if target.starts_with("thumbv6m") {
-        println!("cargo:rustc-cfg=small");
     }
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
 }

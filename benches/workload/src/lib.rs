@@ -25,3 +25,7 @@ mod surface;
 
 pub use crc::Crc32;
 pub use machine::{Blind, Machine};
+
+/// Whether this is an image for Armv6-M, which alone lacks atomic exchange: it has only the rows that a machine with 16 KiB of RAM runs, since all of
+/// them would not fit its flash.
+const SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));

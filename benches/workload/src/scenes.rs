@@ -20,12 +20,12 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 
-use crate::Machine;
 use crate::built_in::{self, MONO_ONLY};
 use crate::escape_scenes as escape;
 use crate::kernels::figure_1;
 use crate::sink::{Colour, Failure, Outcome, Stage};
 use crate::surface::{g_integral, mirror};
+use crate::{Machine, SMALL};
 
 /// One row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -73,8 +73,7 @@ impl Scene {
     }
 }
 
-/// The table: what is drawn here, and the built-in scenes of the command. An image for Armv6-M, which alone lacks atomic exchange, has only those
-/// that a machine with 16 KiB of RAM draws: all of them would not fit its flash either.
+/// The table: what is drawn here, and the built-in scenes of the command; in a [small](SMALL) image those that it can draw.
 pub static ALL: &[Scene] = &{
     let mut all = [OWN[0]; count(OWNED + PAIRS.len() + MONO_ONLY.len())];
     let (mut i, mut kept) = (0, 0);
@@ -102,7 +101,7 @@ const fn row(i: usize) -> Scene {
 }
 
 const fn fits(i: usize) -> bool {
-    row(i).small || cfg!(not(all(target_arch = "arm", not(target_has_atomic = "32"))))
+    row(i).small || !SMALL
 }
 
 const fn count(rows: usize) -> usize {

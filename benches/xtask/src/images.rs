@@ -25,6 +25,11 @@ impl Images {
         found.map(|(_, path)| path.as_path()).with_context(|| format!("there is no image {name}"))
     }
 
+    /// The images that prove that nothing panics.
+    pub(crate) fn nopanic(&self) -> impl Iterator<Item = &Path> {
+        self.all.iter().filter(|(name, _)| name.starts_with("nopanic")).map(|(_, path)| path.as_path())
+    }
+
     /// The images that measure flash, by the name of what they hold.
     pub(crate) fn flash(&self) -> impl Iterator<Item = (&str, &Path)> {
         self.all.iter().filter_map(|(name, path)| Some((name.strip_prefix("flash_")?, path.as_path())))
@@ -36,7 +41,7 @@ pub(crate) fn package() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../cortex-m")
 }
 
-/// Proves first that a panic breaks the link of `nopanic`, then builds every image.
+/// Proves first that a panic breaks the link of such an image, then builds every image.
 pub(crate) fn build(target: &Target, toolchain: &Toolchain) -> Result<Images> {
     let deliberate = cargo(target, toolchain, &["--bin", "nopanic", "--features", "deliberate-panic"])?;
     if deliberate.success {

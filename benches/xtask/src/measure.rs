@@ -33,7 +33,7 @@ pub(crate) fn measure(
             target.triple
         ));
     }
-    if let Ok(nopanic) = images.path("nopanic") {
+    for nopanic in images.nopanic() {
         emulator::run(&target.machine, nopanic, &[], &[], here, limit)?;
     }
     for machine in [Some(target.machine), target.counting].into_iter().flatten() {

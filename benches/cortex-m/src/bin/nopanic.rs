@@ -1,4 +1,5 @@
-//! Calls every public kernel with inputs the compiler knows nothing about, and links only when none of them can panic.
+//! Calls every public kernel with inputs the compiler knows nothing about, and links only when none of them can panic; those that make pictures are in
+//! `nopanic_pictures`.
 //!
 //! `panic_never` refers to a symbol that does not exist from its panic handler. The feature `deliberate-panic` adds an indexing that may
 //! panic: the link must fail then, which proves that it could.
@@ -7,25 +8,13 @@
 
 use core::hint::black_box as bb;
 
-use attractor::draw::{
-    BigEndian, ColoredDots, CourseUnit, Cycled, Dots, Grey, LsbPages, Packing, Picture, RowCursor, Stroke,
-    gradients,
-};
-use attractor::escape::{
-    Arithmetic, Canvas, Complex, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
-    Mandelbrot, OrbitPoint, Precision, Smooth, View,
-};
+use attractor::Error;
+use attractor::escape::Complex;
 use attractor::fif::{Cell, Factor, Fif, Knot, Pyramid, Surface};
 use attractor::ifs::{Ifs, catalogue};
-use attractor::num::{self, Angle, Real, Scaling, Unit, Vec3, Wide};
-use attractor::picture::{Bounds2, Field, Point2, Window};
-use attractor::trace::{
-    Camera, Environment, Filter, HeightField, Light, Material, Ray, RayCaster, Sampling, Statistics,
-};
-use attractor::{Error, draw};
-use attractor_cortex_m::{Wire, entry, semihosting};
-use embedded_graphics::image::{GetPixel, Image};
-use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565};
+use attractor::num::{self, Angle, Real, Scaling, Unit, Wide};
+use attractor::picture::{Field, Point2, Window};
+use attractor_cortex_m::{entry, semihosting};
 use embedded_graphics::prelude::*;
 
 attractor_cortex_m::never_panics!();
@@ -39,9 +28,6 @@ fn main() -> ! {
     let _ = bb(curves());
     let _ = bb(copies());
     let _ = bb(julia_sets());
-    let _ = bb(escape());
-    let _ = bb(rays());
-    let _ = bb(drawing());
     #[cfg(feature = "deliberate-panic")]
     bb([1, 2, 3][bb(0_usize)]);
     semihosting::process::exit(0)
@@ -204,144 +190,8 @@ fn julia_sets() -> Result<(), Error> {
     Ok(())
 }
 
-fn escape() -> Result<(), Error> {
-    let c = Complex::new(bb(Wide::ZERO), bb(Wide::ZERO));
-    bb(View::home(bb(Wire::<Rgb565>::SIZE)))?;
-    let view = View::new(c, bb(Wide::ONE), bb(Wire::<Rgb565>::SIZE))?;
-    bb((view.point(bb(0), bb(0)), view.pitch(), view.width(), view.centre()));
-    let set = Mandelbrot::new(view, bb(100))?;
-    bb((set.dwell_at(c), set.row(bb(0), bb(0)..bb(100)).last(), set.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
-    bb(set.with_precision(bb(Precision::Fine29)).dwell_at(c));
-    let julia = Julia::new(view, c, bb(100))?;
-    bb((
-        julia.dwell_at(c),
-        julia.row(bb(0), bb(0)..bb(100)).last(),
-        julia.row(bb(1), bb(0)..bb(100)).nth(bb(5)),
-    ));
-    bb((view.size(), view.pan(bb(1), bb(1))?, set.view(), set.max_dwell(), set.precision()));
-    bb((julia.view(), julia.constant(), julia.max_dwell(), julia.precision()));
-    bb(julia.with_precision(bb(Precision::Coarse26)).dwell_at(c).is_inside());
-    colorings(set, c)?;
-    colorings(julia, c)?;
-    deep()
-}
-
-/// What takes any escape-time picture.
-fn colorings<P: EscapeTime + Copy>(picture: P, point: P::Point) -> Result<(), Error> {
-    let row = || (bb(1), bb(0)..bb(100));
-    let smooth = Smooth(picture);
-    bb((smooth.value_at(point).is_inside(), smooth.row(row().0, row().1).nth(bb(3))));
-    let distance = Distance(picture);
-    bb((distance.value_at(point), distance.row(row().0, row().1).nth(bb(3))));
-    let interior = Interior(picture);
-    bb((interior.value_at(point), interior.row(row().0, row().1).nth(bb(3))));
-    let mut counts = [0; 600];
-    let mut canvas = Canvas::new(picture, bb(&mut counts[..]))?;
-    canvas.pan(bb(1), bb(-1))?;
-    bb((canvas.computed(), canvas.row(row().0, row().1).nth(bb(3))));
-    let mut bits = [0; 150];
-    let filled = Filled::new(picture, bb(&mut bits[..]))?;
-    bb((Filled::<P>::bytes(bb(Size::new(1, 1))), filled.dwell_at(bb(1), bb(1))));
-    bb(filled.row(row().0, row().1).nth(bb(3)));
-    let mut below = [0; 100];
-    let palette = draw::Equalised::new(&smooth, &mut below, gradients::FIRE)?;
-    bb((palette.level(bb(3)), picture.pitch(), picture.mirror_image(bb(3))));
-    Ok(())
-}
-
-fn deep() -> Result<(), Error> {
-    let view = DeepView::<12>::parse(bb("-1.25"), bb("0.5"), bb("1e-90"), bb(Size::new(30, 20)))?;
-    let view = DeepView::new(*view.centre(), *view.width(), view.size())?.pan(bb(1), bb(1))?;
-    bb((view.point(bb(1), bb(1)), view.pitch_exponent()));
-    let mut orbit = [OrbitPoint::default(); 200];
-    bb(DeepMandelbrot::new(view, bb(100), &mut orbit)?);
-    bb(DeepMandelbrot::orbit_points(&view, bb(100)));
-    for arithmetic in
-        [Arithmetic::Word64, Arithmetic::Word128, Arithmetic::Perturbed, Arithmetic::PerturbedLong]
-    {
-        let set = DeepMandelbrot::with_arithmetic(view, bb(100), bb(arithmetic), &mut orbit)?;
-        bb((set.dwell_at(bb(1), bb(1)), set.row(bb(1), bb(0)..bb(30)).nth(bb(2)), set.view()));
-        bb((set.max_dwell(), set.arithmetic(), set.reference_len()));
-        colorings(set, bb((1, 1)))?;
-    }
-    Ok(())
-}
-
-fn rays() -> Result<(), Error> {
-    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
-    let f = Fif::<2, 1>::interpolating(bb(&knots[..]), bb(&[Scaling::from_bits(1 << 30); 2][..]))?;
-    let mut memory = [Cell::ZERO; Pyramid::cells(2, 4)];
-    let pyramid = Pyramid::new(&f, bb(4), &mut memory)?;
-    let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid)?;
-    bb((surface.depth(), surface.heights()));
-    let v = Vec3::new(bb(Real::ONE), bb(Real::ONE), bb(Real::ONE));
-    if let Some(hit) = surface.intersect(&Ray::new(v, v), bb(Unit::ZERO)) {
-        bb(hit.normal());
-    }
-    bb(surface.intersect_counted(&Ray::new(v, v), bb(Unit::ZERO), &mut Statistics::default()));
-    let camera = Camera::new(v, bb(v), bb(v), bb(Real::ONE))?;
-    let caster = RayCaster::new(surface, camera, bb(Wire::<Rgb565>::SIZE))?
-        .with_material(bb(Material::PHONG))?
-        .with_light(Light::new(v)?)
-        .with_environment(bb(Environment::SKY))?
-        .with_sampling(bb(Sampling::Centre), bb(Filter::Box))?;
-    bb((caster.row(bb(0), bb(0)..bb(100)).last(), caster.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
-    bb((caster.hit(bb(0), bb(0)), caster.statistics()));
-    Ok(())
-}
-
 fn point(bits: i32) -> Point2 {
     Point2::new(bb(Real::from_bits(bits)), bb(Real::from_bits(bits)))
-}
-
-/// Every way to draw one field, a path and points, on three kinds of display.
-fn drawing() -> Result<(), Error> {
-    on::<BinaryColor>()?;
-    on::<Gray4>()?;
-    on::<Rgb565>()?;
-    let view = View::home(Wire::<BinaryColor>::SIZE)?;
-    let picture = Picture::<_, _, BinaryColor>::new(Mandelbrot::new(view, bb(10))?, Grey);
-    let mut buffer = [0; 256];
-    if let Some((_, strip)) = picture.lsb_pages(&mut buffer)?.next_strip() {
-        bb(strip);
-    }
-    if let Some((_, strip)) = picture.msb_rows(&mut buffer)?.next_strip() {
-        bb(strip);
-    }
-    bb(picture.pack::<LsbPages>(bb(0), &mut buffer))?;
-    let picture =
-        Picture::<_, _, Rgb565>::new(Mandelbrot::new(view, bb(10))?, Cycled::new(gradients::FIRE, bb(16)));
-    bb(draw::Ramp::of_periods(bb(Grey)));
-    let mut buffer = [0; 480];
-    if let Some((_, strip)) = picture.big_endian(&mut buffer)?.next_strip() {
-        bb(strip);
-    }
-    bb(picture.pack::<BigEndian>(bb(0), &mut buffer))?;
-    bb(<BigEndian as Packing<Rgb565>>::length(bb(10)));
-    Ok(())
-}
-
-fn on<C: draw::Ink + From<BinaryColor>>() -> Result<(), Error> {
-    let mut display = Wire::<C>::new();
-    let white = C::from(BinaryColor::On);
-    let view = View::home(bb(Wire::<C>::SIZE))?;
-    let picture = Picture::<_, _, C>::new(Mandelbrot::new(view, bb(10))?, CourseUnit);
-    let Ok(()) = Image::new(&picture, bb(Point::zero())).draw(&mut display);
-    let Ok(()) = picture.draw_row(&mut display, bb(3));
-    bb(picture.pixel(bb(Point::zero())));
-    let mut cursor = RowCursor::new();
-    let Ok(more) = cursor.draw_next(&picture, &mut display);
-    bb((more, cursor.row()));
-    let bounds = Bounds2 { min: point(0), max: point(1 << 24) };
-    bb(Window::stretch(bounds, bb(Wire::<C>::SIZE)))?;
-    let window = Window::fit(bounds, bb(Wire::<C>::SIZE))?;
-    let points = (0..bb(10)).map(point);
-    let Ok(_) = Dots::new(points.clone(), window, white).at(bb(Point::zero())).draw(&mut display);
-    let coloured = points.clone().map(|p| (p, bb(1_u32)));
-    let Ok(_) = ColoredDots::<_, _, C>::new(coloured, window, gradients::DUSK).draw(&mut display);
-    let path = points.map(attractor::picture::Step::LineTo);
-    let Ok(_) = Stroke::new(path, window, white).at(bb(Point::zero())).draw(&mut display);
-    Ok(())
 }
 
 fn numbers() {

@@ -16,9 +16,6 @@ fn main() -> ! {
     let mut stream = false;
     arguments(|i, argument| stream |= i > 0 && argument == "frames");
     for scene in scenes::ALL {
-        if cfg!(small) && !scene.small {
-            continue;
-        }
         let (width, height) = (scene.size.width, scene.size.height);
         if stream {
             board.stream(open(scene.name, width, height), scene.bits);

@@ -120,9 +120,35 @@ const fn roomy(kernel: Kernel) -> Kernel {
     Kernel { small: false, ..kernel }
 }
 
-/// The table. The first row is the floor: what the loop, its loads and its checksum cost alone.
+/// The table; in a [small](crate::SMALL) image the rows that it can run. The first row is the floor: what the loop, its loads and its checksum cost alone.
+pub static ALL: &[Kernel] = &{
+    let mut all = [TABLE[0]; count()];
+    let (mut i, mut kept) = (0, 0);
+    while kept < all.len() {
+        if fits(i) {
+            all[kept] = TABLE[i];
+            kept += 1;
+        }
+        i += 1;
+    }
+    all
+};
+
+const fn fits(i: usize) -> bool {
+    TABLE[i].small || !crate::SMALL
+}
+
+const fn count() -> usize {
+    let (mut i, mut kept) = (0, 0);
+    while i < TABLE.len() {
+        kept += fits(i) as usize;
+        i += 1;
+    }
+    kept
+}
+
 #[rustfmt::skip]
-pub static ALL: &[Kernel] = &[
+const TABLE: &[Kernel] = &[
     beside("identity", "call", num::identity_fixed, num::identity_f32, num::identity_f64),
     beside("reciprocal", "call", num::reciprocal_fixed, num::reciprocal_f32, num::reciprocal_f64),
     beside("reciprocal_sqrt", "call", num::reciprocal_sqrt_fixed, num::reciprocal_sqrt_f32, num::reciprocal_sqrt_f64),
@@ -138,12 +164,12 @@ pub static ALL: &[Kernel] = &[
     roomy(alone("perturbed long", "step in 62 bits", deep::perturbed_long)),
     roomy(alone("perturbed jumping", "iteration at 1e-100", deep::jumping)),
     roomy(alone("reference orbit", "point in 12 limbs", deep::reference)),
-    alone("plain home", "pixel at 1000", filled::home::<false>),
-    alone("filled home", "pixel at 1000", filled::home::<true>),
-    alone("plain seahorses", "pixel at 1000", filled::seahorses::<false>),
-    alone("filled seahorses", "pixel at 1000", filled::seahorses::<true>),
-    alone("plain rabbit", "pixel at 1000", filled::rabbit::<false>),
-    alone("filled rabbit", "pixel at 1000", filled::rabbit::<true>),
+    roomy(alone("plain home", "pixel at 1000", filled::home::<false>)),
+    roomy(alone("filled home", "pixel at 1000", filled::home::<true>)),
+    roomy(alone("plain seahorses", "pixel at 1000", filled::seahorses::<false>)),
+    roomy(alone("filled seahorses", "pixel at 1000", filled::seahorses::<true>)),
+    roomy(alone("plain rabbit", "pixel at 1000", filled::rabbit::<false>)),
+    roomy(alone("filled rabbit", "pixel at 1000", filled::rabbit::<true>)),
     roomy(alone("plain copy 64", "pixel at 1000", filled::word64::<false>)),
     roomy(alone("filled copy 64", "pixel at 1000", filled::word64::<true>)),
     roomy(alone("plain copy 1e-101", "pixel at 1000", filled::perturbed::<false>)),
