@@ -47,7 +47,7 @@ pub(super) trait Number: Copy + PartialEq + core::fmt::Debug {
 
 /// The arithmetic of both widths: `BITS` of a mantissa leave its word a sign and a sum of two.
 macro_rules! arithmetic {
-    ($word:ty, $half:ty, $double:ty, $unsigned:ty, $bits:literal) => {
+    (#[$inline:meta] $word:ty, $half:ty, $double:ty, $unsigned:ty, $bits:literal) => {
         impl Block<$word> {
             /// 0, smaller than everything else.
             pub(super) const ZERO: Self = Self { re: 0, im: 0, exponent: -(1 << 28) };
@@ -55,7 +55,7 @@ macro_rules! arithmetic {
             pub(super) const ONE: Self = Self { re: 1 << ($bits - 1), im: 0, exponent: 1 - $bits };
 
             /// The nearest block. Domain: parts that two bits fewer than the words would hold.
-            #[inline]
+            #[$inline]
             pub(super) fn new(re: $double, im: $double, exponent: i32) -> Self {
                 const MASK: u32 = <$double>::BITS - 1;
                 let sign = |v: $double| v >> MASK;
@@ -104,7 +104,7 @@ macro_rules! arithmetic {
             const ZERO: Self = Self::ZERO;
             const ONE: Self = Self::ONE;
 
-            #[inline(always)]
+            #[$inline]
             fn times(self, other: Self) -> Self {
                 let (a, b) = (<$double>::from(self.re), <$double>::from(self.im));
                 let (x, y) = (<$double>::from(other.re), <$double>::from(other.im));
@@ -129,7 +129,7 @@ macro_rules! arithmetic {
                 Self { re: part(re), im: part(im), exponent: self.exponent + other.exponent + places as i32 }
             }
 
-            #[inline(always)]
+            #[$inline]
             fn plus(self, other: Self) -> Self {
                 let (large, small) =
                     if self.exponent >= other.exponent { (self, other) } else { (other, self) };
@@ -167,7 +167,7 @@ macro_rules! arithmetic {
                 mantissa > (1 as $unsigned) << ((2 - exponent) as u32 & (<$double>::BITS - 1))
             }
 
-            #[inline(always)]
+            #[$inline]
             fn is_less(self, other: Self) -> bool {
                 let apart = self.exponent - other.exponent;
                 // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
@@ -202,8 +202,23 @@ macro_rules! arithmetic {
     };
 }
 
-arithmetic!(i32, u32, i64, u64, 30);
-arithmetic!(i64, u64, i128, u128, 62);
+arithmetic!(
+    #[inline(always)]
+    i32,
+    u32,
+    i64,
+    u64,
+    30
+);
+// hundreds of instructions each, once in an image
+arithmetic!(
+    #[inline(never)]
+    i64,
+    u64,
+    i128,
+    u128,
+    62
+);
 
 impl Block {
     /// The parts with `bits` fractional bits, towards minus infinity. Domain: parts below `2^(62 - bits)`.

@@ -25,7 +25,7 @@ impl<P: EscapeTime> Distance<P> {
     ///
     /// Domain: all. Result: saturated at the end of [`Real`], none where the orbit does not escape. Error: below 1 in 1000 of the estimate and one unit,
     /// beside that of the orbit (`the_estimate_agrees_with_float`). Cost: the dwell, in words the same number of steps once more, each with a derivative, two
-    /// logarithms: 2,048 Cortex-M4 instructions a pixel of the home view at 100 iterations, the dwell alone 185 (`cargo xtask target`).
+    /// logarithms: 2,058 Cortex-M4 instructions a pixel of the home view at 100 iterations, the dwell alone 189 (`cargo xtask target`).
     pub fn value_at(&self, point: P::Point) -> Option<Real> {
         let (estimate, exponent) = estimate(&self.0.ending_with_derivative(point)?)?;
         let (pitch, below) = self.0.pitch();

@@ -17,7 +17,7 @@ use crate::picture::Field;
 /// Any picture of dwells whose inside is filled in as its rows are drawn, with two lent bits a pixel.
 ///
 /// Rows may be asked for in any order. It pays where an inner pixel costs `Num` iterations, as in [`DeepMandelbrot`](super::DeepMandelbrot). Cortex-M4 instructions a pixel of
-/// 64 x 64 at 1000 iterations, plain and filled (`cargo xtask target`): a copy of the set in 64 bits 13,948 and 5,956; one at 1e-101 by perturbation 31,576 and 10,145.
+/// 64 x 64 at 1000 iterations, plain and filled (`cargo xtask target`): a copy of the set in 64 bits 13,947 and 5,955; one at 1e-101 by perturbation 31,593 and 10,152.
 /// Not where cycles end the loop and the two largest parts are known: the whole set 241 and 356, a filled Julia set 233 and 278, a view between
 /// seahorses 2,730 and 2,895.
 ///

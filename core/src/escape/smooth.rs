@@ -53,8 +53,8 @@ impl<P: EscapeTime> Smooth<P> {
     /// The fractional dwell at a point.
     ///
     /// Domain: all. Error: below `2^-10` beside that of the orbit (`fractional_dwell_agrees_with_float`). Cost: the dwell, in words the same number of steps
-    /// once more, about 4 steps and two logarithms; nothing more inside. The home view at 100 iterations takes 1,068 Cortex-M4
-    /// instructions a pixel, the dwell alone 185 (`cargo xtask target`).
+    /// once more, about 4 steps and two logarithms; nothing more inside. The home view at 100 iterations takes 1,067 Cortex-M4
+    /// instructions a pixel, the dwell alone 189 (`cargo xtask target`).
     pub fn value_at(&self, point: P::Point) -> FractionalDwell {
         let max = self.0.max_dwell();
         let inside = U21F11::saturating_from_num(max);
