@@ -52,8 +52,8 @@ pub enum Error {
     OutOfRange {
         /// What it is.
         what: &'static str,
-        /// Its index in its list, 0 for a single value.
-        index: usize,
+        /// Its index, for one of a list.
+        index: Option<usize>,
         /// The value, saturated to the format of this field.
         #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
         value: Wide,
@@ -118,7 +118,10 @@ impl fmt::Display for Error {
                 write!(f, "knot {index} is not to the right of knot {}", index.saturating_sub(1))
             }
             Self::OutOfRange { what, index, value, min, max } => {
-                write!(f, "{what} [{index}] is ")?;
+                match index {
+                    Some(index) => write!(f, "{what} [{index}] is ")?,
+                    None => write!(f, "{what} is ")?,
+                }
                 // the ends of the format stand for everything beyond
                 if value == Wide::MAX {
                     f.write_str("32768 or more")?;

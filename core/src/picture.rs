@@ -91,7 +91,7 @@ pub fn checked_size(size: Size) -> Result<Size, Error> {
         if side == 0 || side > MAX_SIDE {
             return Err(Error::OutOfRange {
                 what,
-                index: 0,
+                index: None,
                 value: Wide::saturating_from_num(side),
                 min: Wide::ONE,
                 max: Wide::from_num(MAX_SIDE as i16),

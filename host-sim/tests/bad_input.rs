@@ -87,8 +87,10 @@ fn numbers_outside_the_format_are_refused() {
     refused(CURVE, "[0.5, 0.5]", "[0.999, 0.999]", &["vertical_scaling", "range of the function"]);
     refused(IFS, "0.5, 0, 0.5]", "1000, 0, 0.5]", &["maps[1][4]", "1000"]);
     refused(MANDELBROT, "-0.75", "-32769", &["centre[0]", "-32769"]);
-    refused(MANDELBROT, "\"0.5\"", "\"0\"", &["width", "\"0\""]);
-    refused(MANDELBROT, "\"0.5\"", "\"-3\"", &["width", "-3"]);
+    refused(MANDELBROT, "\"0.5\"", "\"0\"", &["width", "\"0\"", "above 0", "1e-100"]);
+    refused(MANDELBROT, "\"0.5\"", "\"-3\"", &["width", "-3", "above 0"]);
+    let nowhere = MANDELBROT.replace("0.5", "1e-30");
+    refused(&nowhere, "centre = [\"-0.75\", \"0.1\"]\n", "", &["width", "1e-30", "needs a centre"]);
     refused(MANDELBROT, "\"0.5\"", "\"1e-130\"", &["width", "1e-130", "room for 114"]);
     refused(MANDELBROT, "\"0.5\"", "\"1e-114\"", &["width", "1e-114", "limbs"]);
     refused(MANDELBROT, "\"0.5\"", "\"wide\"", &["width", "wide", "decimal number"]);

@@ -31,7 +31,7 @@ pub fn dimension_of_ratio(ratio: Real) -> Result<Wide, Error> {
     if ratio < Real::ONE || ratio > max {
         return Err(Error::OutOfRange {
             what: "similarity ratio",
-            index: 0,
+            index: None,
             value: ratio.into(),
             min: Wide::ONE,
             max: max.into(),

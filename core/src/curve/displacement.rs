@@ -92,7 +92,7 @@ pub(super) fn checked_offset(offset: Unit) -> Result<u32, Error> {
     if offset < Unit::ZERO {
         return Err(Error::OutOfRange {
             what: "offset",
-            index: 0,
+            index: None,
             value: Wide::from(offset),
             min: Wide::ZERO,
             max: Wide::from(Unit::MAX),
@@ -107,7 +107,7 @@ pub(super) fn checked_spectrum(beta: Real) -> Result<u64, Error> {
     if beta < min || beta > max {
         return Err(Error::OutOfRange {
             what: "beta",
-            index: 0,
+            index: None,
             value: Wide::from(beta),
             min: Wide::from(min),
             max: Wide::from(max),
@@ -146,7 +146,7 @@ pub(super) fn undone(bits: [i64; 2]) -> Result<Point2, Error> {
         if i32::try_from(*bits).is_err() {
             return Err(Error::OutOfRange {
                 what: "coordinate of the new knot",
-                index,
+                index: Some(index),
                 value: Wide::from_bits(bits.saturating_mul(1 << 24)),
                 min: Wide::from(Real::MIN),
                 max: Wide::from(Real::MAX),

@@ -162,7 +162,7 @@ impl<const S: usize> Generator<S> {
         if let Some(index) = marker.iter().position(|m| m.unsigned_abs() > Unit::ONE.unsigned_abs()) {
             return Err(Error::OutOfRange {
                 what: "marker",
-                index,
+                index: Some(index),
                 value: marker.get(index).map_or(Wide::ZERO, |m| Wide::from(*m)),
                 min: -Wide::ONE,
                 max: Wide::ONE,
@@ -326,7 +326,7 @@ fn quotient(v: [i64; 2], whole: [i64; 2]) -> Option<[i32; 2]> {
 
 fn out_of_range(index: usize) -> Error {
     let (value, max) = (Wide::MAX, Wide::from_num(2));
-    Error::OutOfRange { what: "vertex of the generator", index, value, min: -max, max }
+    Error::OutOfRange { what: "vertex of the generator", index: Some(index), value, min: -max, max }
 }
 
 fn saturate(bits: i64) -> i32 {

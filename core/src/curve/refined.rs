@@ -172,7 +172,7 @@ impl<const S: usize> Generator<S> {
         if length <= Real::ZERO {
             return Err(Error::OutOfRange {
                 what: "length of a piece",
-                index: 0,
+                index: None,
                 value: Wide::from(length),
                 min: Wide::from(Real::DELTA),
                 max: Wide::from(Real::MAX),
@@ -335,7 +335,7 @@ impl<const S: usize, const DEPTH: usize> Iterator for Refined<'_, S, DEPTH> {
 
 fn out_of_range(what: &'static str, index: usize, bits: u64, limit: u64) -> Error {
     let wide = |bits: u64| Wide::from_bits(i64::try_from(bits.saturating_mul(1 << 24)).unwrap_or(i64::MAX));
-    Error::OutOfRange { what, index, value: wide(bits), min: Wide::ZERO, max: wide(limit << 24) }
+    Error::OutOfRange { what, index: Some(index), value: wide(bits), min: Wide::ZERO, max: wide(limit << 24) }
 }
 
 #[cfg(test)]

@@ -186,7 +186,7 @@ const fn half(level: u32) -> u32 {
 
 fn positive(what: &'static str, bits: i64, value: Wide) -> Result<u64, Error> {
     if bits <= 0 {
-        return Err(Error::OutOfRange { what, index: 0, value, min: Wide::DELTA, max: Wide::MAX });
+        return Err(Error::OutOfRange { what, index: None, value, min: Wide::DELTA, max: Wide::MAX });
     }
     Ok(bits.unsigned_abs())
 }

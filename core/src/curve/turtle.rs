@@ -63,7 +63,7 @@ impl<const S: usize> Generator<S> {
         if let Some((index, letter)) = word.bytes().enumerate().find(|(_, l)| command(*l).is_none()) {
             return Err(Error::OutOfRange {
                 what: "letter of a turtle word",
-                index,
+                index: Some(index),
                 value: Wide::from_num(letter),
                 min: Wide::from_num(b'+'),
                 max: Wide::from_num(b'f'),

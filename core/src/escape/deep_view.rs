@@ -43,7 +43,7 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     pub fn new(centre: Complex<Limbs<LIMBS>>, width: Limbs<LIMBS>, size: Size) -> Result<Self, Error> {
         const FOUR: Wide = Wide::lit("4");
         let size = checked_size(size)?;
-        let out = |what, value, min| Err(Error::OutOfRange { what, index: 0, value, min, max: FOUR });
+        let out = |what, value, min| Err(Error::OutOfRange { what, index: None, value, min, max: FOUR });
         let wide = width.to_wide();
         let highest = match width.highest_bit() {
             Some(bit) if !width.is_negative() => bit,
@@ -125,13 +125,13 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         ] {
             if steps.unsigned_abs() > MAX_PAN {
                 let (what, value) = ("pixels to pan", Wide::saturating_from_num(steps));
-                return Err(Error::OutOfRange { what, index: 0, value, min: -MOST, max: MOST });
+                return Err(Error::OutOfRange { what, index: None, value, min: -MOST, max: MOST });
             }
             let reach = half_pitch * i128::from(2 * steps.unsigned_abs() + side)
                 + i128::from(middle.to_wide().to_bits().unsigned_abs());
             if reach > i128::from(SIX.to_bits()) {
                 let value = Wide::from_bits(i64::try_from(reach).unwrap_or(i64::MAX));
-                return Err(Error::OutOfRange { what, index: 0, value, min: -SIX, max: SIX });
+                return Err(Error::OutOfRange { what, index: None, value, min: -SIX, max: SIX });
             }
         }
         Ok(Self { panned, ..*self })

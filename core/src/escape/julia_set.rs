@@ -153,7 +153,7 @@ pub(super) fn checked_constant(c: Complex<Wide>) -> Result<Word, Error> {
         let square = |v: Wide| (v.to_bits() >> 32).pow(2).unsigned_abs();
         let magnitude = i64::from(sqrt(square(c.re) + square(c.im))) + 2;
         let value = Wide::from_bits(magnitude.saturating_mul(1 << 32));
-        Error::OutOfRange { what: "|c|", index: 0, value, min: Wide::ZERO, max: TWO }
+        Error::OutOfRange { what: "|c|", index: None, value, min: Wide::ZERO, max: TWO }
     })
 }
 

@@ -61,7 +61,7 @@ impl View {
         let least = Wide::from_bits(cols << NARROWED);
         if width < least {
             let what = "width of the view";
-            return Err(Error::OutOfRange { what, index: 0, value: width, min: least, max: Wide::MAX });
+            return Err(Error::OutOfRange { what, index: None, value: width, min: least, max: Wide::MAX });
         }
         let quotient = width.to_bits().checked_div(2 * cols).unwrap_or(0);
         let rest = width.to_bits().checked_rem(2 * cols).unwrap_or(0);
@@ -75,7 +75,7 @@ impl View {
                 let value = Wide::from_bits(
                     middle.to_bits().saturating_abs().saturating_add(reach(n).unwrap_or(i64::MAX)),
                 );
-                return Err(Error::OutOfRange { what, index: 0, value, min: Wide::MIN, max: Wide::MAX });
+                return Err(Error::OutOfRange { what, index: None, value, min: Wide::MIN, max: Wide::MAX });
             }
         }
         Ok(Self { centre, width, size, half_pitch: quotient, rest: rest as i32, panned: (0, 0) })
@@ -125,7 +125,7 @@ impl View {
             let most = Wide::from_num(MAX_PAN as i16);
             if steps.unsigned_abs() > MAX_PAN {
                 let what = "pixels to pan";
-                return Err(Error::OutOfRange { what, index: 0, value: pixels, min: -most, max: most });
+                return Err(Error::OutOfRange { what, index: None, value: pixels, min: -most, max: most });
             }
             // at most 2^14 + 2^16 half pitches of at most 2^63 units
             let half_pitches = i128::from(2 * steps.unsigned_abs() + side) + 1;
@@ -134,7 +134,7 @@ impl View {
             if reach > i128::from(i64::MAX) {
                 return Err(Error::OutOfRange {
                     what,
-                    index: 0,
+                    index: None,
                     value: Wide::MAX,
                     min: Wide::MIN,
                     max: Wide::MAX,

@@ -87,7 +87,7 @@ impl Bounds {
         let (low, high) = bounds.range;
         let extreme = if low.unsigned_abs() >= LIMIT as u64 { low } else { high };
         if extreme.unsigned_abs() >= LIMIT as u64 {
-            return Err(limit("range of the function", 0, extreme, LIMIT));
+            return Err(limit("range of the function", None, extreme, LIMIT));
         }
         bounds.levels = levels(widest, steepest);
         Ok(bounds)
@@ -96,12 +96,12 @@ impl Bounds {
 
 /// What is wrong with coefficients that leave the format.
 pub(super) fn too_large(index: usize) -> Error {
-    limit("coefficients of map", index, COEFFICIENTS, COEFFICIENTS)
+    limit("coefficients of map", Some(index), COEFFICIENTS, COEFFICIENTS)
 }
 
 #[cold]
 #[inline(never)]
-fn limit(what: &'static str, index: usize, got: i64, allowed: i64) -> Error {
+fn limit(what: &'static str, index: Option<usize>, got: i64, allowed: i64) -> Error {
     Error::OutOfRange { what, index, value: wide(got), min: wide(-allowed), max: wide(allowed) }
 }
 

@@ -25,7 +25,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         if degree > E {
             return Err(Error::Capacity { what: "coefficients", needed: degree + 1, capacity: E + 1 });
         }
-        in_range("initial value", 0, initial)?;
+        in_range("initial value", None, initial)?;
         let start = value(initial);
         // eq. 30: the whole integral is w (sum of a_n mean(q_n)) / (1 - sum of a_n alpha_n)
         let total = self.times_width(self.mean())?;
@@ -100,7 +100,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         }
         Err(Error::OutOfRange {
             what: "integral",
-            index: 0,
+            index: None,
             value: if v < 0 { Wide::MIN } else { Wide::MAX },
             min: Wide::from_num(-128),
             max: Wide::from_num(128),

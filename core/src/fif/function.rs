@@ -82,7 +82,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             return Err(Error::Capacity { what: "coefficients", needed: 2, capacity: 1 });
         }
         for (index, knot) in knots.iter().enumerate() {
-            in_range("y of knot", index, knot.y)?;
+            in_range("y of knot", Some(index), knot.y)?;
         }
         let (Some(first), Some(last)) = (knots.first(), knots.last()) else {
             return Err(Error::TooFew { what: "knots", given: 0, at_least: 2 });
@@ -172,7 +172,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             if *scaling == Scaling::MIN {
                 return Err(Error::OutOfRange {
                     what: "vertical scaling",
-                    index,
+                    index: Some(index),
                     value: Wide::from_num(*scaling),
                     min: Wide::from_num(Scaling::MIN + Scaling::DELTA),
                     max: Wide::from_num(Scaling::MAX),
@@ -304,7 +304,7 @@ pub(crate) fn real_above(value: i64) -> Real {
     real_below(up)
 }
 
-pub(crate) fn in_range(what: &'static str, index: usize, y: Wide) -> Result<(), Error> {
+pub(crate) fn in_range(what: &'static str, index: Option<usize>, y: Wide) -> Result<(), Error> {
     let limit = Wide::from_num(128);
     // not `abs`: the least number has none
     if y.unsigned_abs() >= limit.unsigned_abs() {

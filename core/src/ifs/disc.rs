@@ -124,7 +124,7 @@ fn fixed_point(map: &Affine, index: usize) -> Result<Point2, Error> {
 fn out_of_range(what: &'static str, index: usize, bits: i64) -> Error {
     let value = Wide::from_bits(bits.saturating_mul(1 << 24));
     let max = Wide::from_bits(REACH << 24);
-    Error::OutOfRange { what, index, value, min: -max, max }
+    Error::OutOfRange { what, index: Some(index), value, min: -max, max }
 }
 
 #[cfg(test)]
@@ -173,7 +173,7 @@ mod tests {
         let far = Affine::from_thousandths([500, 0, 0, 500, 40_000, 0]);
         let near = Affine::from_thousandths([500, 0, 0, 500, 0, 0]);
         let error = refused(&[near, far], Unit::from_num(0.5));
-        assert!(matches!(error, Error::OutOfRange { index: 1, .. }), "{error}");
+        assert!(matches!(error, Error::OutOfRange { index: Some(1), .. }), "{error}");
         let slow = Affine::from_thousandths([999, 0, 0, 999, 0, 10]);
         let slow_too = Affine::from_thousandths([999, 0, 0, 999, 0, -100]);
         let error = refused(&[slow, slow_too], slow.contraction_factor());

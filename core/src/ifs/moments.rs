@@ -39,7 +39,7 @@ impl<const N: usize> Ifs<N> {
         let factor = self.contraction_factor();
         let refused = Error::OutOfRange {
             what: "contraction factor",
-            index: 0,
+            index: None,
             value: factor.into(),
             min: Wide::ZERO,
             max: Unit::from_bits(LARGEST).into(),

@@ -55,7 +55,7 @@ impl<const N: usize> Ifs<N> {
             let value = Wide::from(*value);
             return Err(Error::OutOfRange {
                 what: "probability",
-                index,
+                index: Some(index),
                 value,
                 min: Wide::from(Unit::DELTA),
                 max: Wide::ONE,
@@ -214,7 +214,7 @@ mod tests {
         let rotation = Affine::from_thousandths([0, -1000, 1000, 0, 0, 0]);
         assert_eq!(refused(&[HALF, rotation], &[half; 2]), Error::NotContractive { map: 1 });
         let negative = [Unit::from_num(1.25), Unit::from_num(-0.25)];
-        assert!(matches!(refused(&[HALF; 2], &negative), Error::OutOfRange { index: 1, .. }));
+        assert!(matches!(refused(&[HALF; 2], &negative), Error::OutOfRange { index: Some(1), .. }));
         let error = refused(&[HALF; 2], &[half, Unit::from_num(0.6)]);
         let Error::Probabilities { sum } = error else { panic!("{error}") };
         assert!((sum.to_num::<f64>() - 1.1).abs() < 1e-8);

@@ -56,7 +56,13 @@ impl<const LIMBS: usize> FromStr for Limbs<LIMBS> {
             let value = Wide::saturating_from_num(whole);
             const EIGHT: Wide = Wide::lit("8");
             let value = if decimal.negative { -value } else { value };
-            return Err(Error::OutOfRange { what: "coordinate", index: 0, value, min: -EIGHT, max: EIGHT });
+            return Err(Error::OutOfRange {
+                what: "coordinate",
+                index: None,
+                value,
+                min: -EIGHT,
+                max: EIGHT,
+            });
         }
         let number = number.plus_whole(whole);
         Ok(if decimal.negative { number.negated() } else { number })

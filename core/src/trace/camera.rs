@@ -28,10 +28,10 @@ impl Camera {
         for (index, c) in [eye.x, eye.y, eye.z].into_iter().enumerate() {
             if c.unsigned_abs().to_bits() >= 64 << 24 {
                 let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
-                return Err(Error::OutOfRange { what: "eye", index, value: c.into(), min, max });
+                return Err(Error::OutOfRange { what: "eye", index: Some(index), value: c.into(), min, max });
             }
         }
-        between("field of view", 0, field_of_view.into(), Wide::ONE, Wide::from_num(120))?;
+        between("field of view", None, field_of_view.into(), Wide::ONE, Wide::from_num(120))?;
         let forward = look_at
             .minus(eye)
             .normalised()
@@ -76,7 +76,7 @@ impl Camera {
             let value = Wide::checked_from_num(v).unwrap_or(if v < 0.0 { Wide::MIN } else { Wide::MAX });
             let (min, max) = (Wide::from_num(-128), Wide::from_num(128));
             let refused =
-                Error::OutOfRange { what: "coordinate or angle of the orbit", index: 0, value, min, max };
+                Error::OutOfRange { what: "coordinate or angle of the orbit", index: None, value, min, max };
             Real::checked_from_num(v).ok_or(refused)
         };
         let eye = Vec3::new(

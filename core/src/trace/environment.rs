@@ -58,13 +58,13 @@ impl Environment {
             Self::Plain(tone) => [tone; 3],
             Self::Gradient { zenith, horizon, nadir } => [zenith, horizon, nadir],
             Self::Checkerboard { bright, dark, horizon, scale, fade } => {
-                between("scale of the checkerboard", 0, scale.into(), Wide::ONE >> 6, Wide::from_num(64))?;
-                between("fade of the checkerboard", 0, fade.into(), Wide::ONE >> 6, Wide::ONE)?;
+                between("scale of the checkerboard", None, scale.into(), Wide::ONE >> 6, Wide::from_num(64))?;
+                between("fade of the checkerboard", None, fade.into(), Wide::ONE >> 6, Wide::ONE)?;
                 [bright, dark, horizon]
             }
         };
         for (index, tone) in tones.into_iter().enumerate() {
-            between("tone of the environment", index, tone.into(), Wide::ZERO, Wide::ONE)?;
+            between("tone of the environment", Some(index), tone.into(), Wide::ZERO, Wide::ONE)?;
         }
         Ok(self)
     }
@@ -132,7 +132,7 @@ fn mix(from: Unit, to: Unit, part: i32) -> Unit {
 
 pub(crate) fn between(
     what: &'static str,
-    index: usize,
+    index: Option<usize>,
     value: Wide,
     min: Wide,
     max: Wide,

@@ -85,7 +85,7 @@ impl<'a> Side<'a> {
         if x0 < -limit || end >= limit {
             let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
             let value = Wide::from_bits(if end >= limit { end } else { x0 });
-            return Err(Error::OutOfRange { what: name, index: 0, value, min, max });
+            return Err(Error::OutOfRange { what: name, index: None, value, min, max });
         }
         let origin = (x0 >> 24) as i32;
         Ok(Self {
@@ -135,7 +135,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
             let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
             return Err(Error::OutOfRange {
                 what: "height",
-                index: 0,
+                index: None,
                 value: Wide::from_bits(height << 24),
                 min,
                 max,

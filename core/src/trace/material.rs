@@ -72,14 +72,14 @@ impl Material {
             Self::Mirror => [Unit::ZERO; 3],
         };
         for (index, part) in parts.into_iter().enumerate() {
-            between("part of the material", index, part.into(), Wide::ZERO, Wide::ONE)?;
+            between("part of the material", Some(index), part.into(), Wide::ZERO, Wide::ONE)?;
         }
         Ok(self)
     }
 
     /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points away is turned round.
     ///
-    /// Result: in `[0, 1]`. Error: below `2^-24` for diffuse and Phong light with an exponent up to 64.
+    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`. Error: below `2^-24` for diffuse and Phong light with an exponent up to 64.
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
         match self.answer(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
@@ -101,11 +101,13 @@ impl Material {
             (if along > 0 { -lit } else { lit }).clamp(Unit::ZERO, Unit::ONE)
         };
         let tone = match *self {
-            Self::Diffuse { ambient } => ambient + times(Unit::ONE - ambient, lit()),
+            Self::Diffuse { ambient } => {
+                ambient.saturating_add(times(Unit::ONE.saturating_sub(ambient), lit()))
+            }
             Self::Phong { ambient, diffuse, specular, shininess } => {
                 let highlight = unit(mirrored(n, d, along)).dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
                 // three parts of at most 1 each would leave the format
-                let matt = (ambient + times(diffuse, lit())).min(Unit::ONE);
+                let matt = ambient.saturating_add(times(diffuse, lit())).min(Unit::ONE);
                 matt.saturating_add(times(specular, power(highlight, shininess)))
             }
             Self::Mirror => return Answer::Towards(mirrored(n, d, along)),

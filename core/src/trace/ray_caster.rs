@@ -240,7 +240,7 @@ fn in_reach(camera: &Camera, cols: i64, rows: i64, margin: i64) -> Result<(), Er
     if reach >= 3 << 28 {
         return Err(Error::OutOfRange {
             what: "tangent of half the view, width plus height",
-            index: 0,
+            index: None,
             value: Wide::from_bits(reach.saturating_mul(1 << 20)),
             min: Wide::ZERO,
             max: Wide::from_num(3),

@@ -76,12 +76,18 @@ impl Pattern {
             Sampling::Grid(n) => (n, None),
             Sampling::Jittered { n, seed } => (n, Some(seed)),
         };
-        between("samples a side", 0, Wide::from_num(n), Wide::ONE, Wide::from_num(MOST as u8))?;
+        between("samples a side", None, Wide::from_num(n), Wide::ONE, Wide::from_num(MOST as u8))?;
         let width = match filter {
             Filter::Box => Real::ONE,
             Filter::Gaussian { deviation, width } => {
-                between("deviation of the filter", 0, deviation.into(), Wide::ONE >> 3, Wide::from_num(4))?;
-                between("width of the filter", 0, width.into(), Wide::ONE, Wide::from_num(4))?;
+                between(
+                    "deviation of the filter",
+                    None,
+                    deviation.into(),
+                    Wide::ONE >> 3,
+                    Wide::from_num(4),
+                )?;
+                between("width of the filter", None, width.into(), Wide::ONE, Wide::from_num(4))?;
                 width
             }
         };

@@ -171,7 +171,7 @@ fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, bool)
                     source.fail(span, &format!("generator[{map}]"), reason)
                 }
                 // the kernel has not computed the value
-                Error::OutOfRange { index, .. } => {
+                Error::OutOfRange { index: Some(index), .. } => {
                     let span = list.get_ref().get(index).map_or(list.span(), Spanned::span);
                     let reason = "outside -1 < x < 2, -2 < y < 2, seen from the segment that is replaced";
                     source.fail(span, &format!("generator[{index}]"), reason)

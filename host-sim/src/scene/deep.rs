@@ -30,11 +30,16 @@ pub(super) struct Deep(pub(super) Sight<LIMBS>);
 impl Deep {
     /// None for a view that 32 bits show on every display.
     pub(super) fn load(source: &Source, keys: &Keys<'_>) -> Result<Option<Self>, Fail> {
-        let (Some(centre), Some(width)) = (keys.centre, keys.width) else { return Ok(None) };
+        let Some(width) = keys.width else { return Ok(None) };
         let about = number::float(source.digits(width));
-        if !(0.0 < about && about < WIDEST) {
-            return Ok(None);
+        if about <= 0.0 {
+            let reason = "it must be above 0, and may be as small as 1e-100";
+            return Err(source.fail(width.span(), "width", reason));
         }
+        if about < UNIT && keys.centre.is_none() {
+            return Err(source.fail(width.span(), "width", "a view as narrow as this needs a centre"));
+        }
+        let Some(centre) = keys.centre.filter(|_| about < WIDEST) else { return Ok(None) };
         let limbs = |number: &Num, key: &str| {
             let digits = source.digits(number).replace('_', "");
             digits.parse::<Limbs<LIMBS>>().map_err(|error| source.fail(number.span(), key, error))

@@ -157,7 +157,7 @@ impl Description {
             Error::NotJoined { knot: index } => {
                 source.fail(knot(index), &format!("{prefix}knots[{index}]"), error)
             }
-            Error::OutOfRange { what: "y of knot", index, .. } => {
+            Error::OutOfRange { what: "y of knot", index: Some(index), .. } => {
                 source.fail(knot(index), &format!("{prefix}knots[{index}]"), error)
             }
             Error::TooFew { .. } | Error::Capacity { what: "maps", .. } => {

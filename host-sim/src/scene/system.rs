@@ -35,10 +35,10 @@ fn explain(source: &Source, maps: &Maps, error: Error) -> Fail {
         Error::NotContractive { map: index } => {
             map(index, format!("maps[{index}]"), &"it is not a contraction")
         }
-        Error::OutOfRange { what: "probability", index, .. } => {
+        Error::OutOfRange { what: "probability", index: Some(index), .. } => {
             map(index, format!("maps[{index}][6]"), &error)
         }
-        Error::OutOfRange { index, .. } if index > 0 => map(index, format!("maps[{index}]"), &error),
+        Error::OutOfRange { index: Some(index), .. } => map(index, format!("maps[{index}]"), &error),
         _ => source.fail(maps.span(), "maps", error),
     }
 }
