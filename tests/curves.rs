@@ -191,7 +191,10 @@ fn bad_generators_and_orders_are_refused() {
     assert!(matches!(polyline(&[[1.0; 2], [0.5, 0.5], [1.0, 1.0]]), Error::Degenerate { .. }));
     assert_eq!(polyline(&[[0.0; 2], [0.0, 0.5], [0.0, -0.75], [1.0, 0.0]]), Error::NotContractive { map: 1 });
     assert_eq!(polyline(&[[0.0; 2], [0.0, 1.0], [1.0, 0.0]]), Error::NotContractive { map: 0 });
-    assert!(matches!(polyline(&[[0.0; 2], [0.0, 3.0], [1.0, 0.0]]), Error::OutOfRange { index: Some(1), .. }));
+    assert!(matches!(
+        polyline(&[[0.0; 2], [0.0, 3.0], [1.0, 0.0]]),
+        Error::OutOfRange { index: Some(1), .. }
+    ));
     let many = [[0.0; 2], [0.2, 0.0], [0.4, 0.0], [0.6, 0.0], [0.8, 0.0], [1.0, 0.0]];
     assert!(matches!(polyline(&many), Error::Capacity { needed: 5, capacity: 4, .. }));
     let points = [[0.0; 2], [0.5, 0.5], [1.0, 0.0]].map(|p| p.map(Wide::from_num));
