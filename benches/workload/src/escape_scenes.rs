@@ -29,13 +29,14 @@ pub(crate) fn mandelbrot<C: Colour + Ink>(
     field::<C, _, _>(stage, set, palette, 0)
 }
 
+/// Between head and body of the set.
+fn seahorses(stage: &Stage<'_>) -> Result<View, Failure> {
+    let (re, im) = const { (Wide::lit("-0.7453"), Wide::lit("0.1127")) };
+    view(stage, re, im, const { Wide::lit("0.0065") })
+}
+
 pub(crate) fn seahorse_valley<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
-    let view = view(
-        stage,
-        const { Wide::lit("-0.7453") },
-        const { Wide::lit("0.1127") },
-        const { Wide::lit("0.0065") },
-    )?;
+    let view = seahorses(stage)?;
     field::<C, _, _>(stage, Mandelbrot::new(view, 500)?, Cycled::new(gradients::PORCELAIN, 96), 0)
 }
 
@@ -51,12 +52,7 @@ pub(crate) fn seahorse_smooth<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<
 fn equalised<C: Colour + Ink, const MAX: u32, const COUNTS: usize>(
     stage: &mut Stage<'_>,
 ) -> Result<(), Failure> {
-    let view = view(
-        stage,
-        const { Wide::lit("-0.7453") },
-        const { Wide::lit("0.1127") },
-        const { Wide::lit("0.0065") },
-    )?;
+    let view = seahorses(stage)?;
     let smooth = Smooth(Mandelbrot::new(view, MAX)?);
     let mut counts = [0; COUNTS];
     let palette = Equalised::new(&smooth, &mut counts, gradients::DUSK)?;
