@@ -73,7 +73,7 @@ impl Scene {
     }
 }
 
-/// The table: what is drawn here, and the built-in scenes of the command; in a [small](SMALL) image those that it can draw.
+/// The table: what is drawn here, and the built-in scenes of the command; in an image for Armv6-M those that it can draw.
 pub static ALL: &[Scene] = &{
     let mut all = [OWN[0]; count(OWNED + PAIRS.len() + MONO_ONLY.len())];
     let (mut i, mut kept) = (0, 0);

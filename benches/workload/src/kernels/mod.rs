@@ -120,7 +120,7 @@ const fn roomy(kernel: Kernel) -> Kernel {
     Kernel { small: false, ..kernel }
 }
 
-/// The table; in a [small](crate::SMALL) image the rows that it can run. The first row is the floor: what the loop, its loads and its checksum cost alone.
+/// The table; in an image for Armv6-M the rows that it can run. The first row is the floor: what the loop, its loads and its checksum cost alone.
 pub static ALL: &[Kernel] = &{
     let mut all = [TABLE[0]; count()];
     let (mut i, mut kept) = (0, 0);
