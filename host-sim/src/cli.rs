@@ -53,6 +53,8 @@ pub(crate) enum Command {
     Dump(Dump),
     /// Write the numbers of a scene as CSV, with the f64 reference beside the fixed-point values
     Sample(Sample),
+    /// Write the numbers of a scene as constants of a Rust module, for firmware
+    Export(Export),
     /// Measure the kernels against the f64 reference, beside the bounds that they promise
     Accuracy(Accuracy),
     /// Measure the dimension of an attractor, a curve or a graph, with theory beside it
@@ -125,6 +127,22 @@ pub(crate) struct Sample {
     /// Size of the picture whose pixels are listed
     #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
     pub(crate) size: Size,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Kinds: fif-curve through knots (data with its fitted scalings, too), ifs, copier. Other scenes are a few numbers.
+
+Examples:
+  attractor export sunspots > src/sunspots.rs
+  attractor export my-fern.toml > src/my_fern.rs
+
+The numbers are the bits that the command itself draws with: firmware shows the same picture."
+)]
+pub(crate) struct Export {
+    /// Name of a built-in scene, or path of a TOML file
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: String,
 }
 
 #[derive(Debug, Args)]

@@ -10,6 +10,7 @@ mod cli;
 mod color;
 mod dimension;
 mod dump;
+mod export;
 mod fail;
 mod fit;
 mod list;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         None | Some(Command::List) => list::run(),
         Some(Command::Dump(args)) => dump::run(args),
         Some(Command::Sample(args)) => sample::run(args),
+        Some(Command::Export(args)) => export::run(args),
         Some(Command::Accuracy(args)) => accuracy::run(args),
         Some(Command::Dimension(args)) => dimension::run(args),
         Some(Command::Spectrum(args)) => spectrum::run(args),

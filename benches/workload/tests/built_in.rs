@@ -13,7 +13,6 @@ const GOLDENS: &str = include_str!("../../../host-sim/tests/goldens.txt");
 const MISSING: &[(&str, &str)] = &[
     ("julia-dendrite rgb565", "counts of 96,800 bytes beside a grid of 108,900: more than 128 KiB"),
     ("san-marco rgb565", "counts of 96,800 bytes beside a grid of 84,681: more than 128 KiB"),
-    ("sunspots", "its 308 scalings are fitted on the host, in f64"),
 ];
 
 /// A display with pixels.

@@ -31,6 +31,17 @@ pub(super) struct Description {
 pub(super) struct Function {
     pub(super) fixed: Box<Fixed>,
     pub(super) reference: reference::Fif,
+    /// What it was made of, where its maps are affine.
+    pub(super) affine: Option<Affine>,
+}
+
+/// A function through knots: what firmware needs of it.
+#[derive(Debug)]
+pub(super) struct Affine {
+    pub(super) knots: Vec<Knot>,
+    pub(super) scalings: Vec<Scaling>,
+    /// How often the function is integrated afterwards.
+    pub(super) integrate: u32,
 }
 
 impl Description {
@@ -72,7 +83,8 @@ impl Description {
             })?;
             reference = reference.integral(0.0);
         }
-        Ok(Function { fixed: Box::new(fixed), reference })
+        let affine = self.polynomials.is_none().then_some(Affine { knots, scalings, integrate: times });
+        Ok(Function { fixed: Box::new(fixed), reference, affine })
     }
 
     fn coefficients(

@@ -38,6 +38,7 @@ use toml::Spanned;
 
 use crate::builtin;
 use crate::color::Depth;
+use crate::export::Constants;
 use crate::fail::Fail;
 use crate::source::Source;
 
@@ -171,6 +172,16 @@ impl Scene {
                 return Err(Fail::new(reason));
             }
         })
+    }
+
+    /// What firmware needs of it, if it is more than a few numbers.
+    pub(crate) fn constants(&self) -> Result<Constants<'_>, &'static str> {
+        match &self.kind {
+            Kind::FifCurve(scene) => scene.constants(),
+            Kind::Ifs(scene) => Ok(Constants::System(scene.ifs())),
+            Kind::Copier(scene) => Ok(Constants::System(scene.ifs())),
+            _ => Err("it is a few numbers, nothing is exported; only of fif-curve, ifs and copier"),
+        }
     }
 
     /// Moves about on a display of this size; the message says why not.

@@ -9,6 +9,7 @@ use attractor_gallery::{CELLS_ACROSS, Chart, Named, depth_for, draw_field};
 use embedded_graphics::pixelcolor::Rgb888;
 
 use super::SEED;
+use super::sunspots::{KNOTS, VERTICAL_SCALINGS};
 use crate::scenes::{COLOUR, MONO};
 use crate::sink::{Colour, Failure, Stage};
 
@@ -40,10 +41,28 @@ pub(super) fn chart<C: Colour + Ink>(
     address: &[usize],
 ) -> Result<(), Failure> {
     const CELLS: usize = Pyramid::cells(2, depth_for(2, CELLS_ACROSS));
-    let f = function.build()?;
+    charted::<C, 2, 2, CELLS>(stage, &function.build()?, address, Named::Ocean)
+}
+
+/// 309 years as knots, with the scalings that the command fitted.
+pub(super) fn sunspots<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
+    const MAPS: usize = VERTICAL_SCALINGS.len();
+    const CELLS: usize = Pyramid::cells(MAPS, depth_for(MAPS, CELLS_ACROSS));
+    stage.claim(size_of::<Fif<MAPS, 1>>() + size_of::<[Cell; CELLS]>())?;
+    let f = Fif::<MAPS, 1>::interpolating(&KNOTS, &VERTICAL_SCALINGS)?;
+    charted::<C, MAPS, 1, CELLS>(stage, &f, &[], Named::Fire)
+}
+
+/// The chart of a function on all of the stage.
+fn charted<C: Colour + Ink, const N: usize, const D: usize, const CELLS: usize>(
+    stage: &mut Stage<'_>,
+    f: &Fif<N, D>,
+    address: &[usize],
+    palette: Named,
+) -> Result<(), Failure> {
     let (size, mut cells, mut columns) = (stage.size(), [Cell::ZERO; CELLS], [0; COLOUR.width as usize]);
-    let chart = Chart::new(&f, size, address, Named::Ocean, &mut cells)?;
-    let bytes = size_of_val(&f) + size_of_val(&chart) + size_of_val(&cells) + size_of_val(&columns);
+    let chart = Chart::new(f, size, address, palette, &mut cells)?;
+    let bytes = size_of_val(f) + size_of_val(&chart) + size_of_val(&cells) + size_of_val(&columns);
     stage.draw::<C>(bytes, |sink| chart.draw(sink, &mut columns, &mut |_, _, _| true))
 }
 

@@ -5,6 +5,8 @@
 mod curves;
 mod fif;
 mod sets;
+#[expect(unreachable_pub, reason = "a module as `attractor export` writes it")]
+mod sunspots;
 
 use attractor::curve::catalogue as curve;
 use attractor::ifs::catalogue as attractors;
@@ -56,6 +58,7 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(both!("figure-6-gg", |stage, C, I| fif::surface::<C, { fif::CELLS[I] }>(stage, &fif::FIGURE_6_GG))),
     both_roomy(both!("figure-6-ff-diffuse", |stage, C, I| fif::surface::<C, { fif::CELLS[I] }>(stage, &fif::FIGURE_6_FF_DIFFUSE))),
     both_roomy(both!("figure-6-gg-phong", |stage, C, I| fif::surface::<C, { fif::CELLS[I] }>(stage, &fif::FIGURE_6_GG_PHONG))),
+    both_roomy(both!("sunspots", |stage, C| fif::sunspots::<C>(stage))),
     both!("sierpinski", |stage, C| sets::by_maps::<C>(stage, (&sets::SIERPINSKI, &sets::THIRDS), Named::Even)),
     both_roomy(both!("fern", |stage, C, I| sets::density::<C, 4, { PIXELS[I] }>(stage, &attractors::BARNSLEY_FERN, Named::Moss))),
     both_roomy(both!("dragon", |stage, C, I| sets::density::<C, 2, { PIXELS[I] }>(stage, &attractors::DRAGON, Named::Fire))),
