@@ -91,7 +91,7 @@ fn deep_coordinates_are_told_how_many_digits_fit() {
     let long = format!("0.{}", "3".repeat(500));
     refused(DEEP, "0.0", &long, &["centre[0]", "500 decimal places", "room for 114"]);
     for width in ["0", "-1e-30", "-3"] {
-        refused(DEEP, "1e-60", width, &["width", width, "must lie between"]);
+        refused(DEEP, "1e-60", width, &["width", width, "above 0"]);
     }
     refused(DEEP, "max_dwell", "equalised = true\ncycle = 9\nmax_dwell", &["cycle", "9"]);
 }

@@ -128,7 +128,7 @@ fn a_deep_zoom_is_listed_with_all_its_digits_and_no_reference() {
     assert!(middle[0].starts_with(
         "-1.296355138173036216808304477845282266265735748447889659897753734376582836466569504197"
     ));
-    assert_eq!((middle[2], middle[3]), ("4000", ""));
+    assert_eq!((middle[2], middle[3]), ("2000", ""));
     let column: Vec<&str> = text.lines().skip(1).map(|l| l.split(',').next().unwrap()).collect();
     assert!(column[0] != column[1] && column[0].len() > 110);
 }
