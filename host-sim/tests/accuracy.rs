@@ -1,10 +1,8 @@
 //! `attractor accuracy` prints the table of promises.
 
-mod common;
-
 use std::path::Path;
 
-use common::good;
+use crate::common::good;
 
 #[test]
 fn the_table_has_its_columns_in_both_forms() {

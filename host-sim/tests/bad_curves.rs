@@ -1,10 +1,8 @@
 //! Bad input for curves, copiers, Julia sets and deep zooms: see `bad_input.rs`.
 
-mod common;
-
 use std::fs;
 
-use common::{bad, good};
+use crate::common::{bad, good};
 
 const CURVE: &str =
     "kind = \"curve\"\ngenerator = [[0, 0], [1, 0], [1, 1], [2, 1]]\norder = 3\nbase = [[0, 0], [1, 0]]\n";

@@ -1,10 +1,8 @@
 //! Bad input: one line that names file, key and value, exit code 2, nothing half-written.
 
-mod common;
-
 use std::fs;
 
-use common::{attractor_in, bad, text};
+use crate::common::{attractor_in, bad, text};
 
 const CURVE: &str =
     "kind = \"fif-curve\"\nknots = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]\nvertical_scaling = [0.5, 0.5]\n";
@@ -43,8 +41,8 @@ fn the_good_files_are_good() {
     for (i, scene) in [CURVE, IFS, MANDELBROT, JULIA, SURFACE].into_iter().enumerate() {
         let directory = tempfile::tempdir().unwrap();
         fs::write(directory.path().join("scene.toml"), scene).unwrap();
-        common::good(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"]);
-        common::good(directory.path(), &["sample", "scene.toml", "--size", "4x4"]);
+        crate::common::good(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"]);
+        crate::common::good(directory.path(), &["sample", "scene.toml", "--size", "4x4"]);
         assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2, "{i}");
     }
 }
@@ -192,7 +190,7 @@ fn data_that_cannot_be_read_are_named() {
         fs::write(directory.path().join("d.csv"), csv).unwrap();
         let args = ["dump", "scene.toml", "-o", "out.png", "--size", "16x16"];
         if words.is_empty() {
-            common::good(directory.path(), &args);
+            crate::common::good(directory.path(), &args);
         } else {
             let complaint = bad(directory.path(), &args);
             assert!(words.iter().all(|word| complaint.contains(word)), "{complaint}");

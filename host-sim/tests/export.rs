@@ -1,11 +1,9 @@
 //! `attractor export`: what it writes is a module that firmware compiles, with the bits that the command draws with.
 
-mod common;
-
 use std::path::Path;
 
+use crate::common::{bad, good};
 use attractor::ifs::catalogue::BARNSLEY_FERN;
-use common::{bad, good};
 
 /// The module that the target is built with; `benches/workload/tests/built_in.rs` holds its picture to the command's.
 const SUNSPOTS: &str = include_str!("../../benches/workload/src/built_in/sunspots.rs");

@@ -1,11 +1,9 @@
 //! `attractor dimension` and `attractor spectrum`: measured beside theory, and what cannot be measured.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use common::{bad, good};
+use crate::common::{bad, good};
 
 /// The number behind a word of the output, after the line that names a method.
 fn value(text: &str, method: &str, word: &str) -> Option<f64> {

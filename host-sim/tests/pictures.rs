@@ -1,12 +1,10 @@
 //! Every built-in scene on every display; the pictures themselves are held to goldens.
 
-mod common;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use common::{decode, good};
+use crate::common::{decode, good};
 use png::{BitDepth, ColorType};
 
 const GOLDENS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/goldens.txt");
@@ -47,7 +45,7 @@ fn the_smallest_and_the_oddest_displays_work() {
     }
 }
 
-/// Changed on purpose? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test pictures`, look at the pictures, and say so in the CHANGELOG.
+/// Changed on purpose? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test suite pictures`, look at the pictures, and say so in the CHANGELOG.
 #[test]
 fn pictures_are_the_same_to_the_last_bit() {
     let mut now = BTreeMap::new();

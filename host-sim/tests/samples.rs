@@ -1,11 +1,9 @@
 //! `attractor sample`: headers, counts, exact numbers, and how far they are from the reference.
 
-mod common;
-
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use common::good;
+use crate::common::good;
 
 fn sample(args: &[&str]) -> (String, Vec<Vec<f64>>) {
     let args: Vec<&str> = ["sample"].iter().chain(args).copied().collect();

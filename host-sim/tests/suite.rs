@@ -1,0 +1,10 @@
+//! All tests of the command, in one binary: linking is what a test binary costs.
+
+mod accuracy;
+mod bad_curves;
+mod bad_input;
+mod common;
+mod export;
+mod measure;
+mod pictures;
+mod samples;
