@@ -1,8 +1,9 @@
 //! `cargo xtask target`: builds the images of `benches/cortex-m`, runs them in QEMU, compares every checksum with the host's, and holds
-//! counts and sizes against the committed tables. See `benches/cortex-m/README.md`.
+//! counts and sizes against the committed tables. See `benches/cortex-m/README.md`. `cargo xtask exhaust`: every input of the elementary functions.
 
 mod elf;
 mod emulator;
+mod exhaust;
 mod gate;
 mod host;
 mod images;
@@ -33,6 +34,8 @@ struct Cli {
 enum Task {
     /// Build, run, compare and count on the emulated target
     Target(Options),
+    /// Try every input of the elementary functions
+    Exhaust(exhaust::Options),
 }
 
 /// What `cargo xtask target` is asked.
@@ -82,10 +85,12 @@ enum Prefer {
 }
 
 fn main() -> ExitCode {
-    let Cli { task: Task::Target(options) } = Cli::parse();
-    let done = match &options.kinds {
-        Some(kernel) => kinds::run(&options, kernel),
-        None => target(&options),
+    let done = match Cli::parse().task {
+        Task::Target(options) => match &options.kinds {
+            Some(kernel) => kinds::run(&options, kernel),
+            None => target(&options),
+        },
+        Task::Exhaust(options) => exhaust::run(&options),
     };
     match done {
         Ok(true) => ExitCode::SUCCESS,

@@ -22,6 +22,11 @@ impl DoubleDouble {
         self.high
     }
 
+    /// What the nearest `f64` lacks.
+    pub(crate) fn low(self) -> f64 {
+        self.low
+    }
+
     /// The smaller of two numbers.
     pub(crate) fn min(self, other: Self) -> Self {
         if other < self { other } else { self }
