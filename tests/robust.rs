@@ -1,6 +1,6 @@
 //! Whatever the description: core refuses it or computes with it, and neither panics nor overflows.
 //!
-//! The tests run with overflow checks (profiles `test` and `release-checked`). Each generator mixes numbers from all bits, the ends of the format and
+//! The tests run with overflow checks (the profile `test`, which is optimised). Each generator mixes numbers from all bits, the ends of the format and
 //! ordinary ones; each test asserts how much was accepted, so that it has evaluated something. `PROPTEST_CASES` sets how many descriptions are tried.
 
 use std::cell::Cell as Counter;
