@@ -5,7 +5,7 @@
 //! `(1 - s1^2) (1 - s2^2) = 1 - T + D^2`, which is positive exactly when both are below 1 or both above, and `|D| < 1` rules out the latter.
 //! And `s1 = (|(a + d, b - c)| + |(a - d, b + c)|) / 2`: the conformal and the anticonformal part.
 
-use crate::num::{Real, Unit, Wide, mul_high_u, quotient, sqrt};
+use crate::num::{self, Real, Unit, Wide, mul_high_u, quotient, sqrt};
 use crate::picture::Point2;
 
 const ONE: i64 = 1 << 30;
@@ -197,12 +197,12 @@ impl Affine {
 
 #[inline(always)]
 fn product(l: Unit, x: Real) -> i64 {
-    i64::from(l.to_bits()) * i64::from(x.to_bits())
+    num::product(l.to_bits(), x.to_bits())
 }
 
 /// A product of two entries, at most `2^62`.
 fn entries(l: Unit, m: Unit) -> i64 {
-    i64::from(l.to_bits()) * i64::from(m.to_bits())
+    num::product(l.to_bits(), m.to_bits())
 }
 
 /// A translation with 54 fractional bits, and the half unit that rounds.

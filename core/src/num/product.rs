@@ -1,0 +1,159 @@
+//! Products of two 32-bit numbers: all 64 bits, or the upper 32 alone.
+//!
+//! A Cortex-M4 or a RISC-V core has them as one instruction or two. A Cortex-M0 has not: it keeps the lower 32 bits of a product only, and the
+//! compiler calls a library function for the rest. Such a target (`build.rs` knows which) multiplies by halves here, inline:
+//!
+//! `a b = ah bh 2^32 + (ah bl + al bh) 2^16 + al bl`, with `a = ah 2^16 + al`, `al` unsigned.
+//!
+//! Both ways give the same bits (`both_ways_give_the_same_bits`); every function is exact for all operands.
+
+/// `a b`. Cost: one Cortex-M4 instruction; on a Cortex-M0 17.
+#[inline(always)]
+pub(crate) fn product(a: i32, b: i32) -> i64 {
+    if cfg!(no_long_product) { halves::product(a, b) } else { whole::product(a, b) }
+}
+
+/// `a b`. Cost: as [`product`].
+#[inline(always)]
+pub(crate) fn product_u(a: u32, b: u32) -> u64 {
+    if cfg!(no_long_product) { halves::product_u(a, b) } else { whole::product_u(a, b) }
+}
+
+/// The upper word of `a b`, towards minus infinity. Cost: one Cortex-M4 instruction; on a Cortex-M0 14.
+#[inline(always)]
+pub(crate) fn high(a: i32, b: i32) -> i32 {
+    if cfg!(no_long_product) { halves::high(a, b) } else { (whole::product(a, b) >> 32) as i32 }
+}
+
+/// The upper word of `a b`, to nearest: `(a b + 2^31) / 2^32`, halves upwards. Cost: as [`high`].
+#[inline(always)]
+pub(crate) fn high_rounded(a: i32, b: i32) -> i32 {
+    if cfg!(no_long_product) {
+        halves::high_rounded(a, b)
+    } else {
+        ((whole::product(a, b) + (1 << 31)) >> 32) as i32
+    }
+}
+
+/// The upper word of `a b`, rounded down. Cost: as [`high`].
+#[inline(always)]
+pub(crate) fn high_u(a: u32, b: u32) -> u32 {
+    if cfg!(no_long_product) { halves::high_u(a, b) } else { (whole::product_u(a, b) >> 32) as u32 }
+}
+
+/// The upper word of `a^2`. Cost: one Cortex-M4 instruction; on a Cortex-M0 9.
+#[inline(always)]
+pub(crate) fn high_of_square(a: i32) -> i32 {
+    if cfg!(no_long_product) { halves::high_of_square(a) } else { (whole::product(a, a) >> 32) as i32 }
+}
+
+/// By the target's instruction.
+mod whole {
+    #[inline(always)]
+    pub(super) fn product(a: i32, b: i32) -> i64 {
+        i64::from(a) * i64::from(b)
+    }
+
+    #[inline(always)]
+    pub(super) fn product_u(a: u32, b: u32) -> u64 {
+        u64::from(a) * u64::from(b)
+    }
+}
+
+/// By products of 16-bit halves.
+mod halves {
+    /// Upper half with its sign, lower half without.
+    #[inline(always)]
+    fn split(a: i32) -> (i32, i32) {
+        (a >> 16, a & 0xffff)
+    }
+
+    /// `ah bh`, and the two sums of the middle: `ah bl` and the carry of `al bl`; `al bh` and the lower half of the first.
+    ///
+    /// Neither leaves 32 bits: `|ah bl| <= 2^15 (2^16 - 1)`, and what is added is below `2^16`.
+    #[inline(always)]
+    fn parts(a: i32, b: i32) -> (i32, i32, i32) {
+        let ((ah, al), (bh, bl)) = (split(a), split(b));
+        let low = (al as u32).wrapping_mul(bl as u32);
+        let first = ah.wrapping_mul(bl).wrapping_add((low >> 16) as i32);
+        let second = al.wrapping_mul(bh).wrapping_add(first & 0xffff);
+        (ah.wrapping_mul(bh), first, second)
+    }
+
+    #[inline(always)]
+    pub(super) fn high(a: i32, b: i32) -> i32 {
+        let (top, first, second) = parts(a, b);
+        top.wrapping_add(first >> 16).wrapping_add(second >> 16)
+    }
+
+    /// Bit 31 of the product is bit 15 of the second sum, which has no room for half a unit more: it is halved to it first.
+    #[inline(always)]
+    pub(super) fn high_rounded(a: i32, b: i32) -> i32 {
+        let (top, first, second) = parts(a, b);
+        top.wrapping_add(first >> 16).wrapping_add((second >> 15).wrapping_add(1) >> 1)
+    }
+
+    #[inline(always)]
+    pub(super) fn high_u(a: u32, b: u32) -> u32 {
+        let ((ah, al), (bh, bl)) = ((a >> 16, a & 0xffff), (b >> 16, b & 0xffff));
+        // (2^16 - 1)^2 + 2^16 - 1 fits
+        let first = ah.wrapping_mul(bl).wrapping_add(al.wrapping_mul(bl) >> 16);
+        let second = al.wrapping_mul(bh).wrapping_add(first & 0xffff);
+        ah.wrapping_mul(bh).wrapping_add(first >> 16).wrapping_add(second >> 16)
+    }
+
+    /// `a^2 = ah^2 2^32 + (ah al 2^17 + al^2)`, and the second part over `2^32` is `(ah al + al^2 / 2^17) / 2^15`.
+    #[inline(always)]
+    pub(super) fn high_of_square(a: i32) -> i32 {
+        let (ah, al) = split(a);
+        let square = (al as u32).wrapping_mul(al as u32) >> 17;
+        ah.wrapping_mul(ah).wrapping_add(ah.wrapping_mul(al).wrapping_add(square as i32) >> 15)
+    }
+
+    /// The lower word is what the target has.
+    #[inline(always)]
+    pub(super) fn product(a: i32, b: i32) -> i64 {
+        (i64::from(high(a, b)) << 32) | i64::from(a.wrapping_mul(b) as u32)
+    }
+
+    #[inline(always)]
+    pub(super) fn product_u(a: u32, b: u32) -> u64 {
+        (u64::from(high_u(a, b)) << 32) | u64::from(a.wrapping_mul(b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{halves, whole};
+
+    fn agree(a: i32, b: i32) {
+        let exact = whole::product(a, b);
+        assert_eq!(halves::product(a, b), exact, "{a} {b}");
+        assert_eq!(i64::from(halves::high(a, b)), exact >> 32, "{a} {b}");
+        // |exact| <= 2^62: adding half a unit does not overflow
+        assert_eq!(i64::from(halves::high_rounded(a, b)), (exact + (1 << 31)) >> 32, "{a} {b}");
+        assert_eq!(i64::from(halves::high_of_square(a)), whole::product(a, a) >> 32, "{a}");
+        let (a, b) = (a as u32, b as u32);
+        assert_eq!(halves::product_u(a, b), whole::product_u(a, b), "{a} {b}");
+        assert_eq!(u64::from(halves::high_u(a, b)), whole::product_u(a, b) >> 32, "{a} {b}");
+    }
+
+    /// Words whose halves are the ends of theirs or beside them, all pairs; then `10^8` pairs at random.
+    #[test]
+    fn both_ways_give_the_same_bits() {
+        let ends = [0_u32, 1, 2, 0x7ffe, 0x7fff, 0x8000, 0x8001, 0xfffe, 0xffff];
+        let words = || ends.iter().flat_map(|h| ends.iter().map(move |l| (h << 16 | l) as i32));
+        for a in words() {
+            for b in words() {
+                agree(a, b);
+            }
+        }
+        let mut state = 1_u64;
+        for _ in 0..100_000_000_u32 {
+            // an LCG's upper bits (Knuth, TAOCP vol. 2, 3.3.4, table 1, line 26)
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let (a, b) = ((state >> 32) as i32, (state as u32).rotate_left(16) as i32);
+            agree(a, b);
+        }
+    }
+}
