@@ -47,6 +47,22 @@ pub(crate) fn high_of_square(a: i32) -> i32 {
     if cfg!(no_long_product) { halves::high_of_square(a) } else { (whole::product(a, a) >> 32) as i32 }
 }
 
+/// The upper word of `a^2`, rounded down. Cost: as [`high_of_square`].
+#[inline(always)]
+pub(crate) fn high_of_square_u(a: u32) -> u32 {
+    if cfg!(no_long_product) { halves::high_of_square_u(a) } else { (whole::product_u(a, a) >> 32) as u32 }
+}
+
+/// `a^2`. Cost: one Cortex-M4 instruction; on a Cortex-M0 10.
+#[inline(always)]
+pub(crate) fn square_u(a: u32) -> u64 {
+    if cfg!(no_long_product) {
+        u64::from(halves::high_of_square_u(a)) << 32 | u64::from(a.wrapping_mul(a))
+    } else {
+        whole::product_u(a, a)
+    }
+}
+
 /// By the target's instruction.
 mod whole {
     #[inline(always)]
@@ -93,13 +109,25 @@ mod halves {
         top.wrapping_add(first >> 16).wrapping_add((second >> 15).wrapping_add(1) >> 1)
     }
 
+    /// With a signed lower half of `b`, so that its upper half may be `2^16`. The compiler knows the form with unsigned halves for what it is, and would
+    /// put the call of the library back.
     #[inline(always)]
     pub(super) fn high_u(a: u32, b: u32) -> u32 {
-        let ((ah, al), (bh, bl)) = ((a >> 16, a & 0xffff), (b >> 16, b & 0xffff));
-        // (2^16 - 1)^2 + 2^16 - 1 fits
-        let first = ah.wrapping_mul(bl).wrapping_add(al.wrapping_mul(bl) >> 16);
-        let second = al.wrapping_mul(bh).wrapping_add(first & 0xffff);
-        ah.wrapping_mul(bh).wrapping_add(first >> 16).wrapping_add(second >> 16)
+        let ((ah, al), (bh, bl)) = ((a >> 16, a & 0xffff), ((b >> 16) + (b >> 15 & 1), i32::from(b as i16)));
+        // al bl fits a signed word, and so does ah bl with what is added
+        let low = (al as i32).wrapping_mul(bl) >> 16;
+        let first = (ah as i32).wrapping_mul(bl).wrapping_add(low);
+        // at most (2^16 - 1) 2^16 + 2^16 - 1
+        let second = al.wrapping_mul(bh).wrapping_add(first as u32 & 0xffff);
+        ah.wrapping_mul(bh).wrapping_add_signed(first >> 16).wrapping_add(second >> 16)
+    }
+
+    /// As [`high_of_square`]; the sum stays below `2^32`.
+    #[inline(always)]
+    pub(super) fn high_of_square_u(a: u32) -> u32 {
+        let (ah, al) = (a >> 16, a & 0xffff);
+        let square = al.wrapping_mul(al) >> 17;
+        ah.wrapping_mul(ah).wrapping_add(ah.wrapping_mul(al).wrapping_add(square) >> 15)
     }
 
     /// `a^2 = ah^2 2^32 + (ah al 2^17 + al^2)`, and the second part over `2^32` is `(ah al + al^2 / 2^17) / 2^15`.
@@ -136,6 +164,7 @@ mod tests {
         let (a, b) = (a as u32, b as u32);
         assert_eq!(halves::product_u(a, b), whole::product_u(a, b), "{a} {b}");
         assert_eq!(u64::from(halves::high_u(a, b)), whole::product_u(a, b) >> 32, "{a} {b}");
+        assert_eq!(u64::from(halves::high_of_square_u(a)), whole::product_u(a, a) >> 32, "{a}");
     }
 
     /// Words whose halves are the ends of theirs or beside them, all pairs; then `10^8` pairs at random.
