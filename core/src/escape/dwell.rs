@@ -18,7 +18,7 @@
 //! the test: the dwell is `Num`. The loop compares with a saved point once every 8 iterations and moves the saved point at doubling
 //! distances (R. P. Brent, "An improved Monte Carlo factorization algorithm", 1980).
 
-use crate::num::{high_of_square, high_rounded, product};
+use crate::num::{high_of_double, high_of_square, product};
 
 /// A stored point: real and imaginary part with 29 fractional bits.
 pub(super) type Word = (i32, i32);
@@ -61,7 +61,7 @@ impl Step for Coarse {
         // x^2 - y^2 from the sum that the test has just made: one instruction
         let real = norm((x, y)).wrapping_sub(high_of_square(y).wrapping_mul(2));
         // to nearest, which costs nothing (SMMULR)
-        let cross = high_rounded(x.wrapping_add(x), y);
+        let cross = high_of_double(x, y);
         (cx.wrapping_add(real << 3), cy.wrapping_add(cross << 3))
     }
 }
