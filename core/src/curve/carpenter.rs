@@ -15,7 +15,7 @@ use super::displacement::{
 };
 use super::gaussian::{Deviate, Parameter, RandomFunction};
 use crate::Error;
-use crate::num::{Real, Unit, sqrt};
+use crate::num::{self, Real, Unit, sqrt};
 use crate::picture::Point2;
 
 /// The graph of a function `h(t)`: `x` of a point is `t`, `y` is `h`. Size: 136 bytes.
@@ -61,11 +61,11 @@ impl LineToLine {
     pub fn extrapolated(&self, from: Point2, to: Point2, at: Parameter) -> Result<Point2, Error> {
         // o_{-1} (t_2 - t_1) = o_0 / (o_1 / o_0) span over the whole of twice the span
         let [first, second] = self.first_offsets();
-        let above = (i64::from(first) * i64::from(first)).checked_div(i64::from(second).max(1)).unwrap_or(0);
+        let above = (num::product(first, first)).checked_div(i64::from(second).max(1)).unwrap_or(0);
         let above = above.min(i64::from(i32::MAX)) as i32;
         let g = product(above, self.random.at(at).to_bits());
         let span = to.x.saturating_sub(from.x);
-        let displacement = (i64::from(span.to_bits()) * i64::from(g) + (1 << 27)) >> 28;
+        let displacement = (num::product(span.to_bits(), g) + (1 << 27)) >> 28;
         let reflected = |a: Real, m: i64| 2 * m - i64::from(a.to_bits());
         let x = reflected(from.x, i64::from(to.x.to_bits()));
         let y = reflected(from.y, i64::from(to.y.to_bits()) - displacement);
@@ -156,7 +156,7 @@ fn mean_ratio(offset: i32) -> i64 {
         .map(|r| {
             // twice the product, 27 fractional bits: below 2^31
             let g = product(offset, *r).unsigned_abs();
-            i64::from(sqrt((1 << 54) + u64::from(g) * u64::from(g))) * 2
+            i64::from(sqrt((1 << 54) + num::product_u(g, g))) * 2
         })
         .sum();
     sum.checked_div(magnitudes.len() as i64).unwrap_or(0)

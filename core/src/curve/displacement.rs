@@ -5,7 +5,7 @@
 
 use super::gaussian::{Deviate, Parameter};
 use crate::Error;
-use crate::num::{Real, Unit, Wide, exp_minus};
+use crate::num::{self, Real, Unit, Wide, exp_minus};
 use crate::picture::Point2;
 
 /// How often a part between two knots can be halved at most: the parameter has 32 fractional bits.
@@ -46,11 +46,10 @@ pub trait Displacement {
 pub fn displaced(part: &Part, along: Deviate, across: Deviate) -> Point2 {
     let (from, to) = (part.from, part.to);
     let (dx, dy) = (to.x.saturating_sub(from.x), to.y.saturating_sub(from.y));
-    let (g, h) = (i64::from(along.to_bits()), i64::from(across.to_bits()));
-    let (dx, dy) = (i64::from(dx.to_bits()), i64::from(dy.to_bits()));
+    let (g, h, dx, dy) = (along.to_bits(), across.to_bits(), dx.to_bits(), dy.to_bits());
     // |p1 + p2| <= 2^32 and each product is at most 2^62: the second sum saturates, the first cannot
-    let x = (doubled(from.x, to.x) + dx * g).saturating_sub(dy * h);
-    let y = (doubled(from.y, to.y) + dy * g).saturating_add(dx * h);
+    let x = (doubled(from.x, to.x) + num::product(dx, g)).saturating_sub(num::product(dy, h));
+    let y = (doubled(from.y, to.y) + num::product(dy, g)).saturating_add(num::product(dx, h));
     Point2::new(rounded(x), rounded(y))
 }
 
@@ -66,7 +65,7 @@ pub(super) fn raised_across(part: &Part, across: i32) -> Point2 {
 #[inline]
 pub(super) fn raised(a: Real, b: Real, length: Real, g: i32) -> Real {
     // below 2^60 + 2^62
-    rounded(doubled(a, b) + i64::from(length.to_bits()) * i64::from(g))
+    rounded(doubled(a, b) + num::product(length.to_bits(), g))
 }
 
 /// `(a + b) / 2` with 52 fractional bits, and the half unit that rounds to 24.
@@ -84,7 +83,7 @@ fn rounded(sum: i64) -> Real {
 /// The product of two numbers with 28 fractional bits, rounded. For offsets of at most 2 and deviates of at most 3.4 it stays below 8.
 #[inline]
 pub(super) fn product(a: i32, b: i32) -> i32 {
-    ((i64::from(a) * i64::from(b) + (1 << 27)) >> 28) as i32
+    ((num::product(a, b) + (1 << 27)) >> 28) as i32
 }
 
 /// An offset with 28 fractional bits.

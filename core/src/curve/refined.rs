@@ -10,7 +10,7 @@
 
 use super::generator::{Cell, Generator, hypotenuse, oriented};
 use crate::Error;
-use crate::num::{Real, Wide};
+use crate::num::{Real, Wide, product, product_u};
 use crate::picture::{Point2, Step};
 
 /// Segments of the base are shorter than this.
@@ -51,8 +51,8 @@ impl Drawn {
         let ([p, q], [dx, dy]) = (self.start, self.vector);
         // the constructor proves |p + d v| < 128 for all copies
         [
-            p.wrapping_add(times(dx, x)).wrapping_add(times(dy, y.wrapping_neg())),
-            q.wrapping_add(times(dx, y)).wrapping_add(times(dy, x)),
+            p.wrapping_add(product(dx, x)).wrapping_add(product(dy, y.wrapping_neg())),
+            q.wrapping_add(product(dx, y)).wrapping_add(product(dy, x)),
         ]
     }
 }
@@ -87,8 +87,8 @@ impl Copy {
         let [x, y] = cell.vector;
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
         let ([p, q], [dx, dy]) = (self.start, self.vector);
-        let u = times(dx, x).wrapping_add(times(dy, y.wrapping_neg()));
-        let v = times(dx, y).wrapping_add(times(dy, x));
+        let u = product(dx, x).wrapping_add(product(dy, y.wrapping_neg()));
+        let v = product(dx, y).wrapping_add(product(dy, x));
         self.start = [p.wrapping_add(u), q.wrapping_add(v)];
         // |w| < 1, so that the vector becomes shorter
         let rounded = |bits: i64| (bits.wrapping_add(1 << 29) >> 30) as i32;
@@ -97,11 +97,6 @@ impl Copy {
         let orders = self.orders.wrapping_sub(1);
         Self { start: [p, q], vector: [rounded(u), rounded(v)], length, next, end, state, orders }
     }
-}
-
-#[inline(always)]
-fn times(a: i32, b: i32) -> i64 {
-    i64::from(a) * i64::from(b)
 }
 
 #[inline(always)]
@@ -317,7 +312,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
 
 #[inline(always)]
 fn scaled(length: u32, ratio: u32) -> u32 {
-    ((u64::from(length) * u64::from(ratio)) >> 30) as u32
+    (product_u(length, ratio) >> 30) as u32
 }
 
 impl<const S: usize, const DEPTH: usize> Iterator for Refined<'_, S, DEPTH> {

@@ -18,6 +18,8 @@
 //! the test: the dwell is `Num`. The loop compares with a saved point once every 8 iterations and moves the saved point at doubling
 //! distances (R. P. Brent, "An improved Monte Carlo factorization algorithm", 1980).
 
+use crate::num::{high_of_double, high_of_square, product};
+
 /// A stored point: real and imaginary part with 29 fractional bits.
 pub(super) type Word = (i32, i32);
 
@@ -44,8 +46,8 @@ pub(super) struct Coarse;
 impl Step for Fine {
     #[inline(always)]
     fn step((x, y): Word, (cx, cy): Word) -> Word {
-        let real = i64::from(x.wrapping_sub(y)) * i64::from(x.wrapping_add(y));
-        let cross = i64::from(x) * i64::from(y);
+        let real = product(x.wrapping_sub(y), x.wrapping_add(y));
+        let cross = product(x, y);
         // (product >> 29) + c as two additions of a shifted register each
         let re = cx.wrapping_add(high_word(real) << 3).wrapping_add(((real as u32) >> 29) as i32);
         let im = cy.wrapping_add(high_word(cross) << 4).wrapping_add(((cross as u32) >> 28) as i32);
@@ -57,9 +59,9 @@ impl Step for Coarse {
     #[inline(always)]
     fn step((x, y): Word, (cx, cy): Word) -> Word {
         // x^2 - y^2 from the sum that the test has just made: one instruction
-        let real = norm((x, y)).wrapping_sub(high(y, y).wrapping_mul(2));
+        let real = norm((x, y)).wrapping_sub(high_of_square(y).wrapping_mul(2));
         // to nearest, which costs nothing (SMMULR)
-        let cross = high_word(i64::from(x.wrapping_add(x)) * i64::from(y) + (1 << 31));
+        let cross = high_of_double(x, y);
         (cx.wrapping_add(real << 3), cy.wrapping_add(cross << 3))
     }
 }
@@ -136,7 +138,7 @@ fn is_near(z: Word) -> bool {
 /// `|z|^2` with 26 fractional bits, at most `2^30 + 2^30` if read as unsigned; low by less than 2 units.
 #[inline(always)]
 fn norm((x, y): Word) -> i32 {
-    high(x, x).wrapping_add(high(y, y))
+    high_of_square(x).wrapping_add(high_of_square(y))
 }
 
 /// What becomes of a point near the edge of the disc.
@@ -167,13 +169,8 @@ fn careful(z: Word, c: Word) -> Careful {
 /// Whether `|z| > 2`, exactly.
 #[inline]
 pub(super) fn is_beyond((x, y): Word) -> bool {
-    let square = |v: i32| (i64::from(v) * i64::from(v)) as u64; // at most 2^62
+    let square = |v: i32| product(v, v) as u64; // at most 2^62
     square(x) + square(y) > FOUR
-}
-
-#[inline(always)]
-pub(super) fn high(a: i32, b: i32) -> i32 {
-    high_word(i64::from(a) * i64::from(b))
 }
 
 #[inline(always)]

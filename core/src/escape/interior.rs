@@ -8,7 +8,8 @@
 //! called inside (`nothing_outside_is_called_inside`), and a rim, `2^-20` wide except near the cusp at
 //! 1/4 where it is wider, is left to the iteration (`the_rim_that_is_left_is_thin`).
 
-use super::dwell::{FRACTION, Word, high};
+use super::dwell::{FRACTION, Word};
+use crate::num::{high, product};
 
 /// Kept free inside both borders, in units of `2^-26`: deeper inside, the orbit is drawn in faster than rounding drives it out
 /// (`interior_and_cycles_change_no_pixel`, on the rims themselves).
@@ -19,14 +20,14 @@ const MARGIN: i32 = 1 << 4;
 /// Domain: `|c| <= 2`. Cost: 6 multiplications.
 #[inline(always)]
 pub(super) fn contains((x, y): Word) -> bool {
-    let yy = i64::from(y) * i64::from(y); // at most 2^60
+    let yy = product(y, y); // at most 2^60
     let yy_high = (yy >> 32) as i32;
     // p >= -9/4, p^2 + y^2 < 9.1 < 32: no word overflows. Both sums are low by less than 2 units before the margin is added.
     let p = x - (1 << (FRACTION - 2));
     let q = high(p, p) + yy_high + MARGIN;
     let q_plus_p = q + (p >> 3) + 1;
     // 52 fractional bits on both sides. If q + p is negative, so is the exact one, and the exact test holds as well.
-    if i64::from(q) * i64::from(q_plus_p) <= yy >> 8 {
+    if product(q, q_plus_p) <= yy >> 8 {
         return true;
     }
     let r = x + (1 << FRACTION);

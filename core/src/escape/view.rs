@@ -14,7 +14,7 @@ use embedded_graphics_core::geometry::Size;
 use super::Complex;
 use super::dwell::{FRACTION, Word, is_beyond};
 use crate::Error;
-use crate::num::{Wide, mul_high_u};
+use crate::num::{Wide, high_of_square, mul_high_u};
 use crate::picture::checked_size;
 
 /// Fractional bits that a point loses when it becomes a [`Word`].
@@ -315,7 +315,7 @@ pub(super) fn narrow(c: Complex<Wide>) -> Option<Word> {
 
 #[inline(always)]
 fn high_square(v: i32) -> u32 {
-    super::dwell::high(v, v) as u32
+    high_of_square(v) as u32
 }
 
 #[cold]

@@ -10,6 +10,7 @@
 
 use super::block::{Block, Number};
 use super::escape_time::Steps;
+use crate::num::{high_of_square, product, product_u};
 
 /// A real word of an orbit.
 pub(super) trait WideWord: Copy + PartialEq {
@@ -87,13 +88,13 @@ pub(super) fn dwell<W: WideWord>(z: (W, W), c: (W, W), max: u32) -> u32 {
 
 #[inline(always)]
 fn high(v: i32) -> u32 {
-    ((i64::from(v) * i64::from(v)) >> 32) as u32
+    high_of_square(v) as u32
 }
 
 /// The full product of two words and two more words: it just fits 64 bits (`UMAAL`).
 #[inline(always)]
 fn multiply_add(a: u32, b: u32, c: u32, d: u32) -> (u32, u32) {
-    let sum = u64::from(a) * u64::from(b) + u64::from(c) + u64::from(d);
+    let sum = product_u(a, b) + u64::from(c) + u64::from(d);
     (sum as u32, (sum >> 32) as u32)
 }
 
@@ -106,21 +107,21 @@ fn halves(v: i64) -> (i32, i32) {
 
 /// `a b / 2^(32 + DOWN)`, to nearest but for `2^-DOWN` units. Domain: `|a|, |b| < 4`, the product below 4.
 #[inline(always)]
-fn product<const DOWN: u32>(a: i64, b: i64) -> i64 {
+fn scaled_product<const DOWN: u32>(a: i64, b: i64) -> i64 {
     let ((ah, al), (bh, bl)) = (halves(a), halves(b));
     // the words in the middle: below 2^63 for factors of at most 2 sqrt 2
-    let middle = ((i64::from(al) * i64::from(bl)) >> 32)
+    let middle = (product(al, bl) >> 32)
         .wrapping_add(1 << (DOWN - 1))
-        .wrapping_add(i64::from(ah) * i64::from(bl))
-        .wrapping_add(i64::from(al) * i64::from(bh));
-    ((i64::from(ah) * i64::from(bh)) << (32 - DOWN)).wrapping_add(middle >> DOWN)
+        .wrapping_add(product(ah, bl))
+        .wrapping_add(product(al, bh));
+    ((product(ah, bh)) << (32 - DOWN)).wrapping_add(middle >> DOWN)
 }
 
 impl WideWord for i64 {
     #[inline(always)]
     fn step((x, y): (Self, Self), c: (Self, Self)) -> (Self, Self) {
-        let real = product::<28>(x.wrapping_sub(y), x.wrapping_add(y));
-        let cross = product::<27>(x, y); // 2 x y
+        let real = scaled_product::<28>(x.wrapping_sub(y), x.wrapping_add(y));
+        let cross = scaled_product::<27>(x, y); // 2 x y
         (real.wrapping_add(c.0), cross.wrapping_add(c.1))
     }
 
@@ -235,7 +236,7 @@ mod tests {
             for (a, b) in [(v, v), (v, w), (-v, w)] {
                 let exact = |down: u32| (i128::from(a) * i128::from(b)) >> down;
                 if exact(60).abs() < 1 << 62 {
-                    let (single, double) = (product::<28>(a, b), product::<27>(a, b));
+                    let (single, double) = (scaled_product::<28>(a, b), scaled_product::<27>(a, b));
                     let off =
                         |got: i64, down: u32| i128::from(got) * (1 << down) - i128::from(a) * i128::from(b);
                     assert!(off(single, 60).abs() <= (1 << 59) + (1 << 33), "{a} {b}");

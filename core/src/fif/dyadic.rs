@@ -10,7 +10,7 @@ use core::num::NonZeroU32;
 use heapless::Vec;
 
 use super::Fif;
-use crate::num::{Angle, FRACTION, ONE, Real, real_from, round_shift};
+use crate::num::{Angle, FRACTION, ONE, Real, product, real_from, round_shift};
 
 /// One map in 32-bit words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,13 +144,10 @@ impl<const M: usize, const D: usize> Dyadic<M, D> {
             for (k, c) in map.powers.iter().enumerate().rev() {
                 q = q.wrapping_add(*c);
                 if k > 0 {
-                    q = ((i64::from(q) * i64::from(t as i32)) >> 31) as i32;
+                    q = (product(q, t as i32) >> 31) as i32;
                 }
             }
-            let sum = map
-                .constant
-                .wrapping_add(i64::from(q).wrapping_mul(i64::from(t as i32)))
-                .wrapping_add(i64::from(y).wrapping_mul(i64::from(map.scaling)));
+            let sum = map.constant.wrapping_add(product(q, t as i32)).wrapping_add(product(y, map.scaling));
             y = (sum >> 31) as i32;
             t = (t >> bits) | (digit << (31 - bits));
             digit = digits & mask;

@@ -11,7 +11,7 @@
 use super::affine::Affine;
 use super::system::Ifs;
 use crate::Error;
-use crate::num::{Real, Unit};
+use crate::num::{self, Real, Unit};
 use crate::picture::{Point2, Step};
 
 /// A composed map, and which of the system's maps is composed with it next.
@@ -62,7 +62,7 @@ impl Composed {
 
 #[inline(always)]
 fn times(a: i32, b: i32) -> i64 {
-    i64::from(a) * i64::from(b)
+    num::product(a, b)
 }
 
 /// The composed maps of order `k`, depth first.

@@ -2,7 +2,7 @@
 //!
 //! Source: A. J. Walker, "An efficient method for generating discrete random variables", 1977; the table by M. D. Vose, 1991.
 
-use super::ratio;
+use super::{product_by_short, ratio};
 use crate::Error;
 
 /// An alias table of at most `N <= 256` items. Cost of a draw: one multiplication, one comparison, two loads.
@@ -48,7 +48,7 @@ impl<const N: usize> Alias<N> {
     /// The item that a uniformly distributed word stands for.
     #[inline]
     pub fn pick(&self, word: u32) -> usize {
-        let product = u64::from(word) * u64::from(self.len);
+        let product = product_by_short(word, self.len as u16);
         let slot = (product >> 32) as usize;
         // slot < len <= N: `get` only spares the proof to the compiler
         match (self.threshold.get(slot), self.other.get(slot)) {

@@ -5,8 +5,10 @@
 
 use core::num::NonZeroU32;
 
+use super::product::{high, high_of_square_u, high_u, product_u, square_u};
+
 /// Seeds of `1/m` for `m = 1 + (i + 1/2) / 128`, 16 fractional bits.
-static RECIPROCAL: [u16; 128] = {
+pub(super) static SEEDS: [u16; 128] = {
     let mut table = [0; 128];
     let mut i = 0;
     while i < 128 {
@@ -38,11 +40,6 @@ static RECIPROCAL_SQRT: [u16; 256] = {
     table
 };
 
-#[inline(always)]
-const fn high(a: u32, b: u32) -> u32 {
-    ((a as u64 * b as u64) >> 32) as u32
-}
-
 /// `1/d` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
 ///
 /// Domain: `d > 0` (0 counts as 1). Error: below `2^-29` relative. Cost: 4 multiplications, a table of 256 bytes.
@@ -58,11 +55,11 @@ pub fn reciprocal(d: u32) -> (u32, u32) {
 pub(crate) fn reciprocal_of(d: NonZeroU32) -> (i32, u32) {
     let zeros = d.leading_zeros();
     let m = d.get() << zeros; // 31 fractional bits, in [1, 2)
-    let seed = RECIPROCAL[((m >> 24) & 127) as usize];
+    let seed = SEEDS[((m >> 24) & 127) as usize];
     // y with 32 fractional bits, m y and 2 - m y with 31, their product with 31
     let mut y = u32::from(seed) << 16;
-    y = high(y, high(m, y).wrapping_neg()) << 1;
-    (high(y, high(m, y).wrapping_neg()) as i32, zeros)
+    y = high_u(y, high_u(y, m).wrapping_neg()) << 1;
+    (high_u(y, high_u(y, m).wrapping_neg()) as i32, zeros)
 }
 
 /// `1/sqrt(v)` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
@@ -89,10 +86,13 @@ pub fn sqrt(v: u64) -> u32 {
     let (m, half) = normal(v);
     let y = newton(m);
     // sqrt(m) with 61 fractional bits, times 2^half: too large or small by less than 2^5
-    let root = u32::try_from((u64::from(m) * u64::from(y)) >> (61 - half)).unwrap_or(u32::MAX);
-    let rest = |root: u32| v.wrapping_sub(u64::from(root) * u64::from(root)) as i64;
+    let root = u32::try_from(product_u(m, y) >> 30).unwrap_or(u32::MAX) >> (half ^ 31);
+    let rest = |root: u32| v.wrapping_sub(square_u(root)) as i64;
     // one more Newton step: the remainder, below 2^7 2^half, times 1 / (2 root)
-    let step = (i64::from((rest(root) >> half) as i32) * i64::from(y as i32)) >> 32;
+    let left = rest(root);
+    // by words: a 64-bit shift by a variable is a call on a Cortex-M0
+    let left = (left as u32) >> half | (((left >> 32) as u32) << 1) << (half ^ 31);
+    let step = high(left as i32, y as i32);
     let root = root.wrapping_add(step as u32);
     let left = rest(root);
     if left < 0 { root.wrapping_sub(1) } else { root.wrapping_add(u32::from(left > 2 * i64::from(root))) }
@@ -109,11 +109,11 @@ pub(crate) fn root_and_reciprocal(v: u64) -> (u32, u32, u32) {
     // the low word is left to the correction
     let m = high_word << (2 * places);
     let y = newton(m);
-    let root = ((u64::from(m) * u64::from(y)) >> 30) as u32 >> places;
+    let root = (product_u(m, y) >> 30) as u32 >> places;
     // one Newton step: the remainder, below 2^38, over twice the root
-    let rest = v.wrapping_sub(u64::from(root).wrapping_mul(u64::from(root))) as i64;
-    let correction = (i64::from((rest >> 8) as i32) * i64::from((y >> 1) as i32)) >> 32;
-    let correction = ((correction as i32 >> (21 - places)) + 1) >> 1;
+    let rest = v.wrapping_sub(square_u(root)) as i64;
+    let correction = high((rest >> 8) as i32, (y >> 1) as i32);
+    let correction = ((correction >> (21 - places)) + 1) >> 1;
     (root.wrapping_add(correction as u32), y, places)
 }
 
@@ -139,8 +139,8 @@ fn normal(v: u64) -> (u32, u32) {
 fn newton(m: u32) -> u32 {
     // y with 32 fractional bits, m y^2 and 3 - m y^2 with 30; their product is twice the next y, with 30
     let mut y = u32::from(RECIPROCAL_SQRT[(m >> 24) as usize]) << 16;
-    y = high(y, (3 << 30) - high(m, high(y, y))) << 1;
-    high(y, (3 << 30) - high(m, high(y, y)))
+    y = high_u(y, (3 << 30) - high_u(m, high_of_square_u(y))) << 1;
+    high_u(y, (3 << 30) - high_u(m, high_of_square_u(y)))
 }
 
 #[cfg(test)]

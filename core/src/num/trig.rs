@@ -1,6 +1,7 @@
 //! Sine and cosine by their series, after the angle is brought into an eighth of a turn around zero.
 
 use super::Unit;
+use super::product;
 
 /// An angle in turns: the whole range of the number is one turn, so that it wraps as angles do.
 pub type Angle = fixed::types::U0F32;
@@ -18,21 +19,21 @@ pub fn sin_cos(angle: Angle) -> (Unit, Unit) {
     let rest = angle.to_bits().wrapping_sub(quarter << 30) as i32;
     // radians with 31 fractional bits: rest / 2^32 * 2 pi, and 2 pi = PI_4 * 2^3 with 31 fractional bits below
     const PI_4: i32 = 0x6487_ed51; // pi / 4 * 2^31
-    let x = ((i64::from(rest) * i64::from(PI_4)) >> 29) as i32; // |x| <= pi / 4
-    let square = product(x, x);
+    let x = (product(rest, PI_4) >> 29) as i32; // |x| <= pi / 4
+    let square = rounded(x, x);
     let sine = {
         let mut s = RECIPROCALS[9];
         for k in [7, 5, 3] {
-            s = RECIPROCALS[k] - product(square, s);
+            s = RECIPROCALS[k] - rounded(square, s);
         }
-        x - product(product(square, s), x)
+        x - rounded(rounded(square, s), x)
     };
     let cosine = {
         let mut c = RECIPROCALS[10];
         for k in [8, 6, 4, 2] {
-            c = RECIPROCALS[k] - product(square, c);
+            c = RECIPROCALS[k] - rounded(square, c);
         }
-        i32::MAX - product(square, c)
+        i32::MAX - rounded(square, c)
     };
     let (s, c) = ((sine + 1) >> 1, (cosine >> 1) + 1);
     let (s, c) = match quarter & 3 {
@@ -45,8 +46,8 @@ pub fn sin_cos(angle: Angle) -> (Unit, Unit) {
 }
 
 #[inline]
-fn product(a: i32, b: i32) -> i32 {
-    ((i64::from(a) * i64::from(b) + (1 << 30)) >> 31) as i32
+fn rounded(a: i32, b: i32) -> i32 {
+    ((product(a, b) + (1 << 30)) >> 31) as i32
 }
 
 /// `1/k!` with 31 fractional bits. The ones for 0 and 1 do not fit and are not used.

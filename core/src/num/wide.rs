@@ -2,6 +2,7 @@
 //!
 //! `i128` multiplication is a library call on 32-bit machines; these are a handful of `SMULL`/`UMULL` each.
 
+use super::product::{self, product, product_u};
 use super::ratio;
 
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
@@ -11,8 +12,8 @@ use super::ratio;
 pub fn scale31(value: i64, factor: i32) -> i64 {
     let high = (value >> 32) as i32;
     let low = ((value as u32) >> 1) as i32;
-    let low_product = ((i64::from(low) * i64::from(factor)) >> 32) as i32;
-    ((i64::from(high) * i64::from(factor)) << 1) + (i64::from(low_product) << 2)
+    let low_product = product::high(low, factor);
+    (product(high, factor) << 1) + (i64::from(low_product) << 2)
 }
 
 /// The high 64 bits of the 128-bit product, towards minus infinity. Exact.
@@ -26,19 +27,18 @@ pub fn mul_high(a: i64, b: i64) -> i64 {
 /// The high 64 bits of the 128-bit product, rounded down. Exact.
 #[inline]
 pub fn mul_high_u(a: u64, b: u64) -> u64 {
-    let (ah, al) = (a >> 32, a & 0xffff_ffff);
-    let (bh, bl) = (b >> 32, b & 0xffff_ffff);
-    let low = (al * bl) >> 32;
-    let cross1 = ah * bl + low; // cannot overflow: (2^32-1)^2 + 2^32-1 < 2^64
-    let cross2 = al * bh + (cross1 & 0xffff_ffff);
-    ah * bh + (cross1 >> 32) + (cross2 >> 32)
+    let ((ah, al), (bh, bl)) = (((a >> 32) as u32, a as u32), ((b >> 32) as u32, b as u32));
+    let low = u64::from(product::high_u(al, bl));
+    let cross1 = product_u(ah, bl) + low; // cannot overflow: (2^32-1)^2 + 2^32-1 < 2^64
+    let cross2 = product_u(al, bh) + (cross1 & 0xffff_ffff);
+    product_u(ah, bh) + (cross1 >> 32) + (cross2 >> 32)
 }
 
 /// `v mantissa / 2^(half + 1)` towards minus infinity, for `half` at most 31: a number scaled by a reciprocal square root.
 #[inline(always)]
 pub(crate) fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     // by halves: a 64-bit shift by a variable takes twice as long
-    let product = i64::from(v) * i64::from(mantissa);
+    let product = product(v, mantissa);
     ((((product as u32) >> (half & 31)) >> 1) | ((product >> 32) as u32) << ((half & 31) ^ 31)) as i32
 }
 

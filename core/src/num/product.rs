@@ -1,0 +1,224 @@
+//! Products of two 32-bit numbers: all 64 bits, or the upper 32 alone.
+//!
+//! A Cortex-M4 or a RISC-V core has them as one instruction or two. A Cortex-M0 has not: it keeps the lower 32 bits of a product only, and the
+//! compiler calls a library function for the rest. Such a target (`build.rs` knows which) multiplies by halves here, inline:
+//!
+//! `a b = ah bh 2^32 + (ah bl + al bh) 2^16 + al bl`, with `a = ah 2^16 + al`, `al` unsigned.
+//!
+//! Both ways give the same bits (`both_ways_give_the_same_bits`); every function is exact for all operands.
+
+/// `a b`. Cost: one Cortex-M4 instruction; on a Cortex-M0 17.
+#[inline(always)]
+pub(crate) fn product(a: i32, b: i32) -> i64 {
+    if cfg!(no_long_product) { halves::product(a, b) } else { whole::product(a, b) }
+}
+
+/// `a b`. Cost: as [`product`].
+#[inline(always)]
+pub(crate) fn product_u(a: u32, b: u32) -> u64 {
+    if cfg!(no_long_product) { halves::product_u(a, b) } else { whole::product_u(a, b) }
+}
+
+/// `a b` for a `b` of 16 bits. Cost: one Cortex-M4 instruction; on a Cortex-M0 8.
+#[inline(always)]
+pub(crate) fn product_by_short(a: u32, b: u16) -> u64 {
+    if cfg!(no_long_product) { halves::product_by_short(a, b) } else { whole::product_u(a, b.into()) }
+}
+
+/// The upper word of `a b`, towards minus infinity. Cost: one Cortex-M4 instruction; on a Cortex-M0 14.
+#[inline(always)]
+pub(crate) fn high(a: i32, b: i32) -> i32 {
+    if cfg!(no_long_product) { halves::high(a, b) } else { (whole::product(a, b) >> 32) as i32 }
+}
+
+/// The upper word of `a b`, to nearest: `(a b + 2^31) / 2^32`, halves upwards. Cost: as [`high`].
+#[inline(always)]
+pub(crate) fn high_rounded(a: i32, b: i32) -> i32 {
+    if cfg!(no_long_product) {
+        halves::high_rounded(a, b)
+    } else {
+        ((whole::product(a, b) + (1 << 31)) >> 32) as i32
+    }
+}
+
+/// The upper word of `2 a b`, to nearest, halves upwards.
+///
+/// Domain: `|a| + |b| <= 2^31 - 2^18`. Cost: two Cortex-M4 instructions; on a Cortex-M0 14, and less where the squares are wanted too: the halves are shared.
+#[inline(always)]
+pub(crate) fn high_of_double(a: i32, b: i32) -> i32 {
+    if cfg!(no_long_product) { halves::high_of_double(a, b) } else { high_rounded(a.wrapping_add(a), b) }
+}
+
+/// The upper word of `a b`, rounded down. Cost: as [`high`].
+#[inline(always)]
+pub(crate) fn high_u(a: u32, b: u32) -> u32 {
+    if cfg!(no_long_product) { halves::high_u(a, b) } else { (whole::product_u(a, b) >> 32) as u32 }
+}
+
+/// The upper word of `a^2`. Cost: one Cortex-M4 instruction; on a Cortex-M0 9.
+#[inline(always)]
+pub(crate) fn high_of_square(a: i32) -> i32 {
+    if cfg!(no_long_product) { halves::high_of_square(a) } else { (whole::product(a, a) >> 32) as i32 }
+}
+
+/// The upper word of `a^2`, rounded down. Cost: as [`high_of_square`].
+#[inline(always)]
+pub(crate) fn high_of_square_u(a: u32) -> u32 {
+    if cfg!(no_long_product) { halves::high_of_square_u(a) } else { (whole::product_u(a, a) >> 32) as u32 }
+}
+
+/// `a^2`. Cost: one Cortex-M4 instruction; on a Cortex-M0 10.
+#[inline(always)]
+pub(crate) fn square_u(a: u32) -> u64 {
+    if cfg!(no_long_product) {
+        u64::from(halves::high_of_square_u(a)) << 32 | u64::from(a.wrapping_mul(a))
+    } else {
+        whole::product_u(a, a)
+    }
+}
+
+/// By the target's instruction.
+mod whole {
+    #[inline(always)]
+    pub(super) fn product(a: i32, b: i32) -> i64 {
+        i64::from(a) * i64::from(b)
+    }
+
+    #[inline(always)]
+    pub(super) fn product_u(a: u32, b: u32) -> u64 {
+        u64::from(a) * u64::from(b)
+    }
+}
+
+/// By products of 16-bit halves.
+mod halves {
+    /// Upper half with its sign, lower half without.
+    #[inline(always)]
+    fn split(a: i32) -> (i32, i32) {
+        (a >> 16, a & 0xffff)
+    }
+
+    /// `ah bh`, and the two sums of the middle: `ah bl` and the carry of `al bl`; `al bh` and the lower half of the first.
+    ///
+    /// Neither leaves 32 bits: `|ah bl| <= 2^15 (2^16 - 1)`, and what is added is below `2^16`.
+    #[inline(always)]
+    fn parts(a: i32, b: i32) -> (i32, i32, i32) {
+        let ((ah, al), (bh, bl)) = (split(a), split(b));
+        let low = (al as u32).wrapping_mul(bl as u32);
+        let first = ah.wrapping_mul(bl).wrapping_add((low >> 16) as i32);
+        let second = al.wrapping_mul(bh).wrapping_add(first & 0xffff);
+        (ah.wrapping_mul(bh), first, second)
+    }
+
+    #[inline(always)]
+    pub(super) fn high(a: i32, b: i32) -> i32 {
+        let (top, first, second) = parts(a, b);
+        top.wrapping_add(first >> 16).wrapping_add(second >> 16)
+    }
+
+    /// Bit 31 of the product is bit 15 of the second sum, which has no room for half a unit more: it is halved to it first.
+    #[inline(always)]
+    pub(super) fn high_rounded(a: i32, b: i32) -> i32 {
+        let (top, first, second) = parts(a, b);
+        top.wrapping_add(first >> 16).wrapping_add((second >> 15).wrapping_add(1) >> 1)
+    }
+
+    /// With a signed lower half of `b`, so that its upper half may be `2^16`. The compiler knows the form with unsigned halves for what it is, and would
+    /// put the call of the library back.
+    #[inline(always)]
+    pub(super) fn high_u(a: u32, b: u32) -> u32 {
+        let ((ah, al), (bh, bl)) = ((a >> 16, a & 0xffff), ((b >> 16) + (b >> 15 & 1), i32::from(b as i16)));
+        // al bl fits a signed word, and so does ah bl with what is added
+        let low = (al as i32).wrapping_mul(bl) >> 16;
+        let first = (ah as i32).wrapping_mul(bl).wrapping_add(low);
+        // at most (2^16 - 1) 2^16 + 2^16 - 1
+        let second = al.wrapping_mul(bh).wrapping_add(first as u32 & 0xffff);
+        ah.wrapping_mul(bh).wrapping_add_signed(first >> 16).wrapping_add(second >> 16)
+    }
+
+    /// As [`high_of_square`]; the sum stays below `2^32`.
+    #[inline(always)]
+    pub(super) fn high_of_square_u(a: u32) -> u32 {
+        let (ah, al) = (a >> 16, a & 0xffff);
+        let square = al.wrapping_mul(al) >> 17;
+        ah.wrapping_mul(ah).wrapping_add(ah.wrapping_mul(al).wrapping_add(square) >> 15)
+    }
+
+    /// `a^2 = ah^2 2^32 + (ah al 2^17 + al^2)`, and the second part over `2^32` is `(ah al + al^2 / 2^17) / 2^15`.
+    #[inline(always)]
+    pub(super) fn high_of_square(a: i32) -> i32 {
+        let (ah, al) = split(a);
+        let square = (al as u32).wrapping_mul(al as u32) >> 17;
+        ah.wrapping_mul(ah).wrapping_add(ah.wrapping_mul(al).wrapping_add(square as i32) >> 15)
+    }
+
+    /// `(a b + 2^30) / 2^31`: the two products in the middle, below `2^16 (|ah| + |bh|)`, are added before anything is shifted.
+    #[inline(always)]
+    pub(super) fn high_of_double(a: i32, b: i32) -> i32 {
+        let ((ah, al), (bh, bl)) = (split(a), split(b));
+        let low = (al as u32).wrapping_mul(bl as u32) >> 16;
+        let middle = ah.wrapping_mul(bl).wrapping_add(al.wrapping_mul(bh)).wrapping_add(low as i32);
+        (ah.wrapping_mul(bh) << 1).wrapping_add(middle.wrapping_add(1 << 14) >> 15)
+    }
+
+    #[inline(always)]
+    pub(super) fn product_by_short(a: u32, b: u16) -> u64 {
+        let b = u32::from(b);
+        let low = (a & 0xffff).wrapping_mul(b) >> 16;
+        let high = (a >> 16).wrapping_mul(b).wrapping_add(low) >> 16;
+        u64::from(high) << 32 | u64::from(a.wrapping_mul(b))
+    }
+
+    /// The lower word is what the target has.
+    #[inline(always)]
+    pub(super) fn product(a: i32, b: i32) -> i64 {
+        (i64::from(high(a, b)) << 32) | i64::from(a.wrapping_mul(b) as u32)
+    }
+
+    #[inline(always)]
+    pub(super) fn product_u(a: u32, b: u32) -> u64 {
+        (u64::from(high_u(a, b)) << 32) | u64::from(a.wrapping_mul(b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{halves, whole};
+
+    fn agree(a: i32, b: i32) {
+        let exact = whole::product(a, b);
+        assert_eq!(halves::product(a, b), exact, "{a} {b}");
+        assert_eq!(i64::from(halves::high(a, b)), exact >> 32, "{a} {b}");
+        // |exact| <= 2^62: adding half a unit does not overflow
+        assert_eq!(i64::from(halves::high_rounded(a, b)), (exact + (1 << 31)) >> 32, "{a} {b}");
+        assert_eq!(i64::from(halves::high_of_square(a)), whole::product(a, a) >> 32, "{a}");
+        if i64::from(a).abs() + i64::from(b).abs() <= (1 << 31) - (1 << 18) {
+            let half_up = (2 * exact + (1 << 31)) >> 32;
+            assert_eq!(i64::from(halves::high_of_double(a, b)), half_up, "{a} {b}");
+        }
+        let (a, b) = (a as u32, b as u32);
+        assert_eq!(halves::product_u(a, b), whole::product_u(a, b), "{a} {b}");
+        assert_eq!(u64::from(halves::high_u(a, b)), whole::product_u(a, b) >> 32, "{a} {b}");
+        assert_eq!(halves::product_by_short(a, b as u16), whole::product_u(a, u32::from(b as u16)));
+        assert_eq!(u64::from(halves::high_of_square_u(a)), whole::product_u(a, a) >> 32, "{a}");
+    }
+
+    /// Words whose halves are the ends of theirs or beside them, all pairs; then `10^8` pairs at random.
+    #[test]
+    fn both_ways_give_the_same_bits() {
+        let ends = [0_u32, 1, 2, 0x7ffe, 0x7fff, 0x8000, 0x8001, 0xfffe, 0xffff];
+        let words = || ends.iter().flat_map(|h| ends.iter().map(move |l| (h << 16 | l) as i32));
+        for a in words() {
+            for b in words() {
+                agree(a, b);
+            }
+        }
+        let mut state = 1_u64;
+        for _ in 0..100_000_000_u32 {
+            // an LCG's upper bits (Knuth, TAOCP vol. 2, 3.3.4, table 1, line 26)
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let (a, b) = ((state >> 32) as i32, (state as u32).rotate_left(16) as i32);
+            agree(a, b);
+        }
+    }
+}
