@@ -27,7 +27,9 @@ static POWERS: [u32; 64] = {
     table
 };
 
-/// `e^-x`. Domain: `x >= 0`; less counts as 0. Error: below `2^-28`, none at 0. Cost: 6 multiplications, a table of 256 bytes.
+/// `e^-x`. Domain: `x >= 0`; less counts as 0. Error: below `2^-28`, none at 0
+/// (`e_to_the_minus_x_is_within_two_to_the_minus_28`). Cost: 32 Cortex-M4 instructions (kernel `exp_minus`), a
+/// table of 256 bytes.
 pub fn exp_minus(x: Real) -> Unit {
     // x / ln 2 with 32 fractional bits
     const PER_LN_2: u32 = 0x5c55_1d95; // 2^30 / ln 2

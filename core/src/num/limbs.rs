@@ -111,7 +111,7 @@ impl<const LIMBS: usize> Limbs<LIMBS> {
         if self.is_negative() { self.negated() } else { self }
     }
 
-    /// `self * other`, wrapped. Error: below 2 units, towards 0. Cost: about `LIMBS (LIMBS + 4) / 2` products of 32 bits.
+    /// `self * other`, wrapped. Error: below 2 units, towards 0 (`four_limbs_calculate_as_128_bits_do`). Cost: about `LIMBS (LIMBS + 4) / 2` products of 32 bits.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         let (a, b) = (self.magnitude(), other.magnitude());
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn four_limbs_calculate_as_128_bits_do() {
-        let mut worst = 0;
+        let (mut worst, mut low) = (0, 0.0_f64);
         for a in samples() {
             assert_eq!((four(a).top128(), four(a).top64()), (a, (a >> 64) as i64));
             assert_eq!(four(a).negated().top128(), -a);
@@ -254,6 +254,20 @@ mod tests {
                 let product = four(x << 62).times(&four(y << 62)).top128();
                 let exact = x * y;
                 worst = worst.max((product - exact).abs());
+                // all 128 bits: what is missing towards 0, from the 256 of the magnitudes
+                let (p, q) = (a.unsigned_abs(), b.unsigned_abs());
+                let word = |v: u128, k: u32| (v >> (64 * k)) as u64;
+                let part = |i: u32, j: u32| u128::from(word(p, i)) * u128::from(word(q, j));
+                let (middle, carry) = part(0, 1).overflowing_add(part(1, 0));
+                let (bottom, again) = part(0, 0).overflowing_add(middle << 64);
+                let top = part(1, 1) + (middle >> 64) + (u128::from(carry) << 64) + u128::from(again);
+                // 124 fractional bits each: a unit is 2^124 of the product's
+                let (units, rest) = (top << 4 | bottom >> 124, bottom & ((1 << 124) - 1));
+                if units >> 127 == 0 {
+                    let got = four(a).times(&four(b)).magnitude().top128().unsigned_abs();
+                    assert!(got <= units, "{a} {b}");
+                    low = low.max((units - got) as f64 + rest as f64 / 2_f64.powi(124));
+                }
             }
             let (quotient, rest) = four(a.abs()).divided(1001);
             assert_eq!((quotient.top128(), i128::from(rest)), (a.abs() / 1001, a.abs() % 1001));
@@ -261,6 +275,7 @@ mod tests {
             assert_eq!(four(a).plus_units(-5).top128(), a.wrapping_sub(5));
         }
         assert!(worst <= 1, "{worst}");
+        assert!((0.9..2.0).contains(&low), "{low}");
     }
 
     #[test]

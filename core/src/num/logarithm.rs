@@ -41,7 +41,7 @@ const THIRD: i32 = (2 * FIRST as i64 / 3) as i32;
 /// `log2(v)` with 24 fractional bits, to nearest.
 ///
 /// Domain: `v > 0` (0 counts as 1). Result: `0..=64` with 24 fractional bits. Error: below `2^-24`
-/// (`a_logarithm_is_within_two_to_the_minus_24`), none for powers of two. Cost: 5 multiplications, a table of 512 bytes.
+/// (`a_logarithm_is_within_two_to_the_minus_24`), none for powers of two. Cost: 37 Cortex-M4 instructions (kernel `log2`), a table of 512 bytes.
 pub fn log2(v: u64) -> u32 {
     // the mantissa with 31 fractional bits
     let (whole, m) = match NonZeroU32::new((v >> 32) as u32) {

@@ -18,7 +18,7 @@ pub(crate) struct Polynomial<const D: usize> {
     pub(crate) powers: [i64; D],
 }
 
-/// `value * t` for an abscissa with 63 fractional bits. Error: below 2 units, towards minus infinity; exact for `t` = 1.
+/// `value * t` for an abscissa with 63 fractional bits. Error: below 2 units, towards minus infinity; exact for `t` = 1 (`products_are_low_by_less_than_they_say`).
 ///
 /// Out of line: constructors ask for many.
 #[inline(never)]
@@ -37,13 +37,14 @@ fn inline_times(value: i64, t: u64) -> i64 {
     (mul_high_u(value as u64, t).wrapping_sub(correction) << 1) as i64
 }
 
-/// `2^-63 a b`, for `b` with 63 fractional bits. Error: below 2 units, towards minus infinity.
+/// `2^-63 a b`, for `b` with 63 fractional bits. Error: below 2 units, towards minus infinity
+/// (`products_are_low_by_less_than_they_say`).
 #[inline(never)]
 pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
     mul_high(a, b) << 1
 }
 
-/// `a b`, both with 63 fractional bits, for `a` below 1. Error: below a unit, downwards.
+/// `a b`, both with 63 fractional bits, for `a` below 1. Error: below a unit, downwards (`products_are_low_by_less_than_they_say`).
 #[inline(never)]
 pub(crate) fn part_of(a: u64, b: u64) -> u64 {
     mul_high_u(a << 1, b)
@@ -52,7 +53,7 @@ pub(crate) fn part_of(a: u64, b: u64) -> u64 {
 impl<const D: usize> Polynomial<D> {
     pub(crate) const ZERO: Self = Self { constant: 0, powers: [0; D] };
 
-    /// The value at `t`. Error: below `2 D` units. Cost: `D` products of 64 bits.
+    /// The value at `t`. Error: below `2 D` units (`a_polynomial_keeps_its_bounds`). Cost: `D` products of 64 bits.
     #[inline]
     pub(crate) fn at(&self, t: u64) -> i64 {
         let mut sum = 0_i64;
@@ -75,7 +76,8 @@ impl<const D: usize> Polynomial<D> {
         self.powers.iter().rposition(|c| *c != 0).map_or(0, |i| i + 1)
     }
 
-    /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D` units a coefficient.
+    /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D` units a coefficient
+    /// (`a_polynomial_keeps_its_bounds`).
     pub(crate) fn part(&self, start: u64, width: u64) -> Self {
         let mut part = Self::ZERO;
         // Horner: part <- part * (start + width s) + c
@@ -108,7 +110,7 @@ impl<const D: usize> Polynomial<D> {
         derivative
     }
 
-    /// The mean over the unit interval, `sum of c_k / (k + 1)`. Error: below `D` units.
+    /// The mean over the unit interval, `sum of c_k / (k + 1)`. Error: below `D` units (`a_polynomial_keeps_its_bounds`).
     pub(crate) fn mean(&self) -> i64 {
         self.powers.iter().zip(2..).fold(self.constant, |sum, (c, n)| sum.wrapping_add(nth(*c, n)))
     }
@@ -179,6 +181,86 @@ mod tests {
                 sampled = (sampled.0.min(exact), sampled.1.max(exact));
             }
             assert!(float(max) - float(min) < (sampled.1 - sampled.0) * 1.6, "the range is loose");
+        }
+    }
+
+    /// Words of which a few are at the ends of what is allowed, by an LCG (Knuth, TAOCP vol. 2, 3.3.4, table 1, line 26).
+    fn words() -> impl Iterator<Item = i64> {
+        let mut state = 7_u64;
+        core::iter::repeat_with(move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state ^ state >> 29) as i64
+        })
+    }
+
+    #[test]
+    fn products_are_low_by_less_than_they_say() {
+        let mut words = words();
+        let mut next = || words.next().unwrap();
+        let mut worst = [0.0_f64; 3];
+        for _ in 0..20_000 {
+            let (a, b, t) = (next(), next() >> 1, next() as u64 >> 1);
+            // what is missing, in units of 2^-63
+            let exact = i128::from(a) * i128::from(t);
+            let missing = exact - (i128::from(times(a, t)) << 63);
+            worst[0] = worst[0].max(missing as f64 / 2_f64.powi(63));
+            assert!(missing >= 0);
+            let missing = i128::from(a) * i128::from(b) - (i128::from(twice_high(a, b)) << 63);
+            worst[1] = worst[1].max(missing as f64 / 2_f64.powi(63));
+            assert!(missing >= 0);
+            let part = (a as u64) >> 1;
+            let missing = i128::from(part) * i128::from(t) - (i128::from(part_of(part, t)) << 63);
+            worst[2] = worst[2].max(missing as f64 / 2_f64.powi(63));
+            assert!(missing >= 0);
+            assert_eq!((times(a, ONE), part_of(part, ONE)), (a, part));
+        }
+        assert!((1.9..2.0).contains(&worst[0]) && (1.9..2.0).contains(&worst[1]), "{worst:?}");
+        assert!((0.9..1.0).contains(&worst[2]), "{worst:?}");
+    }
+
+    /// Against exact integers: places with 14 binary digits, so that everything fits 128 bits.
+    #[test]
+    fn a_polynomial_keeps_its_bounds() {
+        const D: usize = 4;
+        const DIGITS: u32 = 14;
+        let mut words = words();
+        let mut next = || words.next().unwrap();
+        let mut worst = [0.0_f64; 3];
+        for _ in 0..4000 {
+            // magnitudes that add up to less than 256
+            let p = Polynomial { constant: next() >> 3, powers: [(); D].map(|()| next() >> 4) };
+            let coefficients =
+                [p.constant, p.powers[0], p.powers[1], p.powers[2], p.powers[3]].map(i128::from);
+            let place = next() as u64 >> (64 - DIGITS);
+            let width = (next() as u64 >> (64 - DIGITS)).min((1 << DIGITS) - place);
+            let abscissa = |v: u64| v << (63 - DIGITS);
+            // c_k place^k, with 4 times 14 digits more
+            let power = |v: u64, k: usize| i128::from(v).pow(k as u32) << (DIGITS as usize * (D - k));
+            let unit = (1_i128 << (DIGITS as usize * D)) as f64;
+            let exact: i128 = coefficients.iter().enumerate().map(|(k, c)| c * power(place, k)).sum();
+            let off = exact - (i128::from(p.at(abscissa(place))) << (DIGITS as usize * D));
+            worst[0] = worst[0].max((off as f64 / unit).abs());
+            let part = p.part(abscissa(place), abscissa(width));
+            let binomials =
+                [[1, 1, 1, 1, 1], [0, 1, 2, 3, 4], [0, 0, 1, 3, 6], [0, 0, 0, 1, 4], [0, 0, 0, 0, 1]];
+            for (k, row) in binomials.iter().enumerate() {
+                let got = if k == 0 { part.constant } else { part.powers[k - 1] };
+                let exact: i128 = (k..=D)
+                    .map(|j| {
+                        let ends = i128::from(place).pow((j - k) as u32) * i128::from(width).pow(k as u32);
+                        coefficients[j] * row[j] * (ends << (DIGITS as usize * (D - j)))
+                    })
+                    .sum();
+                let off = exact - (i128::from(got) << (DIGITS as usize * D));
+                worst[1] = worst[1].max((off as f64 / unit).abs());
+            }
+            // 60 is a multiple of 1 to 5
+            let exact: i128 = coefficients.iter().zip(1..).map(|(c, n)| c * (60 / n)).sum();
+            worst[2] = worst[2].max(((exact - 60 * i128::from(p.mean())) as f64 / 60.0).abs());
+        }
+        let bounds = [2.0, 4.0, 1.0].map(|units| units * D as f64);
+        for (worst, bound) in worst.iter().zip(bounds) {
+            assert!(*worst < bound && *worst > bound / 4.0, "{worst} of {bound}");
         }
     }
 

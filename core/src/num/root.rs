@@ -42,7 +42,7 @@ static RECIPROCAL_SQRT: [u16; 256] = {
 
 /// `1/d` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
 ///
-/// Domain: `d > 0` (0 counts as 1). Error: below `2^-29` relative. Cost: 4 multiplications, a table of 256 bytes.
+/// Domain: `d > 0` (0 counts as 1). Error: below `2^-29` relative (`a_reciprocal_is_within_two_to_the_minus_29`). Cost: 4 multiplications, a table of 256 bytes.
 #[inline]
 pub fn reciprocal(d: u32) -> (u32, u32) {
     let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(d).unwrap_or(NonZeroU32::MIN));
@@ -64,7 +64,8 @@ pub(crate) fn reciprocal_of(d: NonZeroU32) -> (i32, u32) {
 
 /// `1/sqrt(v)` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
 ///
-/// Domain: `v > 0` (0 counts as 1). Error: below `2^-28` relative. Cost: 6 multiplications, a table of 512 bytes.
+/// Domain: `v > 0` (0 counts as 1). Error: below `2^-28` relative (`a_reciprocal_root_is_within_two_to_the_minus_28`).
+/// Cost: 6 multiplications, a table of 512 bytes.
 #[inline]
 pub fn reciprocal_sqrt(v: u64) -> (u32, u32) {
     let (mantissa, half) = reciprocal_sqrt_of(v);

@@ -31,7 +31,8 @@ impl Vec3<Real> {
         )
     }
 
-    /// The unit vector in this direction, none for the zero vector. Error: below `2^-27` in each component.
+    /// The unit vector in this direction, none for the zero vector. Error: below `2^-27` in each component
+    /// (`a_unit_vector_is_within_two_to_the_minus_27`).
     #[inline]
     pub fn normalised(self) -> Option<Vec3<Unit>> {
         let [x, y, z] = [self.x.to_bits(), self.y.to_bits(), self.z.to_bits()];
@@ -39,7 +40,8 @@ impl Vec3<Real> {
     }
 }
 
-/// The unit vector in a direction of any format. Error: below `2^-27` in each component; the zero vector stays one.
+/// The unit vector in a direction of any format. Error: below `2^-27` in each component (`a_unit_vector_is_within_two_to_the_minus_27`); the
+/// zero vector stays one.
 #[inline]
 pub(crate) fn unit(v: [i32; 3]) -> Vec3<Unit> {
     // with 31 + half bits below the root, and 30 fractional bits wanted
@@ -81,5 +83,34 @@ impl Vec3<Unit> {
     pub fn normalised(self) -> Option<Self> {
         let real = |u: Unit| Real::from_bits(u.to_bits());
         Vec3::<Real>::new(real(self.x), real(self.y), real(self.z)).normalised()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_vector_is_within_two_to_the_minus_27() {
+        let (mut worst, mut state) = (0.0_f64, 3_u64);
+        for i in 0..300_000_u32 {
+            let mut component = || {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                // from all bits down to one
+                (state >> 32) as i32 >> ((state >> 27) & 31) >> (i % 7)
+            };
+            let v = [component(), component(), component()];
+            let [x, y, z] = v.map(Real::from_bits);
+            let Some(fixed) = Vec3::new(x, y, z).normalised() else {
+                assert_eq!((v, unit(v)), ([0; 3], Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ZERO)));
+                continue;
+            };
+            assert_eq!(fixed, unit(v));
+            let length = v.iter().map(|c| f64::from(*c).powi(2)).sum::<f64>().sqrt();
+            for (c, got) in v.iter().zip([fixed.x, fixed.y, fixed.z]) {
+                worst = worst.max((got.to_num::<f64>() - f64::from(*c) / length).abs());
+            }
+        }
+        assert!(worst > 2_f64.powi(-30) && worst < 2_f64.powi(-27), "{worst:e}");
     }
 }

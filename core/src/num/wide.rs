@@ -7,7 +7,7 @@ use super::ratio;
 
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
 ///
-/// Domain: all. Error: below 4 units of `value`, towards minus infinity. Cost: 2 multiplications.
+/// Domain: all. Error: below 4 units of `value`, towards minus infinity (`a_high_product_is_that_of_128_bits`). Cost: 2 multiplications.
 #[inline]
 pub fn scale31(value: i64, factor: i32) -> i64 {
     let high = (value >> 32) as i32;
