@@ -3,6 +3,11 @@
 //! The tests run with overflow checks (the profile `test`, which is optimised). Each generator mixes numbers from all bits, the ends of the format and
 //! ordinary ones; each test asserts how much was accepted, so that it has evaluated something. `PROPTEST_CASES` sets how many descriptions are tried.
 
+mod curves;
+mod deep;
+mod numbers;
+mod systems;
+
 use std::cell::Cell as Counter;
 
 use attractor::draw::Stroke;
