@@ -84,7 +84,17 @@ fn bits() -> impl Strategy<Value = i32> {
         any::<i32>(),
         (-40_i32 << 24)..(40 << 24),
         (-2_i32 << 24)..(2 << 24),
-        prop::sample::select(vec![i32::MIN, i32::MIN + 1, -1, 0, 1, i32::MAX - 1, i32::MAX, 1 << 24, 1 << 30]),
+        prop::sample::select(vec![
+            i32::MIN,
+            i32::MIN + 1,
+            -1,
+            0,
+            1,
+            i32::MAX - 1,
+            i32::MAX,
+            1 << 24,
+            1 << 30
+        ]),
     ]
 }
 

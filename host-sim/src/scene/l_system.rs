@@ -68,8 +68,7 @@ impl LSystemScene {
             None => Wide::ZERO,
         };
         let pencil = Pencil { palette: file.palette.unwrap_or(Named::Moss), closed: false };
-        let mut scene =
-            Self { axiom: file.axiom.get_ref().clone(), rules, angle, heading, order: 0, pencil };
+        let mut scene = Self { axiom: file.axiom.get_ref().clone(), rules, angle, heading, order: 0, pencil };
         // what the kernel says against a word
         scene.with(|picture| Ok(drop(picture))).map_err(|error| {
             let rule = match error {
@@ -86,9 +85,9 @@ impl LSystemScene {
         let allowed = |reason: &dyn std::fmt::Display| source.fail(file.order.span(), "order", reason);
         scene.order = u32::try_from(*file.order.get_ref())
             .map_err(|_| allowed(&format!("allowed is 0 to {ORDERS}")))?;
-        let (steps, is_blank) =
-            scene.with(|picture| picture.path().map(|path| (path.steps(), path.take(1).count() == 0)))
-                .map_err(|error| allowed(&error))?;
+        let (steps, is_blank) = scene
+            .with(|picture| picture.path().map(|path| (path.steps(), path.take(1).count() == 0)))
+            .map_err(|error| allowed(&error))?;
         if steps > MAX_POINTS {
             return Err(allowed(&format!("{steps} steps, at most {MAX_POINTS} are drawn")));
         }
@@ -102,7 +101,8 @@ impl LSystemScene {
         &self,
         show: impl FnOnce(LSystemPicture<'_, ORDERS, BRANCHES>) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let rules: Vec<(char, &str)> = self.rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();
+        let rules: Vec<(char, &str)> =
+            self.rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();
         let system = LSystem::new(&self.axiom, &rules, self.angle)?.heading(self.heading);
         show(LSystemPicture { system, order: self.order, pencil: self.pencil })
     }

@@ -3,8 +3,8 @@
 use attractor::Error;
 use attractor::curve::catalogue::{Curve, LARGEST};
 use attractor::curve::{
-    Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Refined, Subdivision, Turtle, TwoVariable,
-    coast, koch,
+    Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Refined, Subdivision, Turtle,
+    TwoVariable, coast, koch,
 };
 use attractor::draw::Ink;
 use attractor::num::{Real, Unit, Wide};
@@ -164,5 +164,7 @@ pub(super) fn l_system<C: Colour + Ink>(stage: &mut Stage<'_>, words: &Words) ->
     let pencil = Pencil { palette: words.palette, closed: false };
     let picture = LSystemPicture::<DEPTH, DEPTH> { system, order: words.order, pencil };
     let size = stage.size();
-    stage.draw::<C>(size_of::<Turtle<'_, DEPTH, DEPTH>>(), |sink| picture.draw(size, sink, &mut |_, _, _| true))
+    stage.draw::<C>(size_of::<Turtle<'_, DEPTH, DEPTH>>(), |sink| {
+        picture.draw(size, sink, &mut |_, _, _| true)
+    })
 }
