@@ -90,7 +90,7 @@ fn cantor_s_set_has_its_gaps() {
         assert_eq!(got.len(), 1 << order);
         for (stroke, n) in got.iter().zip(want) {
             let line = [(f64::from(n), 0.0), (f64::from(n + 1), 0.0)];
-            assert!(difference(&[stroke.clone()], &[line.to_vec()]) < 1e-4, "{n}: {stroke:?}");
+            assert!(difference(std::slice::from_ref(stroke), &[line.to_vec()]) < 1e-4, "{n}: {stroke:?}");
         }
     }
 }

@@ -130,7 +130,8 @@ impl<'a> LSystem<'a> {
     ///
     /// Result: the walk begins at `(0, 0)`. Its steps are as long as [`Turtle::step`] says, short enough for no walk of that many to leave the disc of radius 64; a
     /// [`crate::picture::Window`] brings it to a display. Nothing where the word draws nothing.
-    /// Error: of each coordinate below `2^-21`, whatever the word, its length or its angle (`l_systems.rs`: `every_point_is_within_its_bound`).
+    /// Error: of each coordinate below `2^-21`, whatever the word, its length or its angle (tests/l_systems.rs)
+    /// (`l_systems.rs`: `every_point_is_within_its_bound`).
     /// Cost: the walk ends after [`MAX_LETTERS`] letters at most; stack and time of this call grow with the rules and the order alone.
     ///
     /// # Errors
@@ -256,7 +257,7 @@ enum Pen {
     Put,
 }
 
-/// The path of an L-system. Size on a 32-bit machine: 8 bytes for each of `ORDERS` rewritings, 24 for each of `BRANCHES` open brackets, and 96.
+/// The path of an L-system. Size on a 32-bit machine: 8 bytes for each of `ORDERS` rewritings, 24 for each of `BRANCHES` open brackets, and 88.
 #[derive(Debug, Clone)]
 pub struct Turtle<'a, const ORDERS: usize, const BRANCHES: usize> {
     system: LSystem<'a>,

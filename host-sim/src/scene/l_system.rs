@@ -70,7 +70,7 @@ impl LSystemScene {
         let pencil = Pencil { palette: file.palette.unwrap_or(Named::Moss), closed: false };
         let mut scene = Self { axiom: file.axiom.get_ref().clone(), rules, angle, heading, order: 0, pencil };
         // what the kernel says against a word
-        scene.with(|picture| Ok(drop(picture))).map_err(|error| {
+        scene.with(|_| Ok(())).map_err(|error| {
             let rule = match error {
                 Error::Character { index: Some(index), .. } => file.rules.iter().flatten().nth(index),
                 _ => None,
