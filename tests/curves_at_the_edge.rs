@@ -60,8 +60,8 @@ fn a_graph_continues_with_the_largest_offsets_too() {
             largest = largest.max((above * r).abs());
         }
     }
-    // twice the format of a deviate
-    assert!(largest > 12.0, "{largest}");
+    // beyond the format of a deviate, in which it wrapped
+    assert!(largest > 8.0, "{largest}");
 }
 
 #[test]
