@@ -2,8 +2,10 @@
 
 mod bad_input;
 mod curves;
+mod curves_at_the_edge;
 mod deep_zoom;
 mod ifs;
+mod l_systems;
 mod laws;
 mod pictures;
 mod promises;

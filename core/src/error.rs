@@ -97,6 +97,19 @@ pub enum Error {
         /// What is.
         what: &'static str,
     },
+    /// A character of a word that does not belong there.
+    Character {
+        /// What word.
+        what: &'static str,
+        /// Its index, for one of a list.
+        index: Option<usize>,
+        /// The place of the character; the first is 1.
+        position: usize,
+        /// The character.
+        letter: char,
+        /// What is wrong with it and what is allowed.
+        reason: &'static str,
+    },
 }
 
 impl fmt::Display for Error {
@@ -141,6 +154,13 @@ impl fmt::Display for Error {
             ),
             Self::Malformed { what, position } => write!(f, "this is no {what}: look at byte {position}"),
             Self::Degenerate { what } => write!(f, "{what} is zero"),
+            Self::Character { what, index, position, letter, reason } => {
+                match index {
+                    Some(index) => write!(f, "{what} [{index}]")?,
+                    None => f.write_str(what)?,
+                }
+                write!(f, ": character {position}, {letter:?} (U+{:04X}), {reason}", u32::from(letter))
+            }
         }
     }
 }

@@ -14,9 +14,12 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
                [material = \"diffuse\" | \"phong\" | \"mirror\"], [environment = \"gradient\" | \"checkerboard\" | \"plain\"],
                [gradient] zenith, horizon, nadir; [checkerboard] bright, dark, horizon, scale, fade; [samples], [depth], [palette]
   curve        curve = \"koch\" | ... or generator = [[x, y], ...] or turtle = \"F+F--F+F\" with angle = degrees;
-               order = 5 or adaptive = true (down to a pixel), [base = [[x, y], ...]], [fill], [palette]
+               order = 5 or adaptive = true (down to a pixel), [base = [[x, y], ...]], [fill], [palette];
+               letters of a turtle: F or A a copy of the curve, B walked from its end, a and b the same on the other side, + left, - right
   random-curve law = \"elbow\" | \"line-to-line\" | \"one-variable\" | \"two-variable\", [knots = [[x, y], ...] | coast = \"iceland\"], [seed],
                [beta], [deviation], [offset], [ratio], [length | norm | parameter: where to stop], [fill], [palette]
+  l-system     axiom = \"X\", rules = { X = \"F[+X]F[-X]+X\", F = \"FF\" }, angle = degrees, order = 5, [heading = 0: degrees, 90 is up], [palette];
+               letters: F and G draw a step, f moves a step, + left, - right, | round, [ remember, ] return; other letters only rewrite
   copier       maps as ifs, or attractor = \"barnsley-fern\" | ..., [polyline = [[x, y], ...]], [orders = [0, 1, 2, 3, 4, 5, 6]], [palette]
   ifs          maps = [[a, b, c, d, e, f, p], ...], [points], [shading = \"maps\" | \"density\" | \"plain\"], [palette]
   mandelbrot   [centre = [\"re\", \"im\"]], [width = \"3.0\"], [max_dwell = 100], [palette], [lift], [cycle], [inside = \"#rrggbb\"],

@@ -7,6 +7,7 @@ use crate::common::{bad, good};
 const CURVE: &str =
     "kind = \"curve\"\ngenerator = [[0, 0], [1, 0], [1, 1], [2, 1]]\norder = 3\nbase = [[0, 0], [1, 0]]\n";
 const TURTLE: &str = "kind = \"curve\"\nturtle = \"F+F--F+F\"\nangle = 60\nadaptive = true\n";
+const PLANT: &str = "kind = \"l-system\"\naxiom = \"X\"\nrules = { X = \"F[+X]F[-X]+X\", F = \"FF\" }\nangle = 20\nheading = 90\norder = 4\n";
 const ELBOW: &str = "kind = \"random-curve\"\nlaw = \"elbow\"\nbeta = 2\ndeviation = 0.3\nlength = 0.1\n";
 const COPIER: &str =
     "kind = \"copier\"\nattractor = \"koch-curve\"\npolyline = [[0, 0], [1, 0]]\norders = [0, 2]\n";
@@ -31,7 +32,7 @@ fn refused(scene: &str, from: &str, to: &str, words: &[&str]) {
 
 #[test]
 fn the_good_files_are_good() {
-    for scene in [CURVE, TURTLE, ELBOW, COPIER, JULIA, DEEP] {
+    for scene in [CURVE, TURTLE, PLANT, ELBOW, COPIER, JULIA, DEEP] {
         let directory = tempfile::tempdir().unwrap();
         fs::write(directory.path().join("scene.toml"), scene).unwrap();
         good(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"]);
@@ -46,13 +47,46 @@ fn generators_that_refine_nothing_are_refused() {
     refused(CURVE, "[1, 0], [1, 1], [2, 1]", "[1.5, 0], [1, 0]", &["generator[0]", "no shorter"]);
     refused(CURVE, "[2, 1]]", "[0, 0]]", &["generator", "is zero"]);
     refused(CURVE, "[[0, 0], [1, 0], [1, 1], [2, 1]]", "[[0, 0], [1, 0]]", &["generator", "at least 3"]);
-    refused(TURTLE, "F+F--F+F", "F+G", &["turtle", "F+G"]);
+    for (word, character) in [
+        ("F+G", "character 3, 'G' (U+0047)"),
+        ("F+F\u{2212}F", "character 4, '\u{2212}' (U+2212)"),
+        ("FfF", "character 2, 'f' (U+0066)"),
+    ] {
+        let letters = "none of its letters: F A B a b + -";
+        refused(TURTLE, "F+F--F+F", word, &[":2: turtle = ", word, character, letters, "L-system"]);
+    }
     refused(TURTLE, "angle = 60\n", "", &["turtle", "angle"]);
     refused(
         CURVE,
         "generator = [[0, 0], [1, 0], [1, 1], [2, 1]]",
         "curve = \"koch-line\"",
         &["curve", "hilbert"],
+    );
+}
+
+#[test]
+fn words_that_no_turtle_can_walk_are_refused() {
+    let letters = "none of its letters: A to Z, a to z (F and G draw, f moves), + - | [ ]";
+    let minus = &[":3: rules.X = ", "rule [1]: character 8, '\u{2212}' (U+2212)", letters];
+    refused(PLANT, "F[-X]", "F[\u{2212}X]", minus);
+    refused(PLANT, "axiom = \"X\"", "axiom = \"X X\"", &[":2: axiom", "character 2, ' ' (U+0020)", letters]);
+    refused(PLANT, "F[+X]F", "F[+XF", &["rules.X", "character 2, '[' (U+005B), is never closed"]);
+    refused(PLANT, "F[+X]F", "F[+X]]F", &["rules.X", "character 6, ']' (U+005D), closes no bracket"]);
+    refused(PLANT, ", F =", ", FX =", &["rules.FX", "one letter", "A to Z"]);
+    refused(PLANT, ", F =", ", \"+\" =", &["rules.+", "'+' (U+002B)", "cannot be rewritten"]);
+    refused(PLANT, "angle = 20\n", "", &["angle"]);
+    for (order, reason) in
+        [("-1", "allowed is 0 to 32"), ("33", "33 orders needed"), ("32", "letters needed")]
+    {
+        refused(PLANT, "order = 4", &format!("order = {order}"), &[":6: order = ", reason]);
+    }
+    refused(PLANT, "order = 4", "order = 0", &[":6: order = 0", "no letter that draws"]);
+    let nested = "[".repeat(129) + &"]".repeat(129);
+    refused(
+        PLANT,
+        "axiom = \"X\"",
+        &format!("axiom = \"X{nested}\""),
+        &["order", "open brackets", "room for 128"],
     );
 }
 

@@ -1,6 +1,6 @@
 //! What iterators take on a 32-bit machine, checked where they are compiled: the sizes that core's documentation states.
 
-use attractor::curve::{Elbow, Generator, OneVariable, Refined, Subdivision, TwoVariable};
+use attractor::curve::{Elbow, Generator, LSystem, OneVariable, Refined, Subdivision, Turtle, TwoVariable};
 use attractor::escape::PrunedIteration;
 use attractor::ifs::{CopiedPath, CopiedPoints, Density, Ifs};
 
@@ -15,6 +15,7 @@ const _: () = {
     assert!(size_of::<Subdivision<'_, Elbow, 16>>() == 12 * 16 + 88);
     assert!(size_of::<Elbow>() == 136 && size_of::<OneVariable>() == 12 && size_of::<TwoVariable>() == 12);
     assert!(size_of::<Generator<4>>() == 64 * 4 + 16 && size_of::<Generator<9>>() == 64 * 9 + 16);
+    assert!(size_of::<LSystem<'_>>() == 32 && size_of::<Turtle<'_, 12, 12>>() == 8 * 12 + 24 * 12 + 88);
     assert!(size_of::<Ifs<4>>() == 33 * 4 + 36);
     assert!(size_of::<Density<'_, u16>>() == 80 && size_of::<Density<'_, u8>>() == 80);
 };

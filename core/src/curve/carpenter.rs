@@ -61,11 +61,11 @@ impl LineToLine {
     pub fn extrapolated(&self, from: Point2, to: Point2, at: Parameter) -> Result<Point2, Error> {
         // o_{-1} (t_2 - t_1) = o_0 / (o_1 / o_0) span over the whole of twice the span
         let [first, second] = self.first_offsets();
-        let above = (num::product(first, first)).checked_div(i64::from(second).max(1)).unwrap_or(0);
-        let above = above.min(i64::from(i32::MAX)) as i32;
-        let g = product(above, self.random.at(at).to_bits());
-        let span = to.x.saturating_sub(from.x);
-        let displacement = (num::product(span.to_bits(), g) + (1 << 27)) >> 28;
+        let above = num::product(first, first).checked_div(i64::from(second).max(1)).unwrap_or(0);
+        // at most twice the offset, 4, and the deviate below 3.31: more than 32 bits hold
+        let g = (above * i64::from(self.random.at(at).to_bits()) + (1 << 27)) >> 28;
+        let span = i128::from(to.x.to_bits()) - i128::from(from.x.to_bits());
+        let displacement = ((span * i128::from(g) + (1 << 27)) >> 28) as i64;
         let reflected = |a: Real, m: i64| 2 * m - i64::from(a.to_bits());
         let x = reflected(from.x, i64::from(to.x.to_bits()));
         let y = reflected(from.y, i64::from(to.y.to_bits()) - displacement);

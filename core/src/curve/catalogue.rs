@@ -73,7 +73,7 @@ pub const HILBERT: Curve = Curve {
     ..Curve::on_a_segment(
         "hilbert",
         "Hilbert curve",
-        "f-FF-f",
+        "a-FF-a",
         4,
         "D. Hilbert, Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck, 1891",
     )
@@ -112,7 +112,7 @@ pub const PEANO: Curve = Curve {
     ..Curve::on_a_segment(
         "peano",
         "Peano curve",
-        "F+f-F-f-F+f+F+f-F",
+        "F+a-F-a-F+a+F+a-F",
         4,
         "G. Peano, Sur une courbe qui remplit toute une aire plane, 1890",
     )
@@ -131,7 +131,7 @@ pub const PENTIGREE: Curve = Curve::on_a_segment(
 pub const SIERPINSKI_ARROWHEAD: Curve = Curve::on_a_segment(
     "sierpinski-arrowhead",
     "Sierpinski arrowhead",
-    "f-F-f",
+    "a-F-a",
     6,
     "W. Sierpinski, Sur une courbe dont tout point est un point de ramification, 1915",
 );

@@ -8,7 +8,7 @@
 use super::displacement::checked_spectrum;
 use super::generator::Generator;
 use crate::Error;
-use crate::num::{Real, Wide, exp_minus, log2};
+use crate::num::{Real, Wide, exp_minus, log2, ratio as quotient};
 
 /// `ln 2 / ln(2 / ratio)`; a ratio of 1.3 gives 1.61.
 ///
@@ -16,7 +16,7 @@ use crate::num::{Real, Wide, exp_minus, log2};
 /// Boxes count otherwise: halves of random lengths `r` fill `2 mean(r^D) = 1` of them (R. D. Mauldin, S. C. Williams, "Random recursive
 /// constructions", 1986), 1.70 at a ratio of 1.3, less those that the curve passes twice at its double points. `attractor dimension` measures both.
 ///
-/// Error: below `2^-20` for ratios up to 1.5 (`dimensions_are_those_of_the_texts`).
+/// Result: from [`Wide::MAX`] on, at a ratio of 1.99995769, it saturates. Error: below `2^-40` of the value (`a_dimension_holds_up_to_the_ends_of_its_domain`).
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a ratio outside `1 .. 2`.
@@ -37,9 +37,20 @@ pub fn dimension_of_ratio(ratio: Real) -> Result<Wide, Error> {
             max: max.into(),
         });
     }
-    // 1 - log2(ratio), 24 fractional bits
-    let bits = (25 << 24) - i64::from(log2(u64::from(ratio.to_bits().unsigned_abs())));
-    Ok(Wide::from_bits((1_i64 << 62).checked_div(bits.max(1)).unwrap_or(0) << 10))
+    // ln(2 / ratio) = 2 artanh z, z = (2 - ratio) / (2 + ratio) <= 1/3: 62 fractional bits, so that it is exact where it is small
+    let bits = u64::from(ratio.to_bits().unsigned_abs());
+    let z = quotient((2 << 24) - bits, 62, (2 << 24) + bits);
+    let times = |a: u64, b: u64| ((u128::from(a) * u128::from(b)) >> 62) as u64;
+    // z + z^3 / 3 + z^5 / 5 + ..: 3^-40 is below the last place
+    let (square, mut power, mut artanh) = (times(z, z), z, 0);
+    for odd in (1..40).step_by(2) {
+        artanh += power / odd;
+        power = times(power, square);
+    }
+    // ln 2 with 62 fractional bits
+    const LN_2: u64 = 0x2c5c_85fd_f473_de6b;
+    let dimension = quotient(LN_2, 48, 2 * artanh);
+    Ok(Wide::from_bits(dimension.min(i64::MAX as u64) as i64))
 }
 
 /// `(5 - beta) / 2`.
@@ -87,15 +98,33 @@ mod tests {
     use crate::curve::catalogue::{self, LARGEST};
 
     #[test]
-    fn dimensions_are_those_of_the_texts() {
-        let mut worst: f64 = 0.0;
-        for thousandths in 1000..1500 {
-            let ratio = f64::from(thousandths) / 1000.0;
-            let got = dimension_of_ratio(Real::from_num(ratio)).unwrap().to_num::<f64>();
-            worst = worst.max((got - 2.0_f64.ln() / (2.0 / ratio).ln()).abs());
+    fn a_dimension_holds_up_to_the_ends_of_its_domain() {
+        // evenly over the domain, and every ratio next to its ends
+        let (one, two) = (1_i32 << 24, 2 << 24);
+        let middle = (one + 3000..two - 3000).step_by(997);
+        let (mut worst, mut before): (f64, _) = (0.0, Wide::ZERO);
+        for bits in (one..one + 3000).chain(middle).chain(two - 3000..two) {
+            let got = dimension_of_ratio(Real::from_bits(bits)).unwrap();
+            // 2 - ratio is exact
+            let below = f64::from(two - bits) / f64::from(two);
+            let truth = -(2.0_f64.ln()) / (-below).ln_1p();
+            assert!(got >= before, "{bits}: {got} after {before}");
+            before = got;
+            if truth >= 32768.0 {
+                assert_eq!(got, Wide::MAX, "{bits}");
+            } else {
+                worst = worst.max((got.to_num::<f64>() - truth).abs() / truth);
+            }
         }
-        assert!(worst > 0.0 && worst < 2.0_f64.powi(-20), "{worst:e}");
-        assert_eq!(dimension_of_ratio(Real::ONE).unwrap(), 1);
+        assert!(worst > 0.0 && worst < 2.0_f64.powi(-40), "2^{}", worst.log2());
+        assert!(dimension_of_ratio(Real::ONE).unwrap().abs_diff(Wide::ONE) <= Wide::DELTA * 8);
+        // just where it saturates
+        let number = |ratio| dimension_of_ratio(Real::from_num(ratio)).unwrap();
+        assert!(number(1.999_957_6) < Wide::MAX && number(1.999_957_8) == Wide::MAX);
+    }
+
+    #[test]
+    fn dimensions_are_those_of_the_texts() {
         assert!(
             dimension_of_ratio(Real::from_num(2)).is_err()
                 && dimension_of_ratio(Real::from_num(0.99)).is_err()

@@ -2,9 +2,9 @@
 //!
 //! A [`Generator`] says by which polyline each segment is replaced; [`Refined`] walks the result, order by order or down to the length of a pixel, with a stack of
 //! fixed capacity and no recursion. A law ([`OneVariable`], [`TwoVariable`], [`LineToLine`], [`Elbow`], or one of your own) says where the midpoint of a part
-//! lies; [`Subdivision`] walks the curve through given knots, all of it or a piece. Both are paths: iterators of [`crate::picture::Step`].
+//! lies; [`Subdivision`] walks the curve through given knots, all of it or a piece. An [`LSystem`] rewrites words that a turtle draws, plants with branches among them. All are paths: iterators of [`crate::picture::Step`].
 //!
-//! Sources: course unit V, sections 5.1 and 5.6; L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
+//! Sources: course unit V, sections 5.1 and 5.6; P. Prusinkiewicz, A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990; L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
 //!
 //! ```
 //! use attractor::curve::{Elbow, Generator, Stop, Subdivision, koch, turn_over};
@@ -34,6 +34,7 @@ mod elbow;
 mod gaussian;
 mod generator;
 pub mod koch;
+mod l_system;
 mod refined;
 mod subdivision;
 mod turtle;
@@ -44,6 +45,7 @@ pub use displacement::{Displacement, Part, displaced};
 pub use elbow::Elbow;
 pub use gaussian::{Deviate, Parameter, RandomFunction};
 pub use generator::{Generator, Orientation};
+pub use l_system::{LSystem, MAX_LETTERS, MAX_RULES, Turtle};
 pub use refined::Refined;
 pub use subdivision::{Stop, Subdivision};
 pub use turtle::turn_over;

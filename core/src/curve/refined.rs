@@ -158,7 +158,7 @@ impl<const S: usize> Generator<S> {
     /// Each segment of `base` refined until the pieces are shorter than `length`, such as a pixel: each piece as often as it needs.
     ///
     /// # Errors
-    /// As [`Generator::refined`]: [`Error::Capacity`] when some piece could need more than `DEPTH` refinements; [`Error::OutOfRange`] for a length of 0 or less.
+    /// As [`Generator::refined`], about the base first; [`Error::Capacity`] when some piece could need more than `DEPTH` refinements; [`Error::OutOfRange`] for a length of 0 or less.
     pub fn refined_to<'a, const DEPTH: usize>(
         &'a self,
         base: &'a [Point2],
@@ -175,14 +175,9 @@ impl<const S: usize> Generator<S> {
         }
         // LONGEST ends the refinement anyhow: 32 with 26 fractional bits is 2^31
         let shortest = (u64::from(length.to_bits().unsigned_abs()) << 2).min(LONGEST << 26) as u32;
-        // how often the longest piece needs it
+        // how often the longest piece needs it: 26 fractional bits
         let factor = u64::from(self.contraction_factor().to_bits().unsigned_abs());
-        let mut longest = base
-            .iter()
-            .zip(base.iter().skip(1))
-            .map(|(a, b)| u64::from(Copy::on(*a, *b, 0, self).length))
-            .max()
-            .unwrap_or(0);
+        let mut longest = longest_segment(base)? << 2;
         let mut orders = 0;
         let capacity = DEPTH.min(255);
         // as the walk computes it; rounding down lets it end for every factor below 1
@@ -207,25 +202,12 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
         order: usize,
         shortest: u32,
     ) -> Result<Self, Error> {
-        if base.len() < 2 {
-            return Err(Error::TooFew { what: "points of the base", given: base.len(), at_least: 2 });
-        }
+        longest_segment(base)?;
         let reach = generator.reach(order as u32);
         for (index, (a, b)) in base.iter().zip(base.iter().skip(1)).enumerate() {
-            let bits = |r: Real| i64::from(r.to_bits());
-            let length = hypotenuse(
-                (bits(b.x) - bits(a.x)).abs().min(1 << 31),
-                (bits(b.y) - bits(a.y)).abs().min(1 << 31),
-            );
-            if length == 0 {
-                return Err(Error::Degenerate { what: "a segment of the base" });
-            }
-            if length >= LONGEST << 24 {
-                return Err(out_of_range("length of the segment", index, length, LONGEST));
-            }
             // length < 2^29, reach saturates
-            let around = ((u128::from(length) * u128::from(reach)) >> 30) as u64;
-            let far = bits(a.x).unsigned_abs().max(bits(a.y).unsigned_abs());
+            let around = ((u128::from(length(*a, *b)) * u128::from(reach)) >> 30) as u64;
+            let far = u64::from(a.x.to_bits().unsigned_abs().max(a.y.to_bits().unsigned_abs()));
             let needed = far.saturating_add(around).saturating_add(1 << 12);
             if needed >= 128 << 24 {
                 return Err(out_of_range("reach of the curve from the segment", index, needed, 128));
@@ -308,6 +290,32 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
             self.waiting += 1;
         }
     }
+}
+
+/// The distance of two points, rounded up, or more than the longest segment.
+fn length(a: Point2, b: Point2) -> u64 {
+    // within what the root takes
+    let along = |a: Real, b: Real| i64::from(b.to_bits().abs_diff(a.to_bits()).min(1 << 31));
+    hypotenuse(along(a.x, b.x), along(a.y, b.y))
+}
+
+/// The length of the base's longest segment, 24 fractional bits: below 32.
+fn longest_segment(base: &[Point2]) -> Result<u64, Error> {
+    if base.len() < 2 {
+        return Err(Error::TooFew { what: "points of the base", given: base.len(), at_least: 2 });
+    }
+    let mut longest = 0;
+    for (index, (a, b)) in base.iter().zip(base.iter().skip(1)).enumerate() {
+        let length = length(*a, *b);
+        if length == 0 {
+            return Err(Error::Degenerate { what: "a segment of the base" });
+        }
+        if length >= LONGEST << 24 {
+            return Err(out_of_range("length of the segment", index, length, LONGEST));
+        }
+        longest = longest.max(length);
+    }
+    Ok(longest)
 }
 
 #[inline(always)]

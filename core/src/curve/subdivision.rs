@@ -64,7 +64,7 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     /// 145 for a function that stops by parameter.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for a limit of 0 or less, [`Error::Capacity`] when the parameter asks for more than
+    /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for neighbours that are 128 or more apart in a coordinate and for a limit of 0 or less, [`Error::Capacity`] when the parameter asks for more than
     /// `LEVELS` or 31 halvings; what the law says against the knots.
     pub fn new(law: &'a D, knots: &'a [Point2], stop: Stop) -> Result<Self, Error> {
         let Some((first, rest)) = knots.split_first() else {
@@ -74,6 +74,19 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
             return Err(Error::TooFew { what: "knots", given: 1, at_least: 2 });
         }
         law.check(knots)?;
+        // the laws' differences have the format of coordinates
+        for (index, (a, b)) in knots.iter().zip(rest).enumerate() {
+            let (x, y) = (a.x.to_bits().abs_diff(b.x.to_bits()), a.y.to_bits().abs_diff(b.y.to_bits()));
+            if x.max(y) > Real::MAX.to_bits().unsigned_abs() {
+                return Err(Error::OutOfRange {
+                    what: "extent of the part behind knot",
+                    index: Some(index),
+                    value: Wide::from_bits(i64::from(x.max(y)) << 24),
+                    min: Wide::ZERO,
+                    max: Wide::from(Real::MAX),
+                });
+            }
+        }
         let capacity = LEVELS.min(MAX_LEVELS - 1);
         let mut curve = Self {
             law,

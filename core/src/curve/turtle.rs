@@ -4,17 +4,17 @@
 //! | --- | --- |
 //! | `F`, `A` | a step forward: a copy of the curve |
 //! | `B` | a copy walked from its end to its start |
-//! | `f`, `a` | a copy on the other side |
+//! | `a` | a copy on the other side |
 //! | `b` | a copy on the other side, walked from its end |
 //! | `+`, `-` | turn left, turn right by the angle |
 //!
 //! The word is one refinement; where it ends, `(1, 0)` lies, so that neither its first direction nor its size matters. All steps have length 1.
 //! Source: P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990, section 1.4.1 ("edge rewriting"); course unit V, section 5.1.2.
-//! Left out: brackets, and letters that only rewrite: curves that visit cells are drawn [`Generator::through`] a point of their copies.
+//! Left out: `f`, which moves without drawing, brackets, and letters that only rewrite: those are for [`super::LSystem`].
 
 use super::generator::{Generator, Orientation};
 use crate::Error;
-use crate::num::{Angle, Wide, sin_cos};
+use crate::num::{Angle, sin_cos};
 
 /// What a letter asks for.
 #[derive(Clone, Copy)]
@@ -27,7 +27,7 @@ fn command(letter: u8) -> Option<Command> {
     Some(match letter {
         b'F' | b'A' => Command::Step(Orientation::Plain),
         b'B' => Command::Step(Orientation::Reversed),
-        b'f' | b'a' => Command::Step(Orientation::Mirrored),
+        b'a' => Command::Step(Orientation::Mirrored),
         b'b' => Command::Step(Orientation::MirroredReversed),
         b'+' => Command::Turn(true),
         b'-' => Command::Turn(false),
@@ -51,7 +51,7 @@ impl<const S: usize> Generator<S> {
     /// (`curves.rs`: `every_vertex_is_within_its_bound`).
     ///
     /// # Errors
-    /// As [`Generator::polyline`]; [`Error::OutOfRange`] for a letter that is not in the table, with its place in the word and its code.
+    /// As [`Generator::polyline`]; [`Error::Character`] for a letter that is not in the table.
     ///
     /// ```
     /// use attractor::curve::{Generator, turn_over};
@@ -60,13 +60,14 @@ impl<const S: usize> Generator<S> {
     /// # Ok::<(), attractor::Error>(())
     /// ```
     pub fn turtle(word: &str, angle: Angle) -> Result<Self, Error> {
-        if let Some((index, letter)) = word.bytes().enumerate().find(|(_, l)| command(*l).is_none()) {
-            return Err(Error::OutOfRange {
-                what: "letter of a turtle word",
-                index: Some(index),
-                value: Wide::from_num(letter),
-                min: Wide::from_num(b'+'),
-                max: Wide::from_num(b'f'),
+        let is_unknown = |letter: &char| u8::try_from(*letter).ok().and_then(command).is_none();
+        if let Some((position, letter)) = (1..).zip(word.chars()).find(|(_, letter)| is_unknown(letter)) {
+            return Err(Error::Character {
+                what: "turtle word",
+                index: None,
+                position,
+                letter,
+                reason: "is none of its letters: F A B a b + - (f, brackets and letters that only rewrite: in an L-system)",
             });
         }
         let steps = || {

@@ -15,6 +15,7 @@ mod halving;
 mod ifs;
 mod julia;
 mod julia_set;
+mod l_system;
 mod law;
 mod mandelbrot;
 mod motion;
@@ -81,6 +82,7 @@ enum Kind {
     FifSurface(fif_surface::FifSurface),
     Curve(curve::CurveScene),
     RandomCurve(random_curve::RandomCurve),
+    LSystem(l_system::LSystemScene),
     Ifs(ifs::IfsScene),
     Copier(copier::CopierScene),
     Mandelbrot(mandelbrot::MandelbrotScene),
@@ -121,13 +123,14 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "fif-surface" => Kind::FifSurface(fif_surface::FifSurface::load(source)?),
         "curve" => Kind::Curve(curve::CurveScene::load(source)?),
         "random-curve" => Kind::RandomCurve(random_curve::RandomCurve::load(source)?),
+        "l-system" => Kind::LSystem(l_system::LSystemScene::load(source)?),
         "ifs" => Kind::Ifs(ifs::IfsScene::load(source)?),
         "copier" => Kind::Copier(copier::CopierScene::load(source)?),
         "mandelbrot" => Kind::Mandelbrot(mandelbrot::MandelbrotScene::load(source)?),
         "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
         "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
         _ => {
-            let reason = "allowed is fif-curve, fif-surface, curve, random-curve, ifs, copier, mandelbrot, julia or julia-set";
+            let reason = "allowed is fif-curve, fif-surface, curve, random-curve, l-system, ifs, copier, mandelbrot, julia or julia-set";
             return Err(source.fail(head.kind.span(), "kind", reason));
         }
     };
@@ -143,6 +146,7 @@ impl Scene {
             Kind::FifSurface(_) => "fif-surface",
             Kind::Curve(_) => "curve",
             Kind::RandomCurve(_) => "random-curve",
+            Kind::LSystem(_) => "l-system",
             Kind::Ifs(_) => "ifs",
             Kind::Copier(_) => "copier",
             Kind::Mandelbrot(_) => "mandelbrot",
@@ -166,6 +170,10 @@ impl Scene {
             Kind::FifCurve(scene) => Subject::Graph(scene.graph()),
             Kind::FifSurface(_) => {
                 return Err(Fail::new("a surface is not measured, only its profiles as fif-curve"));
+            }
+            Kind::LSystem(_) => {
+                let reason = "an L-system tends to no one set: its picture grows with the order; write it as a curve, a copier or an ifs";
+                return Err(Fail::new(reason));
             }
             Kind::Mandelbrot(_) => {
                 let reason = "the boundary of the Mandelbrot set has dimension 2 (M. Shishikura, 1998), which boxes of no practical size show";
@@ -218,6 +226,7 @@ impl Scene {
             Kind::FifSurface(scene) => scene.draw(request, target, watch),
             Kind::Curve(scene) => scene.draw(request, target, watch),
             Kind::RandomCurve(scene) => scene.draw(request, target, watch),
+            Kind::LSystem(scene) => scene.draw(request, target, watch),
             Kind::Ifs(scene) => scene.draw(request, target, watch),
             Kind::Copier(scene) => scene.draw(request, target, watch),
             Kind::Mandelbrot(scene) => scene.draw(request, target, watch),
@@ -233,6 +242,7 @@ impl Scene {
             Kind::FifSurface(scene) => scene.sample(points, out),
             Kind::Curve(scene) => scene.sample(request, points, out),
             Kind::RandomCurve(scene) => scene.sample(request, points, out),
+            Kind::LSystem(scene) => scene.sample(points, out),
             Kind::Ifs(scene) => scene.sample(request, points, out),
             Kind::Copier(scene) => scene.sample(points, out),
             Kind::Mandelbrot(scene) => scene.sample(request, out),

@@ -15,6 +15,7 @@ mod fif;
 mod height_field;
 mod ifs;
 pub mod koch;
+pub mod l_system;
 mod picture;
 mod polynomial;
 pub mod random_curve;

@@ -94,7 +94,7 @@ fn systems() -> Result<(), Error> {
 
 fn curves() -> Result<(), Error> {
     use attractor::curve::{
-        Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Parameter, Part,
+        Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Orientation, Parameter, Part,
         RandomFunction, TwoVariable, dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over,
     };
     let (one, seed) = (bb(Real::ONE), bb(1));
@@ -105,6 +105,10 @@ fn curves() -> Result<(), Error> {
     bb(Generator::<4>::polyline(bb(&points[..])).is_ok());
     bb(Generator::<4>::oriented_polyline(bb(&points[..]), bb(&[Orientation::Reversed])).is_ok());
     refined(&Generator::<4>::turtle(bb("F+F--F+F"), turn_over(bb(6)))?)?;
+    let rules = bb([('X', "F[+X]fX"), ('F', "FF")]);
+    let plant = LSystem::new(bb("X"), bb(&rules), bb(Wide::ONE))?.heading(bb(Wide::ONE));
+    let turtle = plant.path::<6, 6>(bb(5))?;
+    bb((turtle.step(), turtle.steps(), turtle.last()));
     bb((koch::triangle(point(0), one), koch::length(bb(3)).map(koch::Fraction::to_wide)));
     bb((koch::snowflake_perimeter(bb(3)), koch::snowflake_area(bb(3))));
     bb((dimension_of_ratio(one).ok(), dimension_of_spectrum(one).ok()));

@@ -1,14 +1,15 @@
-//! Refined and random curves.
+//! Refined and random curves, L-systems.
 
 use attractor::Error;
 use attractor::curve::catalogue::{Curve, LARGEST};
 use attractor::curve::{
-    Displacement, Elbow, Generator, LineToLine, OneVariable, Refined, Subdivision, TwoVariable, coast, koch,
+    Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Refined, Subdivision, Turtle,
+    TwoVariable, coast, koch,
 };
 use attractor::draw::Ink;
 use attractor::num::{Real, Unit, Wide};
 use attractor::picture::Point2;
-use attractor_gallery::{CurvePicture, Named, Pencil, RandomCurvePicture};
+use attractor_gallery::{CurvePicture, LSystemPicture, Named, Pencil, RandomCurvePicture};
 
 use crate::sink::{Colour, Failure, Stage};
 
@@ -119,4 +120,51 @@ pub(super) fn mountain_line<C: Colour + Ink, const WORDS: usize>(
 pub(super) fn coastline<C: Colour + Ink, const WORDS: usize>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     let law = OneVariable::new(const { Unit::lit("0.16") }, 1980);
     random::<C, _, WORDS>(stage, law, (&coast::ICELAND, false), Named::Moss)
+}
+
+/// An L-system of the command.
+pub(super) struct Words {
+    axiom: &'static str,
+    rules: &'static [(char, &'static str)],
+    angle: Wide,
+    heading: Wide,
+    order: u32,
+    palette: Named,
+}
+
+pub(super) const CANTOR: Words = Words {
+    axiom: "A",
+    rules: &[('A', "BBBBBB"), ('B', "CCCCCC"), ('C', "[F]+"), ('F', "FfF"), ('f', "fff")],
+    angle: Wide::lit("10"),
+    heading: Wide::ZERO,
+    order: 6,
+    palette: Named::Ocean,
+};
+
+pub(super) const PLANT: Words = Words {
+    axiom: "X",
+    rules: &[('X', "F-[[X]+X]+F[+FX]-X"), ('F', "FF")],
+    angle: Wide::lit("22.5"),
+    heading: Wide::lit("90"),
+    order: 5,
+    palette: Named::Moss,
+};
+
+pub(super) const DRAGON: Words = Words {
+    axiom: "FX",
+    rules: &[('X', "X+YF+"), ('Y', "-FX-Y")],
+    angle: Wide::lit("90"),
+    heading: Wide::lit("90"),
+    order: 10,
+    palette: Named::Fire,
+};
+
+pub(super) fn l_system<C: Colour + Ink>(stage: &mut Stage<'_>, words: &Words) -> Result<(), Failure> {
+    let system = LSystem::new(words.axiom, words.rules, words.angle)?.heading(words.heading);
+    let pencil = Pencil { palette: words.palette, closed: false };
+    let picture = LSystemPicture::<DEPTH, DEPTH> { system, order: words.order, pencil };
+    let size = stage.size();
+    stage.draw::<C>(size_of::<Turtle<'_, DEPTH, DEPTH>>(), |sink| {
+        picture.draw(size, sink, &mut |_, _, _| true)
+    })
 }

@@ -1,13 +1,13 @@
-//! Vertices of refined curves, and subdivisions of random ones: each with the point that it yields.
+//! Vertices of refined curves, points of L-systems, and subdivisions of random ones: each with the point that it yields.
 
 use core::hint::black_box;
 
 use attractor::curve::catalogue::{GOSPER, HEIGHWAY_DRAGON, LARGEST};
 use attractor::curve::{
-    Displacement, Elbow, Generator, LineToLine, OneVariable, Parameter, RandomFunction, Stop, Subdivision,
-    TwoVariable, koch,
+    Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Parameter, RandomFunction, Stop,
+    Subdivision, TwoVariable, koch,
 };
-use attractor::num::{Real, Unit};
+use attractor::num::{Real, Unit, Wide};
 use attractor::picture::Step;
 
 use super::{Tally, Watch, fold};
@@ -49,6 +49,13 @@ pub(super) fn gosper(watch: &mut Watch<'_>) -> Tally {
 #[inline(never)]
 pub(super) fn dragon(watch: &mut Watch<'_>) -> Tally {
     HEIGHWAY_DRAGON.generator::<2>().map_or(Tally::default(), |generator| refined(watch, &generator, 11))
+}
+
+#[inline(never)]
+pub(super) fn turtle(watch: &mut Watch<'_>) -> Tally {
+    const ANGLE: Wide = Wide::lit("22.5");
+    let plant = LSystem::new("X", &[('X', "F-[[X]+X]+F[+FX]-X"), ('F', "FF")], ANGLE);
+    plant.and_then(|plant| plant.path::<6, 12>(4)).map_or(Tally::default(), |path| walk(watch, &path))
 }
 
 /// The same walk with the same stack: a copy at `p` along `d` consists of those at `p + d v_i` along `d w_i`.

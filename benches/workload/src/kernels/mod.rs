@@ -190,6 +190,7 @@ const TABLE: &[Kernel] = &[
     beside("koch", "vertex of order 6", curve::koch_fixed, curve::koch_f32, curve::koch_f64),
     alone("gosper", "vertex of order 4", curve::gosper),
     alone("dragon", "vertex of order 11", curve::dragon),
+    alone("turtle", "point of a plant of order 4", curve::turtle),
     beside("elbow", "point", curve::elbow, curve::elbow_f32, curve::elbow_f64),
     beside("elbow by length", "point", curve::elbow_by_length, curve::elbow_by_length_f32, curve::elbow_by_length_f64),
     alone("line to line", "point", curve::line_to_line),
