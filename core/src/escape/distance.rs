@@ -126,7 +126,10 @@ mod tests {
             worst = worst.max(error / want / f64::from(10 + pixel.dwell.count));
         });
         std::println!("distance: {worst:e} of {pixels}");
-        assert!(pixels > 100_000 && worst > 2_f64.powi(-26) && worst < 2_f64.powi(-24), "{worst:e} of {pixels}");
+        assert!(
+            pixels > 100_000 && worst > 2_f64.powi(-26) && worst < 2_f64.powi(-24),
+            "{worst:e} of {pixels}"
+        );
     }
 
     #[test]

@@ -414,7 +414,8 @@ mod tests {
     /// The picture with what inner pixels surround, by a flood of the outside from beyond the edges, through corners too.
     fn flooded<P: Field<Value = Dwell>>(picture: &P) -> vec::Vec<vec::Vec<Dwell>> {
         let Size { width, height } = picture.size();
-        let mut want: vec::Vec<vec::Vec<_>> = (0..height).map(|y| picture.row(y, 0..width).collect()).collect();
+        let mut want: vec::Vec<vec::Vec<_>> =
+            (0..height).map(|y| picture.row(y, 0..width).collect()).collect();
         let inner = want.iter().flatten().copied().find(|dwell| dwell.is_inside());
         let mut outside = vec![vec![false; width as usize + 2]; height as usize + 2];
         let mut reached = vec![(0, 0)];
@@ -471,7 +472,8 @@ mod tests {
                 }
             }
         }
-        let differ = |y: u32| picture.row(y, 0..width).zip(&want[y as usize]).filter(|(a, b)| a != *b).count();
+        let differ =
+            |y: u32| picture.row(y, 0..width).zip(&want[y as usize]).filter(|(a, b)| a != *b).count();
         (0..height).map(differ).sum()
     }
 

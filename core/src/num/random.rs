@@ -140,10 +140,17 @@ mod tests {
     #[test]
     fn words_are_shared_out_in_proportion_to_the_weights() {
         let mut rng = Xoshiro128PlusPlus::seed_from_u64(3);
-        let mut lists: Vec<Vec<u32>> =
-            [&[1_u32][..], &[1, 1], &[1, 85, 7, 7], &[0, 3, 0, 5], &[u32::MAX; 5], &[u32::MAX, 1], &[0, 0, 1]]
-                .map(<[u32]>::to_vec)
-                .into();
+        let mut lists: Vec<Vec<u32>> = [
+            &[1_u32][..],
+            &[1, 1],
+            &[1, 85, 7, 7],
+            &[0, 3, 0, 5],
+            &[u32::MAX; 5],
+            &[u32::MAX, 1],
+            &[0, 0, 1],
+        ]
+        .map(<[u32]>::to_vec)
+        .into();
         lists.push((0..256).map(|i| u32::from(i == 77)).collect());
         lists.push(std::vec![1; 255]);
         lists.push((0..256).map(|i| if i == 9 { u32::MAX } else { 1 }).collect());

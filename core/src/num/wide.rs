@@ -144,7 +144,8 @@ mod tests {
 
     #[test]
     fn a_number_is_scaled_exactly_from_end_to_end() {
-        let factors = [i32::MIN, i32::MIN + 1, -0x1357_9bdf, -2, -1, 0, 1, 2, 0x2468_ace0, i32::MAX - 1, i32::MAX];
+        let factors =
+            [i32::MIN, i32::MIN + 1, -0x1357_9bdf, -2, -1, 0, 1, 2, 0x2468_ace0, i32::MAX - 1, i32::MAX];
         for (value, factor) in extremes().flat_map(|v| factors.map(|f| (v, f))) {
             let exact = (i128::from(value) * i128::from(factor)) >> 31;
             assert_eq!(i128::from(scale31(value, factor)), exact.min(i64::MAX.into()), "{value} {factor}");
@@ -155,7 +156,8 @@ mod tests {
     fn a_shift_rounds_to_nearest_at_every_width() {
         for (value, shift) in extremes().flat_map(|v| (0..70).map(move |s| (v, s))) {
             // halves up
-            let exact = if shift == 0 { value.into() } else { (i128::from(value) + (1 << (shift - 1))) >> shift };
+            let exact =
+                if shift == 0 { value.into() } else { (i128::from(value) + (1 << (shift - 1))) >> shift };
             assert_eq!(i128::from(round_shift(value, shift)), exact, "{value} / 2^{shift}");
         }
     }
