@@ -354,6 +354,13 @@ mod tests {
             let (bounds, _) = search.run();
             let [right, left, top, bottom] = search.sides.map(|side| i128::from(side.hull));
             checked += 1;
+            // whatever is within the deviation lies inside, or within the disc
+            let deviation = i128::from(ifs.deviation());
+            let ends = [bounds.max.x, -bounds.min.x, bounds.max.y, -bounds.min.y];
+            for (end, side) in ends.into_iter().zip(search.sides) {
+                let wanted = (i128::from(side.hull) + deviation).min(side.disc.into());
+                assert_eq!(i128::from(end.to_bits()), wanted, "{maps:?}");
+            }
             let mut spare = i128::MAX;
             for map in maps {
                 for (factor, t, low, high) in [(map.a, map.e, -left, right), (map.d, map.f, -bottom, top)] {

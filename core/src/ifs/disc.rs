@@ -213,6 +213,23 @@ mod tests {
     }
 
     #[test]
+    fn the_range_ends_at_64_to_a_few_units() {
+        let disc = |units: i32| {
+            let e = Real::from_bits((32 << 24) + units);
+            let map = Affine { a: Unit::from_num(0.5), e, ..Affine::default() };
+            Contractions { maps: &[map], factors: &[map.contraction_factor()] }.invariant_disc()
+        };
+        let what = |units| match disc(units) {
+            Err(Error::OutOfRange { what, .. }) => what,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(what(1), "fixed point of the map");
+        assert_eq!(what(0), "reach of the invariant disc");
+        let [reach, _] = disc(-16).unwrap().reach();
+        assert!((REACH - 32..=REACH).contains(&reach), "{reach}");
+    }
+
+    #[test]
     fn a_disc_that_leaves_the_range_is_refused() {
         let refused = |maps: &[Affine; 2], factor: Unit| {
             Contractions { maps, factors: &[factor; 2] }.invariant_disc().unwrap_err()
