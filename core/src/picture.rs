@@ -9,7 +9,7 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::{Point, Size};
 
 use crate::Error;
-use crate::num::{Real, Wide, nth, ratio};
+use crate::num::{Real, Wide, nth, product_u, ratio};
 
 /// A point of the plane; `y` points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -233,8 +233,8 @@ impl Scale {
         let [whole, high, low] = self.digits;
         // below 2^32
         let d = distance.unsigned_abs() as u32;
-        let fraction = product(d, [high, low]);
-        let pixel = (u64::from(d) * u64::from(whole) + (fraction >> 32)) as i64;
+        let fraction = scaled(d, [high, low]);
+        let pixel = (product_u(d, whole) + (fraction >> 32)) as i64;
         if distance < 0 {
             // the floor of a negative quotient; where it is an integer, the fraction that is left is below 2^-32
             -pixel - i64::from(fraction as u32 != 0)
@@ -246,15 +246,14 @@ impl Scale {
 
 /// `distance` times a fraction of two digits, with 32 fractional bits. Below `2^64`.
 #[inline(always)]
-fn product(distance: u32, [high, low]: [u32; 2]) -> u64 {
-    let carry = (u64::from(distance) * u64::from(low)) >> 32;
-    u64::from(distance) * u64::from(high) + carry
+fn scaled(distance: u32, [high, low]: [u32; 2]) -> u64 {
+    product_u(distance, high) + (product_u(distance, low) >> 32)
 }
 
 /// `floor(distance fraction)`.
 #[inline(always)]
 pub(crate) fn part(distance: u32, fraction: [u32; 2]) -> u32 {
-    (product(distance, fraction) >> 32) as u32
+    (scaled(distance, fraction) >> 32) as u32
 }
 
 fn extent(low: Real, high: Real) -> i64 {
