@@ -339,9 +339,9 @@ fn a_ray_takes_at_most_13_box_tests() {
             let filled = hits as f64 / f64::from(SIDE * SIDE);
             assert!((0.28..0.45).contains(&filled), "the surface fills {filled}");
             let Statistics { rays, box_tests, stack } = caster.statistics();
-            let mean = f64::from(box_tests) / f64::from(rays);
+            let mean = box_tests as f64 / rays as f64;
             println!("{filled:.2} filled, {mean:.2} box tests a ray, stack {stack}");
-            assert_eq!(rays, SIDE * SIDE);
+            assert_eq!(rays, u64::from(SIDE * SIDE));
             assert!(mean <= 13.0 && mean > 1.0, "{mean}");
             assert!(stack <= surface.depth() && stack > 2, "{stack}");
         });

@@ -35,6 +35,13 @@ const FOUR: u64 = 1 << (2 + 2 * FRACTION);
 pub(super) trait Step {
     /// `z^2 + c`, wrapped, for `|z| < 2`.
     fn step(z: Word, c: Word) -> Word;
+
+    /// The next point of the orbit that [`dwell`] follows, where both are within 2.
+    #[inline(always)]
+    fn next(z: Word, c: Word) -> Word {
+        // the step of `careful`, which leaves no format here
+        if is_near(z) { Fine::step(z, c) } else { Self::step(z, c) }
+    }
 }
 
 /// 29 fractional bits: the whole 64-bit product is used. Error of a step: below `2^-29` in each part.
@@ -179,17 +186,16 @@ fn high_word(product: i64) -> i32 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     extern crate std;
     use super::*;
     use std::vec::Vec;
 
-    /// The same rounding in integers that hold every intermediate value, one test a step, no shortcut.
-    fn model(z: Word, c: Word, max: u32, coarse: bool) -> u32 {
-        let (mut x, mut y) = (i128::from(z.0), i128::from(z.1));
-        for n in 0..max {
+    /// The same rounding in integers that hold every intermediate value, one test a step, no shortcut: every point up to the first beyond 2.
+    pub(in super::super) fn orbit(z: Word, c: Word, coarse: bool) -> impl Iterator<Item = [i128; 2]> {
+        let step = move |&[x, y]: &[i128; 2]| {
             if x * x + y * y > 1 << 60 {
-                return n;
+                return None;
             }
             let sum = ((x * x) >> 32) + ((y * y) >> 32);
             let (re, im) = if coarse && sum < i128::from(NEAR) {
@@ -197,9 +203,14 @@ mod tests {
             } else {
                 (((x - y) * (x + y)) >> 29, (x * y) >> 28)
             };
-            (x, y) = (re + i128::from(c.0), im + i128::from(c.1));
-        }
-        max
+            Some([re + i128::from(c.0), im + i128::from(c.1)])
+        };
+        core::iter::successors(Some([i128::from(z.0), i128::from(z.1)]), step)
+    }
+
+    fn model(z: Word, c: Word, max: u32, coarse: bool) -> u32 {
+        // with the point that it starts from and the one beyond 2
+        (orbit(z, c, coarse).take(max as usize + 1).count() - 1) as u32
     }
 
     fn agrees(z: Word, c: Word, max: u32) -> u32 {

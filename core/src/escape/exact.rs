@@ -1,9 +1,73 @@
-//! What the tests of this room compare with: dwell in `f64`, and in 248 fractional bits.
+//! What the tests of this room compare with: dwell in `f64`, and in 248 fractional bits; the orbits of the 32-bit dwell in exact integers.
 
 extern crate std;
 
-use super::Complex;
-use crate::num::Wide;
+use embedded_graphics_core::geometry::Size;
+use std::vec::Vec;
+
+use super::dwell::tests::orbit;
+use super::view::narrow;
+use super::{Complex, Distance, Dwell, FractionalDwell, Julia, Mandelbrot, Precision, Smooth, View};
+use crate::num::{Real, Wide};
+
+/// A pixel of a picture in 32-bit words, and the orbit whose dwell it shows.
+pub(super) struct Pixel {
+    pub(super) dwell: Dwell,
+    pub(super) smooth: FractionalDwell,
+    /// In units of the plane, as the pitch.
+    pub(super) distance: Option<f64>,
+    pub(super) pitch: f64,
+    /// From the first point to the first one beyond 2, none inside.
+    pub(super) orbit: Vec<(f64, f64)>,
+    pub(super) c: (f64, f64),
+    /// What the derivative gains at each step.
+    pub(super) gain: f64,
+}
+
+/// Every pixel of the home view and others, of the Mandelbrot set and of a Julia set, in both precisions, about the limit where the default changes.
+pub(super) fn every_pixel(mut check: impl FnMut(&Pixel)) {
+    let point = |re: f64, im: f64| Complex::new(Wide::from_num(re), Wide::from_num(im));
+    let view = |re, im, width| View::new(point(re, im), Wide::from_num(width), Size::new(96, 72)).unwrap();
+    let views = [View::home(Size::new(150, 125)).unwrap(), view(-0.75, 0.1, 0.3), view(-1.25, 0.02, 0.2)];
+    let seed = point(-0.8, 0.156);
+    for (max, view) in [255, 256, 257].into_iter().flat_map(|max| views.map(|view| (max, view))) {
+        let (set, julia) = (Mandelbrot::new(view, max).unwrap(), Julia::new(view, seed, max).unwrap());
+        assert_eq!(set.precision() == Precision::Coarse26, max <= 256);
+        let Size { width, height } = view.size();
+        for at in (0..height).flat_map(|y| view.line(y, 0..width)) {
+            let Some((x, y)) = narrow(at) else { continue };
+            for precision in [Precision::Coarse26, Precision::Fine29] {
+                let (set, julia) = (set.with_precision(precision), julia.with_precision(precision));
+                // the conjugate, as in the picture
+                let upper = (x, y.wrapping_abs());
+                let values = (set.dwell_at(at), Smooth(set).value_at(at), Distance(set).value_at(at));
+                check(&pixel(values, (upper, upper), 1.0, &view, precision));
+                let values = (julia.dwell_at(at), Smooth(julia).value_at(at), Distance(julia).value_at(at));
+                check(&pixel(values, ((x, y), narrow(seed).unwrap()), 0.0, &view, precision));
+            }
+        }
+    }
+}
+
+fn pixel(
+    (dwell, smooth, distance): (Dwell, FractionalDwell, Option<Real>),
+    (z, c): ((i32, i32), (i32, i32)),
+    gain: f64,
+    view: &View,
+    precision: Precision,
+) -> Pixel {
+    let unit = 2_f64.powi(-29);
+    let mut points = Vec::new();
+    if !dwell.is_inside() {
+        let orbit = orbit(z, c, precision == Precision::Coarse26);
+        points.extend(orbit.map(|z| z.map(|v| v as f64 * unit)).map(|[x, y]| (x, y)));
+        assert_eq!(dwell.count as usize + 1, points.len());
+    }
+    let c = (f64::from(c.0) * unit, f64::from(c.1) * unit);
+    let pitch = view.pitch().to_num::<f64>();
+    let distance = distance.map(|d| d.to_num::<f64>() * pitch);
+    Pixel { dwell, smooth, distance, pitch, orbit: points, c, gain }
+}
 
 /// How two pictures differ.
 #[derive(Debug, Default)]

@@ -57,7 +57,7 @@ impl Julia {
     }
 
     pub(super) fn orbit_of(&self, c: Complex<Wide>) -> Option<Orbit> {
-        narrow(c).map(|z| Orbit { z, c: self.constant })
+        narrow(c).map(|z| Orbit { z, c: self.constant, precision: self.precision })
     }
 
     pub(super) const fn constant_of(&self, _: Complex<Wide>) -> Complex<Wide> {

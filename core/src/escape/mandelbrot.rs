@@ -56,7 +56,7 @@ impl Mandelbrot {
         let c = narrow(c)?;
         // the conjugate, as `dwell_at`
         let c = (c.0, c.1.wrapping_abs());
-        Some(Orbit { z: c, c })
+        Some(Orbit { z: c, c, precision: self.precision })
     }
 
     #[inline(always)]

@@ -3,25 +3,27 @@
 use core::ops::Range;
 
 use super::block::Block;
-use super::dwell::{FRACTION, Fine, Step, Word};
+use super::dwell::{FRACTION, Word};
 use super::escape_time::{Ending, EscapeTime, Steps, follow, period};
 use super::period::{MAX_PERIOD, Period};
+use super::precision::Precision;
 use super::view::Line;
 use super::{Complex, Dwell, Julia, Mandelbrot};
 use crate::Error;
 use crate::num::Wide;
 
-/// The orbit of a point: where it starts, and the constant.
+/// The orbit of a point: where it starts, the constant, and how it is rounded: as where the dwell is counted.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Orbit {
     pub(super) z: Word,
     pub(super) c: Word,
+    pub(super) precision: Precision,
 }
 
 impl Steps for Orbit {
     #[inline]
     fn step(&mut self) {
-        self.z = Fine::step(self.z, self.c);
+        self.z = self.precision.next(self.z, self.c);
     }
 
     #[inline]

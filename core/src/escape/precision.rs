@@ -1,6 +1,6 @@
 //! How many bits of a product an orbit keeps, and which number of them a view needs.
 
-use super::dwell::{self, Coarse, Fine, Word};
+use super::dwell::{self, Coarse, Fine, Step, Word};
 use crate::num::Wide;
 
 /// The width of an orbit's arithmetic.
@@ -30,6 +30,15 @@ impl Precision {
         match self {
             Self::Coarse26 => dwell::dwell::<Coarse>(z, c, max),
             Self::Fine29 => dwell::dwell::<Fine>(z, c, max),
+        }
+    }
+
+    /// The next point of the orbit whose dwell this is.
+    #[inline]
+    pub(super) fn next(self, z: Word, c: Word) -> Word {
+        match self {
+            Self::Coarse26 => Coarse::next(z, c),
+            Self::Fine29 => Fine::next(z, c),
         }
     }
 }

@@ -392,6 +392,37 @@ mod tests {
     }
 
     #[test]
+    fn a_composition_is_rounded_once_to_the_nearest() {
+        let maps = || random_maps(6).zip(random_maps(7)).take(20_000);
+        for (second, first) in maps() {
+            let both = second.after(&first);
+            let [a, b, c, d] = second.linear().map(i128::from);
+            let [p, q, r, s] = first.linear().map(i128::from);
+            let exact = [a * p + b * r, a * q + b * s, c * p + d * r, c * q + d * s];
+            for (got, exact) in both.linear().into_iter().zip(exact) {
+                let nearest = ((exact + (1 << 29)) >> 30).clamp(i32::MIN.into(), i32::MAX.into());
+                assert_eq!(i128::from(got), nearest, "{second:?} {first:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_similarity_just_below_1_is_a_contraction() {
+        let mut close = 0;
+        for k in 1..2000_i64 {
+            // a^2 + b^2 as near to 1 as b allows
+            let a = (k * 536_870_909) & ((1 << 30) - 1);
+            let b = ((1 << 60) - a * a).isqrt();
+            for (b, below) in [(b, a * a + b * b < 1 << 60), (b + 1, false)] {
+                let [a, b, c] = [a, b, -b].map(|v| Unit::from_bits(v as i32));
+                assert_eq!(Affine::new([a, b, c, a], [Real::ZERO; 2]).is_contraction(), below, "{a} {b}");
+            }
+            close += u32::from(a * a + b * b > (1 << 60) - (1 << 30));
+        }
+        assert!(close > 300, "{close}");
+    }
+
+    #[test]
     fn constants_read_like_the_tables() {
         const FROND: Affine = Affine::from_thousandths([850, 40, -40, 850, 0, 1600]);
         assert_eq!(FROND, Affine::from_millionths([850_000, 40_000, -40_000, 850_000, 0, 1_600_000]));

@@ -217,6 +217,8 @@ mod tests {
     use super::*;
     use crate::ifs::catalogue::{self, LARGEST};
     use crate::num::Unit;
+    use rand_xoshiro::Xoshiro128PlusPlus;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
     /// Left, right, bottom, top.
     fn sides(b: Bounds2) -> [f64; 4] {
@@ -323,6 +325,60 @@ mod tests {
             let p = ifs.start();
             assert!(bounds.min.x <= p.x && p.x <= bounds.max.x && bounds.min.y <= p.y && p.y <= bounds.max.y);
         }
+    }
+
+    /// Two maps that shrink each axis by a positive factor: the attractor reaches from the least fixed point to the greatest, two fractions.
+    /// Points a few units apart, so that no tolerance hides a rounding; far from the origin and near it, fast contractions and slow ones.
+    #[test]
+    fn the_hull_is_rounded_outwards_to_the_unit() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(20);
+        let (mut checked, mut tight) = (0, 0);
+        for k in 0..250 {
+            let apart = [4, 100, 1 << 20][k % 3];
+            let far = [60 << 24, 1 << 20][k % 2];
+            let slow = if k % 25 == 0 { (1 << 30) - (1 << 25) } else { 0 };
+            let place = [(); 2].map(|()| (i64::from(rng.next_u32() as i32) * far) >> 31);
+            let maps = [(); 2].map(|()| {
+                let factors = [(); 2].map(|()| slow.max((rng.next_u32() >> 2) as i64 * 15 / 16));
+                // the fixed point within a few units of a place both maps share
+                let [e, f] = [0, 1].map(|i: usize| {
+                    let fixed = place[i] + i64::from(rng.next_u32() % apart);
+                    Real::from_bits(((fixed * ((1 << 30) - factors[i])) >> 30) as i32)
+                });
+                let [a, d] = factors.map(|f| Unit::from_bits(f as i32));
+                Affine::new([a, Unit::ZERO, Unit::ZERO, d], [e, f])
+            });
+            let Ok(ifs) = Ifs::<2>::new(&maps, &[Unit::from_num(0.5); 2]) else { continue };
+            let mut search = Search::new(ifs.maps(), ifs.invariant_disc(), ifs.start(), ifs.deviation());
+            search.reach(ifs.start());
+            let (bounds, _) = search.run();
+            let [right, left, top, bottom] = search.sides.map(|side| i128::from(side.hull));
+            checked += 1;
+            // whatever is within the deviation lies inside, or within the disc
+            let deviation = i128::from(ifs.deviation());
+            let ends = [bounds.max.x, -bounds.min.x, bounds.max.y, -bounds.min.y];
+            for (end, side) in ends.into_iter().zip(search.sides) {
+                let wanted = (i128::from(side.hull) + deviation).min(side.disc.into());
+                assert_eq!(i128::from(end.to_bits()), wanted, "{maps:?}");
+            }
+            let mut spare = i128::MAX;
+            for map in maps {
+                for (factor, t, low, high) in [(map.a, map.e, -left, right), (map.d, map.f, -bottom, top)] {
+                    // low <= t / (1 - factor) <= high
+                    let gap = (1 << 30) - i128::from(factor.to_bits());
+                    let t = i128::from(t.to_bits()) << 30;
+                    assert!(low * gap <= t && t <= high * gap, "{maps:?}: {low} {t} / {gap} {high}");
+                    spare = spare.min(high * gap - t).min(t - low * gap);
+                }
+            }
+            tight += u32::from(spare < 1 << 27);
+            for p in ifs.seeded_chaos_game(k as u64).take(200) {
+                let inside =
+                    bounds.min.x <= p.x && p.x <= bounds.max.x && bounds.min.y <= p.y && p.y <= bounds.max.y;
+                assert!(inside, "{maps:?}: {p:?} {bounds:?}");
+            }
+        }
+        assert!(checked > 200 && tight > 15, "{tight} of {checked}");
     }
 
     #[test]

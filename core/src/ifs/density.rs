@@ -11,7 +11,7 @@ use embedded_graphics_core::geometry::Size;
 
 use crate::Error;
 use crate::num::{log2, reciprocal};
-use crate::picture::{Bounds2, Field, Point2, Window};
+use crate::picture::{Bounds2, Field, Point2, Window, from, part};
 
 /// A saturating counter of hits: `u8` or `u16`, or one of your own.
 pub trait Counter: Copy {
@@ -70,8 +70,8 @@ impl Counter for u16 {
 #[derive(Debug)]
 pub struct Density<'a, C> {
     window: Window,
-    /// See `Window::scales`.
-    scales: [(u32, u32); 2],
+    /// See `Window::fractions`.
+    fractions: [[u32; 2]; 2],
     /// How far from the left edge the shortcut holds: the extent, or 0 where there is none.
     extent: u32,
     width: u32,
@@ -90,10 +90,10 @@ impl<'a, C: Counter> Density<'a, C> {
     pub fn new(window: Window, counts: &'a mut [C]) -> Result<Self, Error> {
         check_length(&window, counts.len())?;
         let Bounds2 { min, max } = window.bounds();
-        let extent = max.x.to_bits().wrapping_sub(min.x.to_bits()) as u32;
-        let (scales, extent) = window.scales().map_or(([(0, 0); 2], 0), |scales| (scales, extent));
+        let (fractions, extent) =
+            window.fractions().map_or(([[0; 2]; 2], 0), |fractions| (fractions, from(min.x, max.x)));
         counts.fill(C::ZERO);
-        Ok(Self { window, scales, extent, width: window.size().width, counts, maps: &mut [] })
+        Ok(Self { window, fractions, extent, width: window.size().width, counts, maps: &mut [] })
     }
 
     /// The same count, which also keeps the last map of each pixel in one byte a pixel: use [`Density::record_from`].
@@ -131,20 +131,17 @@ impl<'a, C: Counter> Density<'a, C> {
     }
 
     /// The index of [`Window::pixel`], or one beyond the buffer: the right and the lower edge, which belong to the last pixels, and whatever
-    /// lies outside are left to [`Density::record_slowly`].
+    /// lies outside are left to [`Density::record_slowly`]. What lies below the window is in a row below the last one, as rows are exact.
     #[inline(always)]
     fn index(&self, p: Point2) -> usize {
         let Bounds2 { min, max } = self.window.bounds();
-        let [(x, x_shift), (y, y_shift)] = self.scales;
+        let [x, y] = self.fractions;
         // modulo 2^32 a coordinate outside is farther than the extent
-        let right = p.x.to_bits().wrapping_sub(min.x.to_bits()) as u32;
-        let down = max.y.to_bits().wrapping_sub(p.y.to_bits()) as u32;
+        let (right, down) = (from(min.x, p.x), from(p.y, max.y));
         if right >= self.extent {
             return usize::MAX;
         }
-        let high = |a: u32, b: u32| ((u64::from(a) * u64::from(b)) >> 32) as u32;
-        let column = high(right, x) >> (x_shift & 31);
-        let row = high(down, y) >> (y_shift & 31);
+        let (column, row) = (part(right, x), part(down, y));
         row.wrapping_mul(self.width).wrapping_add(column) as usize
     }
 

@@ -131,6 +131,8 @@ fn out_of_range(what: &'static str, index: usize, bits: i64) -> Error {
 mod tests {
     use super::*;
     use crate::ifs::catalogue;
+    use rand_xoshiro::Xoshiro128PlusPlus;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
     #[test]
     fn an_invariant_disc_is_sent_into_itself() {
@@ -155,6 +157,51 @@ mod tests {
         }
     }
 
+    /// `gap r >= |w(z) - z| + 1` in exact integers: half a unit of rounding in each coordinate moves a point by less than one unit.
+    #[test]
+    fn an_invariant_disc_leaves_a_unit_for_rounding() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(12);
+        let (mut checked, mut closest, mut decided) = (0, i128::MAX, 0);
+        for _ in 0..3000 {
+            // from 2^-6 to 1, translations from a few units to 8
+            let (linear, wide) = (rng.next_u32() % 7, rng.next_u32() % 26);
+            let mut signed = |below: u32| rng.next_u32() as i32 >> (31 - below);
+            let maps = [(); 3].map(|()| {
+                let entries = [(); 4].map(|()| Unit::from_bits(signed(30 - linear)));
+                Affine::new(entries, [(); 2].map(|()| Real::from_bits(signed(1 + wide))))
+            });
+            if !maps.iter().all(Affine::is_contraction) {
+                continue;
+            }
+            let factors = [0, 1, 2].map(|i: usize| maps[i].contraction_factor());
+            let Ok(disc) = (Contractions { maps: &maps, factors: &factors }).invariant_disc() else {
+                continue;
+            };
+            checked += 1;
+            let [x, y] = [disc.centre.x, disc.centre.y].map(|z| i128::from(z.to_bits()));
+            let mut nearest = i128::MAX;
+            for (map, factor) in maps.iter().zip(factors) {
+                let bits = |u: Unit| i128::from(u.to_bits());
+                let gap = (1 << 30) - bits(factor);
+                // 54 fractional bits
+                let moved = |l: Unit, m: Unit, t: Real, z: i128| {
+                    bits(l) * x + bits(m) * y + ((i128::from(t.to_bits()) - z) << 30)
+                };
+                let (right, up) = (moved(map.a, map.b, map.e, x), moved(map.c, map.d, map.f, y));
+                let room = gap * i128::from(disc.radius.to_bits()) - (1 << 30);
+                assert!(room >= 0 && room * room >= right * right + up * up, "{maps:?}");
+                let spare = room - (right * right + up * up).isqrt();
+                // of which up to a unit is what the division is rounded up by
+                nearest = nearest.min(spare - gap);
+                closest = closest.min(spare);
+            }
+            // two coordinates and a root rounded up, and as much as a unit of the radius
+            decided += u32::from(nearest <= 3 << 30);
+        }
+        assert!(checked > 1000 && decided == checked, "{decided} of {checked}");
+        assert!(closest < 1 << 28, "{closest}");
+    }
+
     #[test]
     fn a_square_lies_in_its_circumscribed_disc() {
         let square =
@@ -163,6 +210,23 @@ mod tests {
             Contractions { maps: &square, factors: &[Unit::from_num(0.5); 4] }.invariant_disc().unwrap();
         let radius = disc.radius.to_num::<f64>();
         assert!(radius >= 0.5_f64.sqrt() && radius < 0.72, "{radius}");
+    }
+
+    #[test]
+    fn the_range_ends_at_64_to_a_few_units() {
+        let disc = |units: i32| {
+            let e = Real::from_bits((32 << 24) + units);
+            let map = Affine { a: Unit::from_num(0.5), e, ..Affine::default() };
+            Contractions { maps: &[map], factors: &[map.contraction_factor()] }.invariant_disc()
+        };
+        let what = |units| match disc(units) {
+            Err(Error::OutOfRange { what, .. }) => what,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(what(1), "fixed point of the map");
+        assert_eq!(what(0), "reach of the invariant disc");
+        let [reach, _] = disc(-16).unwrap().reach();
+        assert!((REACH - 32..=REACH).contains(&reach), "{reach}");
     }
 
     #[test]

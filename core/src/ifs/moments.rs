@@ -189,6 +189,7 @@ fn quotient(numerator: i128, denominator: i128) -> Option<i64> {
 mod tests {
     use super::*;
     use crate::ifs::{Affine, catalogue};
+    use crate::num::Real;
 
     #[test]
     fn the_unit_interval_is_uniform() {
@@ -211,6 +212,20 @@ mod tests {
             (m.mean[0] - Wide::from(fixed.x)).abs() < 1e-7 && (m.mean[1] - Wide::from(fixed.y)).abs() < 1e-7
         );
         assert!(m.covariance.iter().all(|c| c.abs() < 1e-12), "{m:?}");
+    }
+
+    #[test]
+    fn a_mean_is_the_nearest_number() {
+        for k in 1..400_i64 {
+            let (a, e) = ((k * 7_919_777) % (1 << 30) - (1 << 29), (k * 1_299_709) % (1 << 28) - (1 << 27));
+            let map =
+                Affine { a: Unit::from_bits(a as i32), e: Real::from_bits(e as i32), ..Affine::default() };
+            let [mean, _] = Ifs::<1>::new(&[map], &[Unit::ONE]).unwrap().moments().unwrap().mean;
+            // |mean - e / (1 - a)| <= 2^-49
+            let gap = i128::from((1 << 30) - a);
+            let off = i128::from(mean.to_bits()) * gap - (i128::from(e) << 54);
+            assert!(2 * off.abs() <= gap, "{map:?} {mean}");
+        }
     }
 
     #[test]

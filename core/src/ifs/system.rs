@@ -230,6 +230,14 @@ mod tests {
         assert!(Ifs::<3>::new(&[HALF; 3], &third(0.9e-6)).is_ok());
         assert!(Ifs::<3>::new(&[HALF; 3], &third(1.1e-6)).is_err());
         assert!(Ifs::<3>::new(&[HALF; 3], &third(-1.1e-6)).is_err());
+        // a millionth is 1073.7 units of 2^-30
+        let half = |units: i32| [Unit::from_bits((1 << 29) + units); 2];
+        for units in [1073, -1073] {
+            assert!(Ifs::<2>::new(&[HALF; 2], &half(units)).is_ok());
+        }
+        for units in [1075, -1075] {
+            assert!(matches!(Ifs::<2>::new(&[HALF; 2], &half(units)), Err(Error::Probabilities { .. })));
+        }
     }
 
     #[test]

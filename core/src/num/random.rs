@@ -1,8 +1,9 @@
 //! Choosing one of `n` items with given probabilities in constant time: the alias method.
 //!
-//! Source: A. J. Walker, "An efficient method for generating discrete random variables", 1977; the table by M. D. Vose, 1991.
+//! Source: A. J. Walker, "An efficient method for generating discrete random variables", 1977; the table by M. D. Vose, 1991. It is made of whole words:
+//! each item gets its share of the `2^32` words first, in slots that `n` divides them into, then they change hands without rounding.
 
-use super::{product_by_short, ratio};
+use super::{nth, product_by_short, ratio};
 use crate::Error;
 
 /// An alias table of at most `N <= 256` items. Cost of a draw: one multiplication, one comparison, two loads.
@@ -17,7 +18,9 @@ pub struct Alias<const N: usize> {
 }
 
 impl<const N: usize> Alias<N> {
-    /// A table for items with the given weights: the probability of item `i` is `weights[i]` over their sum, within `2^-31`.
+    /// A table for items with the given weights: the probability of item `i` is `weights[i]` over their sum, 0 for 0.
+    ///
+    /// Error: below `2^-32` (`words_are_shared_out_in_proportion_to_the_weights`). Cost: about `n^2` comparisons.
     ///
     /// # Errors
     /// [`Error::TooFew`] without weights or when all are 0, [`Error::Capacity`] for more than `N` or 256.
@@ -31,7 +34,7 @@ impl<const N: usize> Alias<N> {
             return Err(Error::TooFew { what: "positive weights", given: 0, at_least: 1 });
         }
         let (mut threshold, mut other) = ([u32::MAX; N], core::array::from_fn(|i| i as u8));
-        share(weights, sum, &mut [0; N], &mut threshold, &mut other);
+        share(weights, sum, &mut [0_i64; N], &mut threshold, &mut other);
         Ok(Self { threshold, other, len: n as u32 })
     }
 
@@ -58,59 +61,117 @@ impl<const N: usize> Alias<N> {
     }
 }
 
+/// The first word of a slot of `n`, for `slot <= n`: `ceil(2^32 slot / n)`.
+fn first_word(slot: usize, n: usize) -> i64 {
+    nth(((slot as i64) << 32) + n as i64 - 1, n as u32)
+}
+
 /// Fills a table in which each of the items stands for itself.
-fn share(weights: &[u32], sum: u64, parts: &mut [u64], thresholds: &mut [u32], others: &mut [u8]) {
-    // Each slot holds `sum` parts; an item with weight w owns n w of them.
-    for (part, weight) in parts.iter_mut().zip(weights) {
-        *part = weights.len() as u64 * u64::from(*weight);
+fn share(weights: &[u32], sum: u64, excess: &mut [i64], thresholds: &mut [u32], others: &mut [u8]) {
+    let n = weights.len();
+    // how many words more an item owns than its slot has, from those of all items before it
+    let (mut below, mut owned) = (0_u64, 0);
+    for (i, (excess, weight)) in excess.iter_mut().zip(weights).enumerate() {
+        below += u64::from(*weight);
+        let end = ratio(below, 32, sum) as i64;
+        *excess = end - owned - (first_word(i + 1, n) - first_word(i, n));
+        owned = end;
     }
     for _ in weights {
         // the poorest item that still stands for itself, and the richest
-        let (mut poor, mut rich) = ((sum, 0), (0, 0));
-        for (i, ((part, other), _)) in parts.iter().zip(&*others).zip(weights).enumerate() {
+        let (mut poor, mut rich) = ((0, 0), (0, 0));
+        for (i, ((excess, other), _)) in excess.iter().zip(&*others).zip(weights).enumerate() {
             if usize::from(*other) == i {
-                if *part < poor.0 {
-                    poor = (*part, i);
+                if *excess < poor.0 {
+                    poor = (*excess, i);
                 }
-                if *part >= rich.0 {
-                    rich = (*part, i);
+                if *excess >= rich.0 {
+                    rich = (*excess, i);
                 }
             }
         }
-        let ((part, i), (_, rich)) = (poor, rich);
-        if part >= sum {
+        let ((missing, i), (_, rich)) = (poor, rich);
+        if missing >= 0 {
             break;
         }
-        // part < sum < 2^40, so that the quotient is below 2^32; what is open averages `sum`: the richest is another one and has enough
+        // it owns the first words of its slot: they are `n` apart below 2^32, and begin below `n`
+        let words = first_word(i + 1, n) - first_word(i, n) + missing;
         if let (Some(threshold), Some(other)) = (thresholds.get_mut(i), others.get_mut(i)) {
-            (*threshold, *other) = (ratio(part, 32, sum) as u32, rich as u8);
+            (*threshold, *other) = ((words * n as i64) as u32, rich as u8);
         }
-        if let Some(left) = parts.get_mut(rich) {
-            *left = left.wrapping_sub(sum - part);
+        // what is open adds up to 0: the richest is another one and has a word too many at least, so that no slot asks it for more than it owns
+        if let Some(left) = excess.get_mut(rich) {
+            *left += missing;
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
     use super::*;
+    use rand_xoshiro::Xoshiro128PlusPlus;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+    use std::vec::Vec;
+
+    /// How many of the 2^32 words stand for each item: exactly, from the last word of each slot that stands for its own item.
+    fn words<const N: usize>(table: &Alias<N>) -> Vec<i128> {
+        let n = table.len() as u64;
+        let mut words = std::vec![0_i128; table.len()];
+        for slot in 0..n {
+            let first = (slot << 32).div_ceil(n);
+            let end = ((slot + 1) << 32).div_ceil(n);
+            // words are picked in this order: its own item, then the other one
+            let (mut low, mut high) = (first, end);
+            while low < high {
+                let middle = (low + high) / 2;
+                if table.pick(middle as u32) == slot as usize { low = middle + 1 } else { high = middle }
+            }
+            words[slot as usize] += i128::from(low - first);
+            if low < end {
+                let other = table.pick(low as u32);
+                assert_eq!(table.pick((end - 1) as u32), other);
+                words[other] += i128::from(end - low);
+            }
+        }
+        words
+    }
 
     #[test]
     fn words_are_shared_out_in_proportion_to_the_weights() {
-        for weights in [&[1_u32][..], &[1, 1], &[1, 85, 7, 7], &[0, 3, 0, 5], &[u32::MAX; 5], &[u32::MAX, 1]]
-        {
-            let table = Alias::<8>::new(weights).unwrap();
-            let mut count = [0_u32; 8];
-            let total = 1 << 20;
-            for i in 0..total {
-                count[table.pick(i << 12)] += 1;
-            }
-            let sum: f64 = weights.iter().map(|w| f64::from(*w)).sum();
-            for (c, w) in count.iter().zip(weights) {
-                let (got, want) = (f64::from(*c) / f64::from(total), f64::from(*w) / sum);
-                assert!((got - want).abs() < 1e-5, "{weights:?}: {got} against {want}");
-                assert!(*w > 0 || *c == 0, "an item without weight was drawn");
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(3);
+        let mut lists: Vec<Vec<u32>> = [
+            &[1_u32][..],
+            &[1, 1],
+            &[1, 85, 7, 7],
+            &[0, 3, 0, 5],
+            &[u32::MAX; 5],
+            &[u32::MAX, 1],
+            &[0, 0, 1],
+        ]
+        .map(<[u32]>::to_vec)
+        .into();
+        lists.push((0..256).map(|i| u32::from(i == 77)).collect());
+        lists.push(std::vec![1; 255]);
+        lists.push((0..256).map(|i| if i == 9 { u32::MAX } else { 1 }).collect());
+        for n in [2, 3, 7, 64, 100, 255, 256, 256, 256] {
+            for shift in [0, 8, 31] {
+                lists.push((0..n).map(|_| rng.next_u32() >> (rng.next_u32() % (shift + 1))).collect());
             }
         }
+        let mut inexact = 0;
+        for weights in lists {
+            let words = words(&Alias::<256>::new(&weights).unwrap());
+            let sum: i128 = weights.iter().map(|w| i128::from(*w)).sum();
+            assert_eq!(words.iter().sum::<i128>(), 1 << 32, "{weights:?}");
+            for (words, weight) in words.iter().zip(&weights) {
+                // |words / 2^32 - weight / sum| < 2^-32
+                let off = words * sum - (i128::from(*weight) << 32);
+                assert!(off.abs() < sum, "{weights:?}: {words} for {weight} of {sum}");
+                assert!(*weight > 0 || *words == 0, "an item without weight was drawn");
+                inexact += u32::from(off != 0);
+            }
+        }
+        assert!(inexact > 1000, "{inexact}");
     }
 }

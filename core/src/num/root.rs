@@ -179,5 +179,34 @@ mod tests {
         for v in inputs().chain([0, u64::MAX, u64::MAX - 1]) {
             assert_eq!(u64::from(sqrt(v)), v.isqrt(), "{v}");
         }
+        // from the square to the last number before the next one
+        let roots = inputs().map(|v| (v >> 32).max(1)).chain([u64::from(u32::MAX), (1 << 31) - 1, 1 << 31]);
+        for root in roots {
+            let square = root * root;
+            assert_eq!(u64::from(sqrt(square - 1)), root - 1, "{root}");
+            for v in [square, square + 1, square + root, square + 2 * root] {
+                assert_eq!(u64::from(sqrt(v)), root, "{v}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_scaled_root_is_within_a_unit_and_its_reciprocal_within_two_to_the_minus_24() {
+        let mut worst = [0_i128, 0];
+        let scaled = inputs().map(|v| v << v.leading_zeros() >> (1 + v % 5)).filter(|v| *v >= 1 << 58);
+        for v in scaled.chain([1 << 58, (1 << 63) - 1, (1 << 60) - 1, 1 << 60, (1 << 62) - 1, 1 << 62]) {
+            let (root, mantissa, places) = root_and_reciprocal(v);
+            assert!(places <= 2);
+            let (v, root, mantissa) = (i128::from(v), i128::from(root), i128::from(mantissa));
+            // (root - 1)^2 <= v <= (root + 1)^2
+            assert!((root - 1).pow(2) <= v && v <= (root + 1).pow(2), "{v}: {root}");
+            worst[0] = worst[0].max((root * root - v).abs() / root);
+            // m / 2^(62 - places) sqrt(v) against 1: the square less 1, in units of 2^-40
+            let product = (mantissa * root) >> 16; // 46 - places fractional bits
+            let off = product - (1 << (46 - places));
+            worst[1] = worst[1].max(off.abs() << places);
+        }
+        // twice the error of the root, below 2 units; and 2^-24 with 46 fractional bits
+        assert!(worst[0] >= 1 && worst[1] > 0 && worst[1] < 1 << 22, "{worst:?}");
     }
 }

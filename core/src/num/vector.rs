@@ -88,29 +88,53 @@ impl Vec3<Unit> {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
     use super::*;
+    use rand_xoshiro::Xoshiro128PlusPlus;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    /// In a random direction of any length, ends of the format and zeros among the components.
+    fn vectors() -> impl Iterator<Item = [i32; 3]> {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(31);
+        core::iter::from_fn(move || {
+            let shift = rng.next_u32() % 31;
+            Some([(); 3].map(|()| match rng.next_u32() % 12 {
+                0 => 0,
+                1 => i32::MIN >> shift,
+                2 => i32::MAX >> shift,
+                _ => rng.next_u32() as i32 >> shift,
+            }))
+        })
+    }
 
     #[test]
     fn a_unit_vector_is_within_two_to_the_minus_27() {
-        let (mut worst, mut state) = (0.0_f64, 3_u64);
-        for i in 0..300_000_u32 {
-            let mut component = || {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                // from all bits down to one
-                (state >> 32) as i32 >> ((state >> 27) & 31) >> (i % 7)
-            };
-            let v = [component(), component(), component()];
-            let [x, y, z] = v.map(Real::from_bits);
-            let Some(fixed) = Vec3::new(x, y, z).normalised() else {
-                assert_eq!((v, unit(v)), ([0; 3], Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ZERO)));
-                continue;
-            };
-            assert_eq!(fixed, unit(v));
+        let mut worst: f64 = 0.0;
+        for v in vectors().take(30_000) {
+            let direction = Vec3::new(v[0], v[1], v[2]);
+            let real = |bits| Real::from_bits(bits);
+            let unit = Vec3::new(real(direction.x), real(direction.y), real(direction.z)).normalised();
+            assert_eq!(unit.is_none(), v == [0; 3]);
+            let Some(unit) = unit else { continue };
             let length = v.iter().map(|c| f64::from(*c).powi(2)).sum::<f64>().sqrt();
-            for (c, got) in v.iter().zip([fixed.x, fixed.y, fixed.z]) {
-                worst = worst.max((got.to_num::<f64>() - f64::from(*c) / length).abs());
+            for (got, want) in [unit.x, unit.y, unit.z].into_iter().zip(v) {
+                worst = worst.max((got.to_num::<f64>() - f64::from(want) / length).abs());
             }
         }
-        assert!(worst > 2_f64.powi(-30) && worst < 2_f64.powi(-27), "{worst:e}");
+        assert!(worst > 0.0 && worst < 2_f64.powi(-27), "{worst:e}");
+    }
+
+    #[test]
+    fn products_are_rounded_down_from_the_exact_ones() {
+        let units: std::vec::Vec<_> = vectors().filter(|v| *v != [0; 3]).take(2_000).map(unit).collect();
+        for pair in units.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let [[x, y, z], [u, v, w]] = [a, b].map(|v| [v.x, v.y, v.z].map(|c| i128::from(c.to_bits())));
+            let bits = |unit: Unit| i128::from(unit.to_bits());
+            assert_eq!(bits(a.dot(b)), (x * u + y * v + z * w) >> 30);
+            let cross = a.cross(b);
+            let exact = [y * w - z * v, z * u - x * w, x * v - y * u].map(|product| product >> 30);
+            assert_eq!([cross.x, cross.y, cross.z].map(bits), exact);
+        }
     }
 }

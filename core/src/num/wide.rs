@@ -7,13 +7,17 @@ use super::ratio;
 
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
 ///
-/// Domain: all. Error: below 4 units of `value`, towards minus infinity (`a_high_product_is_that_of_128_bits`). Cost: 2 multiplications.
+/// Domain: all. Exact, rounded towards minus infinity; -1 times `i64::MIN` saturates (`a_number_is_scaled_exactly_from_end_to_end`). Cost: 3 multiplications.
 #[inline]
 pub fn scale31(value: i64, factor: i32) -> i64 {
-    let high = (value >> 32) as i32;
-    let low = ((value as u32) >> 1) as i32;
-    let low_product = product::high(low, factor);
-    (product(high, factor) << 1) + (i64::from(low_product) << 2)
+    if value == i64::MIN && factor == i32::MIN {
+        return i64::MAX;
+    }
+    // the lower word has no sign to be corrected for
+    let low = product_u(value as u32, factor as u32) as i64;
+    let correction = if factor < 0 { value << 32 } else { 0 };
+    // modulo 2^64: the sum fits
+    (product((value >> 32) as i32, factor) << 1).wrapping_add(low.wrapping_sub(correction) >> 31)
 }
 
 /// The high 64 bits of the 128-bit product, towards minus infinity. Exact.
@@ -42,12 +46,12 @@ pub(crate) fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     ((((product as u32) >> (half & 31)) >> 1) | ((product >> 32) as u32) << ((half & 31) ^ 31)) as i32
 }
 
-/// `value / 2^shift`, rounded to nearest (halves up). Shifts of 63 and more give 0 or -1 rounded, that is 0.
+/// `value / 2^shift`, rounded to nearest (halves up): 0 for shifts of 64 and more. Exact (`a_shift_rounds_to_nearest_at_every_width`).
 #[inline]
 pub const fn round_shift(value: i64, shift: u32) -> i64 {
     if shift == 0 {
         value
-    } else if shift > 62 {
+    } else if shift > 63 {
         0
     } else {
         // no overflow: shift first, then add the bit below
@@ -125,9 +129,47 @@ mod tests {
         for a in samples {
             for b in samples {
                 assert_eq!(mul_high(a, b), ((i128::from(a) * i128::from(b)) >> 64) as i64, "{a} {b}");
-                let exact = (i128::from(a >> 2) * i128::from(b as i32)) >> 31;
-                let error = exact - i128::from(scale31(a >> 2, b as i32));
-                assert!((0..4).contains(&error), "{a} {b}: {error}");
+                let (a, b) = (a as u64, b as u64);
+                assert_eq!(mul_high_u(a, b), ((u128::from(a) * u128::from(b)) >> 64) as u64, "{a} {b}");
+            }
+        }
+    }
+
+    /// Both ends, 0, and a few beside each; powers of two and their neighbours.
+    fn extremes() -> impl Iterator<Item = i64> {
+        let near = |v: i64| (-5..=5).map(move |off| v.wrapping_add(off));
+        let powers = (0..63).flat_map(move |k| near(1 << k).chain(near(-1 << k)));
+        near(i64::MIN).chain(near(0)).chain(powers).chain([0x1234_5678_9abc_def0, -0x0fed_cba9_8765_4321])
+    }
+
+    #[test]
+    fn a_number_is_scaled_exactly_from_end_to_end() {
+        let factors =
+            [i32::MIN, i32::MIN + 1, -0x1357_9bdf, -2, -1, 0, 1, 2, 0x2468_ace0, i32::MAX - 1, i32::MAX];
+        for (value, factor) in extremes().flat_map(|v| factors.map(|f| (v, f))) {
+            let exact = (i128::from(value) * i128::from(factor)) >> 31;
+            assert_eq!(i128::from(scale31(value, factor)), exact.min(i64::MAX.into()), "{value} {factor}");
+        }
+    }
+
+    #[test]
+    fn a_shift_rounds_to_nearest_at_every_width() {
+        for (value, shift) in extremes().flat_map(|v| (0..70).map(move |s| (v, s))) {
+            // halves up
+            let exact =
+                if shift == 0 { value.into() } else { (i128::from(value) + (1 << (shift - 1))) >> shift };
+            assert_eq!(i128::from(round_shift(value, shift)), exact, "{value} / 2^{shift}");
+        }
+    }
+
+    #[test]
+    fn a_number_is_scaled_by_a_root_exactly() {
+        for (v, half) in extremes().flat_map(|v| (0..32).map(move |h| (v as i32, h))) {
+            for mantissa in [0, 1, i32::MAX, 0x5a82_799a] {
+                let exact = (i128::from(v) * i128::from(mantissa)) >> (half + 1);
+                if exact == i128::from(exact as i32) {
+                    assert_eq!(i128::from(scaled(v, (mantissa, half))), exact, "{v} {mantissa} {half}");
+                }
             }
         }
     }
@@ -144,14 +186,18 @@ mod tests {
 
     #[test]
     fn a_quotient_is_low_by_less_than_two_to_the_minus_61() {
-        for d in [3, 7, 309, 1 << 62, (1 << 63) - 1, 0x6789_abcd_ef01_2345, u64::MAX] {
+        let mut worst = 0;
+        for d in extremes().map(|d| d as u64).filter(|d| *d > 0) {
             let r = Reciprocal::of(d);
-            for v in [0, 1, d / 3, d / 2, d - 1, d] {
+            for v in [0, 1, 2, d / 3, d / 2, d / 2 + 1, d - d / 7, d - 1, d].into_iter().filter(|v| *v <= d) {
                 let exact = (u128::from(v) << 63) / u128::from(d);
                 let got = u128::from(r.quotient(v));
-                assert!(got <= exact && exact - got < 5, "{v} / {d}: {got} against {exact}");
+                assert!(got <= exact && exact - got < 4, "{v} / {d}: {got} against {exact}");
+                worst = worst.max(exact - got);
                 assert!(v == d || u128::from(r.exact(v, d)) == exact, "{v} / {d}");
             }
         }
+        assert!(worst > 1);
+        assert_eq!(Reciprocal::of(0), Reciprocal::of(1));
     }
 }

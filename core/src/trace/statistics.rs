@@ -1,12 +1,12 @@
 //! What intersections cost, for those who ask.
 
-/// What intersections have cost, added up.
+/// What intersections have cost, added up: more than any picture takes fits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Statistics {
     /// Rays cast.
-    pub rays: u32,
+    pub rays: u64,
     /// Boxes tested, that of the whole surface included.
-    pub box_tests: u32,
+    pub box_tests: u64,
     /// Most nodes that a walk stood in at a time, one inside the other: at most the depth.
     pub stack: u32,
 }
@@ -30,15 +30,33 @@ impl Count for Uncounted {
 impl Count for Statistics {
     /// Every ray is tested against the box of the whole surface.
     fn ray(&mut self) {
-        self.rays = self.rays.wrapping_add(1);
+        self.rays = self.rays.saturating_add(1);
         self.test();
     }
 
     fn test(&mut self) {
-        self.box_tests = self.box_tests.wrapping_add(1);
+        self.box_tests = self.box_tests.saturating_add(1);
     }
 
     fn depth(&mut self, nodes: u32) {
         self.stack = self.stack.max(nodes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_count_goes_on_beyond_32_bits() {
+        let full = u64::from(u32::MAX);
+        let mut statistics = Statistics { rays: full, box_tests: full, stack: 3 };
+        statistics.ray();
+        statistics.test();
+        statistics.depth(2);
+        assert_eq!(statistics, Statistics { rays: full + 1, box_tests: full + 2, stack: 3 });
+        let mut last = Statistics { rays: u64::MAX, box_tests: u64::MAX, stack: 0 };
+        last.ray();
+        assert_eq!((last.rays, last.box_tests), (u64::MAX, u64::MAX));
     }
 }

@@ -161,7 +161,7 @@ fn box_tests(surface: &HeightField<'_>) -> u32 {
     for ray in &rays_to_the_ground() {
         black_box(surface.intersect_counted(ray, Unit::ZERO, &mut statistics));
     }
-    statistics.box_tests
+    statistics.box_tests as u32
 }
 
 /// Hands the leaves that rays met, and their cells, to `work`.
