@@ -107,9 +107,7 @@ fn goal(args: &Dump, scenes: &[Scene]) -> Result<Goal, Fail> {
     let is_directory = there.as_ref().map(std::fs::Metadata::is_dir);
     if output.as_os_str() == "-" {
         return match scenes.len() {
-            1 if std::io::stdout().is_terminal() => {
-                fail("standard output is a terminal, which shows no PNG")
-            }
+            1 if std::io::stdout().is_terminal() => fail("standard output is a terminal, which shows no PNG"),
             1 => Ok(Goal::StandardOutput),
             _ => fail(&one_only),
         };

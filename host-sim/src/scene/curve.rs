@@ -78,9 +78,7 @@ impl CurveScene {
         };
         let place = match (&file.order, &file.adaptive) {
             (Some(order), _) => source.place(order.span(), "order"),
-            (None, adaptive) => {
-                source.place(adaptive.as_ref().map_or(0..0, Spanned::span), "adaptive")
-            }
+            (None, adaptive) => source.place(adaptive.as_ref().map_or(0..0, Spanned::span), "adaptive"),
         };
         let closed = base.first() == base.last();
         let scene = Self {

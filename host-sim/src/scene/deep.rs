@@ -49,7 +49,8 @@ impl Deep {
                 Err(Error::Capacity { .. }) if about >= ROUNDED => {
                     let places = Limbs::<LIMBS>::DECIMAL_PLACES;
                     if about < UNIT {
-                        let note = format!("rounded to {places} decimal places: no picture shows the difference");
+                        let note =
+                            format!("rounded to {places} decimal places: no picture shows the difference");
                         source.note(number.span(), key, &note);
                     }
                     number::rounded(&digits, places).parse()

@@ -169,7 +169,8 @@ impl Escape {
             return Err(fail);
         }
         self.max_dwell = max_dwell.clamp(1, MAX_DWELL);
-        let is_share = matches!(self.coloring, Coloring::Dwell | Coloring::Smooth) && self.colors.cycle.is_none();
+        let is_share =
+            matches!(self.coloring, Coloring::Dwell | Coloring::Smooth) && self.colors.cycle.is_none();
         if let Motion::Zoom { closer: true, .. } | Motion::Iterate { more: true } = motion {
             self.equalised |= is_share;
         }

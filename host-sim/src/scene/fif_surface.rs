@@ -77,8 +77,7 @@ struct Profile {
 
 impl Profile {
     fn load(source: &Source, given: &Description, prefix: &str) -> Result<Self, Fail> {
-        let scalings =
-            source.place(given.vertical_scaling.span(), &format!("{prefix}vertical_scaling"));
+        let scalings = source.place(given.vertical_scaling.span(), &format!("{prefix}vertical_scaling"));
         Ok(Self { function: given.compile(source, prefix)?, scalings })
     }
 }
