@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{attractor_in, decode, good};
+use crate::common::{attractor_in, bad, decode, good};
 use png::{BitDepth, ColorType};
 
 const GOLDENS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/goldens.txt");
@@ -67,6 +67,31 @@ fn pictures_are_the_same_to_the_last_bit() {
     let different: Vec<_> = text.lines().filter(|line| !goldens.lines().any(|g| g == *line)).collect();
     assert!(different.is_empty(), "not as in goldens.txt: {different:#?}");
     assert_eq!(text.lines().count(), goldens.lines().count(), "goldens.txt has scenes that are gone");
+}
+
+/// A complete scene of each kind stands in `host-sim/README.md`.
+#[test]
+fn the_examples_of_the_readme_are_drawn_and_sampled() {
+    const README: &str = include_str!("../README.md");
+    let examples = README.split("```toml\n").skip(1).map(|example| example.split("```").next().unwrap());
+    let directory = tempfile::tempdir().unwrap();
+    let mut kinds = Vec::new();
+    for example in examples {
+        fs::write(directory.path().join("scene.toml"), example).unwrap();
+        good(directory.path(), &["dump", "scene.toml", "-o", "a.png", "--size", "64x64"]);
+        let png = decode(&directory.path().join("a.png"));
+        assert!(png.data.chunks(3).any(|pixel| pixel != &png.data[..3]), "shows nothing: {example}");
+        good(directory.path(), &["sample", "scene.toml", "--points", "9", "--size", "4x4"]);
+        kinds.push(example.lines().next().unwrap().trim_start_matches("kind = ").trim_matches('"'));
+    }
+    // all kinds that the command knows, one example each
+    fs::write(directory.path().join("scene.toml"), "title = \"no kind\"\n").unwrap();
+    let complaint = bad(directory.path(), &["dump", "scene.toml"]);
+    let known = complaint.trim_end().split("allowed is ").nth(1).unwrap();
+    let mut known: Vec<&str> = known.split(", ").collect();
+    kinds.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(kinds, known);
 }
 
 /// Those of the README are what its first command writes; compression may differ.
