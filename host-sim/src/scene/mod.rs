@@ -79,7 +79,7 @@ pub(crate) struct Scene {
 #[derive(Debug)]
 enum Kind {
     FifCurve(fif_curve::FifCurve),
-    FifSurface(fif_surface::FifSurface),
+    FifSurface(Box<fif_surface::FifSurface>),
     Curve(curve::CurveScene),
     RandomCurve(random_curve::RandomCurve),
     Ifs(ifs::IfsScene),
@@ -137,7 +137,7 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
     };
     let kind = match named.get_ref().as_str() {
         "fif-curve" => Kind::FifCurve(fif_curve::FifCurve::load(source)?),
-        "fif-surface" => Kind::FifSurface(fif_surface::FifSurface::load(source)?),
+        "fif-surface" => Kind::FifSurface(Box::new(fif_surface::FifSurface::load(source)?)),
         "curve" => Kind::Curve(curve::CurveScene::load(source)?),
         "random-curve" => Kind::RandomCurve(random_curve::RandomCurve::load(source)?),
         "ifs" => Kind::Ifs(ifs::IfsScene::load(source)?),

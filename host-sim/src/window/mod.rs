@@ -2,7 +2,7 @@
 
 #[cfg(feature = "window")]
 mod hand;
-#[cfg(feature = "window")]
+#[cfg(any(feature = "window", test))]
 mod moved;
 #[cfg(feature = "window")]
 mod painter;
