@@ -71,7 +71,7 @@ mod tests {
         let line = one_line(&text);
         assert!(line.starts_with("scene.toml:3: é") && line.ends_with("é [31m allowed is 1 to 3"), "{line}");
         assert_eq!(line.chars().count(), LONGEST + " ... ".len());
-        assert_eq!(one_line(&line[..LONGEST]), line[..LONGEST]);
+        assert_eq!(one_line(&line), line);
         assert_eq!(one_line(&"x".repeat(LONGEST)), "x".repeat(LONGEST));
         assert_eq!(shortened(&"y".repeat(61)), format!("{}...", "y".repeat(60)));
     }
