@@ -99,7 +99,8 @@ pub(crate) struct Dump {
     /// All built-in scenes, besides those named
     #[arg(long)]
     pub(crate) all: bool,
-    /// A file ending in .png for one scene, - for standard output, else a directory; directories are made if they are not there [default: out]
+    /// A file ending in .png for one scene, - for standard output, else a directory; directories are made if
+    /// they are not there [default: out]
     #[arg(short, long, value_name = "FILE.png|DIR|-")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]

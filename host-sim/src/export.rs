@@ -71,7 +71,8 @@ fn module(name: &str, title: &str, constants: &Constants<'_>) -> String {
     text
 }
 
-/// A text as part of a comment of one line: without line ends, control characters, and what turns the order of reading round, which rustc refuses.
+/// A text as part of a comment of one line: without line ends, control characters, and what turns the order
+/// of reading round, which rustc refuses.
 fn comment(text: &str) -> String {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let escape = |c: char| match c {

@@ -40,7 +40,8 @@ pub(crate) fn say(message: &str) {
     let _ = writeln!(io::stderr(), "attractor: {}", one_line(message));
 }
 
-/// The text with a space for all line ends, control characters and spaces in a row; of a long one the beginning and the end.
+/// The text with a space for all line ends, control characters and spaces in a row; of a long one the
+/// beginning and the end.
 pub(crate) fn one_line(text: &str) -> String {
     let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let words: Vec<&str> = text.split(' ').filter(|word| !word.is_empty()).collect();

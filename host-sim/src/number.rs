@@ -60,7 +60,8 @@ pub(crate) fn nearest<F: Fixed + FromStr>(digits: &str) -> Result<F, String> {
     }
 }
 
-/// A decimal number rounded to so many decimal places, halves away from 0; what is no such number stays as it is.
+/// A decimal number rounded to so many decimal places, halves away from 0; what is no such number stays as it
+/// is.
 pub(crate) fn rounded(text: &str, places: usize) -> String {
     let (sign, number) = match text.strip_prefix('-') {
         Some(rest) => ("-", rest),

@@ -1,4 +1,5 @@
-//! Where a picture goes. A file is complete or not there: written aside in the same directory, then renamed. A device or a pipe is written to as it is.
+//! Where a picture goes. A file is complete or not there: written aside in the same directory, then renamed.
+//! A device or a pipe is written to as it is.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write as _};

@@ -1,4 +1,5 @@
-//! A scene's text and where it stands: every complaint names the file, the line, the key and the value, also one that comes up
+//! A scene's text and where it stands: every complaint names the file, the line, the key and the value, also
+//! one that comes up
 //! while a picture is drawn.
 
 use std::fmt::Display;

@@ -37,7 +37,8 @@ fn an_integrated_function_says_so() {
     );
 }
 
-/// Nothing of a scene file's title or name becomes code: all that is not a comment is what the scene without them gives.
+/// Nothing of a scene file's title or name becomes code: all that is not a comment is what the scene without
+/// them gives.
 #[test]
 fn titles_and_names_of_files_stay_comments() {
     let directory = tempfile::tempdir().unwrap();

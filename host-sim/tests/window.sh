@@ -1,6 +1,7 @@
 #!/bin/sh
 # The window under Xvfb: it shows the picture that dump writes, keys change the scene, keys and mouse move about in it, and what it saves can be
-# shown again from the lines that it prints. It never goes black, stays bright however far one zooms, and Esc closes it at any time.
+# shown again from the lines that it prints. It never goes black, stays bright however far one zooms, and Esc
+# closes it at any time.
 # Needs: apt install libsdl2-dev xvfb xdotool imagemagick
 # Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]
 set -eu
@@ -121,7 +122,8 @@ shows "$shots/dump/fern.png" still
 grep -q 'fern: .*all there is' "$shots/keys" || fail "does not say why it does not zoom"
 closes
 
-# the window of the README, 20 steps into the set: as bright as at home, and what it saves is what its lines show
+# the window of the README, 20 steps into the set: as bright as at home, and what it saves is what its lines
+# show
 open mandelbrot
 shows "$shots/dump/mandelbrot.png" home
 home=$(brightness home)
@@ -167,7 +169,8 @@ xdotool key Right
 sleep 0.05
 after=$(brightness after)
 [ $((2 * after)) -ge "$before" ] || fail "goes dark after a pan: $after thousandths, $before before (see $shots/after.png)"
-# now orbits that are a thousand times as long: minutes of work, in the middle of which Esc closes the window within a second
+# now orbits that are a thousand times as long: minutes of work, in the middle of which Esc closes the window
+# within a second
 sed -i -e 's/-0.7453", "0.1127/-0.75", "0.00003/' -e 's/0.0065/0.00001/' -e 's/500/1000000/' "$shots/slow.toml"
 xdotool key r
 sleep 3

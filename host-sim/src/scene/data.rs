@@ -82,7 +82,8 @@ impl Table {
     }
 }
 
-/// The line on which a row stands, from 1. Its position is where the row before ended: line ends and empty lines follow.
+/// The line on which a row stands, from 1. Its position is where the row before ended: line ends and empty
+/// lines follow.
 fn line_of(text: &str, position: Option<&csv::Position>) -> usize {
     let before = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
     let bytes = text.as_bytes();

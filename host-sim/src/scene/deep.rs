@@ -18,7 +18,8 @@ use crate::source::{Num, Source};
 pub(super) const LIMBS: usize = 12;
 /// A unit of the 32-bit format: no display shows a view as narrow as this in it.
 pub(super) const UNIT: f64 = 1.0 / (1 << 29) as f64;
-/// A coordinate rounded to 114 decimal places is within a 256th of a pixel of the largest display in views as wide as this.
+/// A coordinate rounded to 114 decimal places is within a 256th of a pixel of the largest display in views as
+/// wide as this.
 const ROUNDED: f64 = 1e-114 * (1 << 22) as f64;
 /// The widest view that may be too fine for it, on the largest display.
 const WIDEST: f64 = UNIT * (1 << 14) as f64;

@@ -1,6 +1,7 @@
 //! An equalised picture while it is computed: each pixel once, each row shown as soon as it is there.
 //!
-//! The colours of a row depend on all the others. Rows are painted by what is known so far, and all of them again whenever twice as many are known:
+//! The colours of a row depend on all the others. Rows are painted by what is known so far, and all of them
+//! again whenever twice as many are known:
 //! the last time by the whole picture.
 
 use std::convert::Infallible;

@@ -133,7 +133,8 @@ impl Escape {
         deep.view(size).map(Some).map_err(|error| self.refused(&deep::decimal(width), size, error))
     }
 
-    /// Moves about on a display of this size. Each doubling of the scale adds iterations: finer detail needs longer orbits. A dwell that
+    /// Moves about on a display of this size. Each doubling of the scale adds iterations: finer detail needs
+    /// longer orbits. A dwell that
     /// is a share of ever more iterations would be ever darker: its colours are equalised from then on.
     ///
     /// The message says why not.

@@ -1,4 +1,5 @@
-//! `attractor window`: scenes on a simulated display, row by row as they are computed, and a way to move about in them.
+//! `attractor window`: scenes on a simulated display, row by row as they are computed, and a way to move
+//! about in them.
 
 #[cfg(feature = "window")]
 mod hand;

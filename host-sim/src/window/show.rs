@@ -1,6 +1,7 @@
 //! The window itself: shows what is drawn, grants wishes.
 //!
-//! The thread of the window computes nothing: it shows what the painter has done and listens to the keys. A wish ends the picture that is being drawn;
+//! The thread of the window computes nothing: it shows what the painter has done and listens to the keys. A
+//! wish ends the picture that is being drawn;
 //! the last one stays, moved or scaled, until rows of the next one cover it.
 
 use std::collections::VecDeque;
