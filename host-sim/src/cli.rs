@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -87,9 +88,10 @@ pub(crate) struct Look {
   attractor dump                          the gallery, into out/
   attractor dump --all -o gallery --size 128x64 --color mono
   attractor dump fern -o fern.png --scale 2
+  attractor dump fern -o - | viewer       the PNG file on standard output
   attractor dump path/to/scene.toml       a scene file: `attractor list` names its kinds and keys
 
-Each file written is named on standard output. A file is complete or not there at all.")]
+Each file written is named on standard output. A file is complete or not there at all; one that is replaced keeps its permissions.")]
 pub(crate) struct Dump {
     /// Names of built-in scenes, or paths of TOML files; none means all built-in ones
     #[arg(value_name = "SCENE")]
@@ -97,8 +99,9 @@ pub(crate) struct Dump {
     /// All built-in scenes, besides those named
     #[arg(long)]
     pub(crate) all: bool,
-    /// A file ending in .png for one scene, else a directory, made if it is not there [default: out]
-    #[arg(short, long, value_name = "FILE.png|DIR")]
+    /// A file ending in .png for one scene, - for standard output, else a directory; directories are made if
+    /// they are not there [default: out]
+    #[arg(short, long, value_name = "FILE.png|DIR|-")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) look: Look,
@@ -234,8 +237,13 @@ fn parse_size(text: &str) -> Result<Size, String> {
 pub(crate) fn explain(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         // help or version; nobody listening is no error
-        let _ = error.print();
-        return ExitCode::SUCCESS;
+        return match error.print().and_then(|()| io::stdout().flush()) {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+                crate::fail::say(&format!("standard output: {error}"));
+                ExitCode::from(2)
+            }
+            _ => ExitCode::SUCCESS,
+        };
     }
     let text = error.render().to_string();
     let lines = text.lines().map(str::trim).filter(|l| !l.is_empty());

@@ -27,7 +27,7 @@ use attractor::num::Real;
 
 use crate::boxes::{self, Grid};
 use crate::cli::Dimension;
-use crate::fail::Fail;
+use crate::fail::{Fail, one_line};
 use crate::fit::Fit;
 use crate::scene::{self, Chords, Graph, Law, Subject, Trail};
 use crate::theory::{Theory, boundary_of, similarity};
@@ -74,7 +74,7 @@ pub(crate) fn run(args: &Dimension) -> Result<(), Fail> {
         }
         return Ok(());
     }
-    writeln!(out, "scene      {} ({})", scene.name, scene.kind())?;
+    writeln!(out, "scene      {} ({})", one_line(&scene.name), scene.kind())?;
     for way in &ways {
         let fit = Fit::of(&way.counts).ok_or_else(|| fail(Fail::new(TOO_FEW)))?;
         writeln!(out, "\nmethod     {}: {}", way.method, way.words)?;

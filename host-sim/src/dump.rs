@@ -1,7 +1,7 @@
 //! `attractor dump`: scenes as PNG files.
 
-use std::collections::HashMap;
-use std::io::Write as _;
+use std::collections::HashSet;
+use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 
 use embedded_graphics_simulator::SimulatorDisplay;
@@ -11,8 +11,8 @@ use crate::builtin;
 use crate::canvas;
 use crate::cli::{Dump, Look, MAX_PIXELS};
 use crate::color::{Depth, with_depth};
-use crate::fail::Fail;
-use crate::output;
+use crate::fail::{Fail, shortened};
+use crate::output::{self, Directory};
 use crate::scene::{self, Request, Scene};
 
 /// Where files go unless said otherwise.
@@ -39,20 +39,32 @@ pub(crate) fn run(args: &Dump) -> Result<(), Fail> {
     }
     // every scene is read before the first is drawn
     let scenes = names.iter().map(|name| scene::load(name)).collect::<Result<Vec<_>, _>>()?;
-    let paths = paths(args, &scenes)?;
+    let goal = goal(args, &scenes)?;
     let bar = ProgressBar::new(scenes.len() as u64 * 1000);
     // not a terminal: indicatif stays silent
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos:>5.dim} {msg}") {
         bar.set_style(style.progress_chars("=> "));
     }
     let mut out = std::io::stdout().lock();
-    for (scene, path) in scenes.iter().zip(&paths) {
+    for (i, scene) in scenes.iter().enumerate() {
         bar.set_message(scene.name.clone());
         let start = bar.position();
         let progress =
             |done: u32, all: u32| bar.set_position(start + 1000 * u64::from(done) / u64::from(all.max(1)));
         let bytes = with_depth!(look.color, drawn, scene, look, &progress)?;
         bar.set_position(start + 1000);
+        let path = match &goal {
+            Goal::StandardOutput => {
+                bar.suspend(|| out.write_all(&bytes))?;
+                continue;
+            }
+            Goal::Device(path) => {
+                output::write(path, &bytes)?;
+                continue;
+            }
+            Goal::Files { paths, .. } => paths.get(i),
+        };
+        let Some(path) = path else { continue };
         output::write(path, &bytes)?;
         match bar.suspend(|| writeln!(out, "{}", path.display())).map_err(Fail::from) {
             // the files are wanted all the same
@@ -75,26 +87,61 @@ fn drawn<C: Depth>(scene: &Scene, look: &Look, progress: &dyn Fn(u32, u32)) -> R
     canvas::png(&display, look.scale).map_err(|error| Fail::new(format_args!("{}: {error}", scene.name)))
 }
 
-/// Where each scene goes; makes the directory.
-fn paths(args: &Dump, scenes: &[Scene]) -> Result<Vec<PathBuf>, Fail> {
+/// Where pictures go.
+enum Goal {
+    /// One for each scene.
+    Files { paths: Vec<PathBuf>, _into: Directory },
+    /// A device or a pipe.
+    Device(PathBuf),
+    /// Of one scene.
+    StandardOutput,
+}
+
+/// Decides it before anything is drawn; makes the directory.
+fn goal(args: &Dump, scenes: &[Scene]) -> Result<Goal, Fail> {
     let output = args.output.clone().unwrap_or_else(|| PathBuf::from(DIRECTORY));
-    let is_file = output.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) && !output.is_dir();
-    if is_file {
-        if scenes.len() == 1 {
-            return Ok(vec![output]);
-        }
-        let reason = format!("{} scenes go into a directory, not into one file", scenes.len());
-        return Err(Fail::new(format_args!("--output {}: {reason}", output.display())));
+    let shown = output.display();
+    let fail = |reason: &str| Err(Fail::new(format_args!("--output {shown}: {reason}")));
+    let one_only = format!("{} scenes go into a directory, not into one file", scenes.len());
+    let there = std::fs::metadata(&output).ok();
+    let is_directory = there.as_ref().map(std::fs::Metadata::is_dir);
+    if output.as_os_str() == "-" {
+        return match scenes.len() {
+            1 if std::io::stdout().is_terminal() => fail("standard output is a terminal, which shows no PNG"),
+            1 => Ok(Goal::StandardOutput),
+            _ => fail(&one_only),
+        };
     }
-    let mut seen = HashMap::new();
-    for scene in scenes {
-        if seen.insert(scene.name.as_str(), ()).is_some() {
-            return Err(Fail::new(format_args!(
-                "SCENE = {}: two scenes would go into the same file",
-                scene.name
-            )));
-        }
+    if there.is_some_and(|there| !there.is_dir() && !there.is_file()) {
+        return if scenes.len() == 1 { Ok(Goal::Device(output)) } else { fail(&one_only) };
     }
-    output::make_directory(&output)?;
-    Ok(scenes.iter().map(|scene| output.join(format!("{}.png", scene.name))).collect())
+    match (output.extension(), is_directory) {
+        // whoever writes a slash means a directory
+        _ if output.as_os_str().as_encoded_bytes().ends_with(b"/") => {}
+        (_, Some(true)) => {}
+        (Some(png), _) if png.eq_ignore_ascii_case("png") => {
+            if scenes.len() != 1 {
+                return fail(&one_only);
+            }
+            let directory = Directory::ready(output::parent(&output), &output)?;
+            output::check(&output)?;
+            return Ok(Goal::Files { paths: vec![output], _into: directory });
+        }
+        (_, Some(false)) => return fail("it is a file; pictures are PNG files, whose names end in .png"),
+        (Some(_), None) => {
+            return fail(&format!(
+                "pictures are PNG files, whose names end in .png; a new directory is {shown}/ with a slash"
+            ));
+        }
+        (None, None) => {}
+    }
+    let mut seen = HashSet::new();
+    if let Some(twice) = scenes.iter().find(|scene| !seen.insert(scene.name.as_str())) {
+        let reason = "two scenes would go into the same file";
+        return Err(Fail::new(format_args!("SCENE = {}: {reason}", shortened(&twice.name))));
+    }
+    let paths: Vec<PathBuf> = scenes.iter().map(|scene| output.join(format!("{}.png", scene.name))).collect();
+    let directory = Directory::ready(&output, &output)?;
+    paths.iter().try_for_each(|path| output::check(path))?;
+    Ok(Goal::Files { paths, _into: directory })
 }

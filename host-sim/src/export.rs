@@ -31,6 +31,7 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
 }
 
 fn module(name: &str, title: &str, constants: &Constants<'_>) -> String {
+    let (title, name) = (comment(title), comment(name).replace('`', "'"));
     let mut text = format!("//! {title}.\n//!\n//! Written by `attractor export {name}`.\n\n");
     // what is written to a string does not fail
     let _ = match constants {
@@ -68,6 +69,18 @@ fn module(name: &str, title: &str, constants: &Constants<'_>) -> String {
         ),
     };
     text
+}
+
+/// A text as part of a comment of one line: without line ends, control characters, and what turns the order
+/// of reading round, which rustc refuses.
+fn comment(text: &str) -> String {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let escape = |c: char| match c {
+        c if c.is_control() => c.escape_unicode().to_string(),
+        '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => c.escape_unicode().to_string(),
+        c => c.to_string(),
+    };
+    words.chars().map(escape).collect()
 }
 
 /// An array with a line for each element, as rustfmt leaves it.

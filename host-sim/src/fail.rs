@@ -3,6 +3,11 @@
 use std::fmt::Display;
 use std::io::{self, Write as _};
 
+/// The most characters of a message: what somebody else's file holds does not fill the screen.
+const LONGEST: usize = 1000;
+/// The most characters of a value that a message quotes.
+const QUOTED: usize = 60;
+
 /// What ends a command early.
 #[derive(Debug)]
 pub(crate) enum Fail {
@@ -13,11 +18,9 @@ pub(crate) enum Fail {
 }
 
 impl Fail {
-    /// A message; line ends and control characters in it become spaces.
+    /// A message of [`one_line`].
     pub(crate) fn new(message: impl Display) -> Self {
-        let text: String =
-            message.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        Self::Message(text.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
+        Self::Message(one_line(&message.to_string()))
     }
 }
 
@@ -34,5 +37,43 @@ impl From<io::Error> for Fail {
 
 /// Says it on standard error; if nobody listens there either, so be it.
 pub(crate) fn say(message: &str) {
-    let _ = writeln!(io::stderr(), "attractor: {message}");
+    let _ = writeln!(io::stderr(), "attractor: {}", one_line(message));
+}
+
+/// The text with a space for all line ends, control characters and spaces in a row; of a long one the
+/// beginning and the end.
+pub(crate) fn one_line(text: &str) -> String {
+    let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let words: Vec<&str> = text.split(' ').filter(|word| !word.is_empty()).collect();
+    let line = words.join(" ");
+    let end = |from: usize| line.char_indices().nth(from).map_or(line.len(), |(at, _)| at);
+    match line.chars().count().checked_sub(LONGEST) {
+        None | Some(0) => line,
+        Some(more) => format!("{} ... {}", &line[..end(LONGEST / 2)], &line[end(LONGEST / 2 + more)..]),
+    }
+}
+
+/// What a message quotes of somebody else's text.
+pub(crate) fn shortened(text: &str) -> String {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match words.char_indices().nth(QUOTED) {
+        Some((end, _)) => format!("{}...", &words[..end]),
+        None => words,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_message_keeps_its_beginning_and_its_end() {
+        let text = format!("scene.toml:3:\n{}\u{1b}[31m\t allowed is 1 to 3", "é".repeat(1_000_000));
+        let line = one_line(&text);
+        assert!(line.starts_with("scene.toml:3: é") && line.ends_with("é [31m allowed is 1 to 3"), "{line}");
+        assert_eq!(line.chars().count(), LONGEST + " ... ".len());
+        assert_eq!(one_line(&line), line);
+        assert_eq!(one_line(&"x".repeat(LONGEST)), "x".repeat(LONGEST));
+        assert_eq!(shortened(&"y".repeat(61)), format!("{}...", "y".repeat(60)));
+    }
 }

@@ -32,7 +32,7 @@ Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
 
 const COMMANDS: &str = "\
 Commands
-  attractor dump [SCENE...] [-o FILE.png|DIR] [--size WxH] [--color rgb565|rgb888|gray8|gray4|gray2|mono] [--scale N]
+  attractor dump [SCENE...] [-o FILE.png|DIR|-] [--size WxH] [--color rgb565|rgb888|gray8|gray4|gray2|mono] [--scale N]
   attractor sample SCENE --points N       the numbers as CSV, fixed point beside the f64 reference
   attractor export SCENE                  the numbers as constants of a Rust module, for firmware
   attractor accuracy [--csv]              errors measured beside the bounds promised

@@ -24,6 +24,7 @@ mod spectrum;
 mod theory;
 mod window;
 
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Some(Command::Spectrum(args)) => spectrum::run(args),
         Some(Command::Window(args)) => window::run(args),
     };
+    let done = done.and_then(|()| Ok(io::stdout().flush()?));
     match done {
         Ok(()) | Err(Fail::ClosedPipe) => ExitCode::SUCCESS,
         Err(Fail::Message(message)) => {

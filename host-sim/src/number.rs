@@ -60,6 +60,36 @@ pub(crate) fn nearest<F: Fixed + FromStr>(digits: &str) -> Result<F, String> {
     }
 }
 
+/// A decimal number rounded to so many decimal places, halves away from 0; what is no such number stays as it
+/// is.
+pub(crate) fn rounded(text: &str, places: usize) -> String {
+    let (sign, number) = match text.strip_prefix('-') {
+        Some(rest) => ("-", rest),
+        None => ("", text.strip_prefix('+').unwrap_or(text)),
+    };
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let Ok(exponent) = exponent.parse::<i64>() else { return text.to_owned() };
+    let mut digits = [whole, fraction].concat().into_bytes();
+    // digits that stay
+    let kept = exponent.saturating_add((whole.len() + places) as i64);
+    if !digits.iter().all(u8::is_ascii_digit) || kept >= digits.len() as i64 {
+        return text.to_owned();
+    }
+    let Ok(kept) = usize::try_from(kept) else { return "0".to_owned() };
+    let up = digits.get(kept).is_some_and(|next| *next >= b'5');
+    digits.truncate(kept);
+    // a nine is carried over
+    let last = digits.iter().rposition(|digit| !up || *digit != b'9');
+    let carried = last.map_or(0, |last| last + 1);
+    digits.iter_mut().skip(carried).for_each(|nine| *nine = b'0');
+    match last.and_then(|last| digits.get_mut(last)) {
+        Some(digit) => *digit += u8::from(up),
+        None => digits.insert(0, b'0' + u8::from(up)),
+    }
+    format!("{sign}{}e-{places}", String::from_utf8_lossy(&digits))
+}
+
 /// The `f64` nearest to a decimal number.
 pub(crate) fn float(digits: &str) -> f64 {
     digits.replace('_', "").parse().unwrap_or(f64::NAN)
@@ -98,6 +128,30 @@ mod tests {
         }
         assert!(nearest::<Scaling>("1.0").unwrap_err().contains("outside"));
         assert!(nearest::<Scaling>("0.9999999999").unwrap_err().contains("outside"));
+    }
+
+    #[test]
+    fn digits_beyond_the_last_place_are_rounded_away() {
+        for (text, places, want) in [
+            ("0.12345", 3, "0123e-3"),
+            ("-0.12350", 3, "-0124e-3"),
+            ("0.9996", 3, "1000e-3"),
+            ("9.9996", 3, "10000e-3"),
+            ("+1.00049", 3, "1000e-3"),
+            ("12345e-4", 3, "1235e-3"),
+            (".0004", 3, "000e-3"),
+            (".0005", 3, "001e-3"),
+            ("0.5e-3", 3, "1e-3"),
+            ("9.5e-4", 3, "1e-3"),
+            ("4e-4", 3, "0e-3"),
+            ("1e-9", 3, "0"),
+            ("1e-999999999999", 3, "0"),
+            ("0.123", 3, "0.123"),
+            ("1e300", 3, "1e300"),
+            ("x.5555", 3, "x.5555"),
+        ] {
+            assert_eq!(rounded(text, places), want, "{text}");
+        }
     }
 
     #[test]

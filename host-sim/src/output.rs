@@ -1,28 +1,46 @@
-//! Files that are complete or not there: written aside in the same directory, then renamed.
+//! Where a picture goes. A file is complete or not there: written aside in the same directory, then renamed.
+//! A device or a pipe is written to as it is.
 
-use std::fs;
-use std::io::Write as _;
-use std::path::Path;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 
 use crate::fail::Fail;
 
 /// Writes `bytes` to `path`.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Fail> {
-    let fail =
-        |error: std::io::Error| Fail::new(format_args!("{}: cannot be written: {error}", path.display()));
-    if path.is_dir() {
-        return Err(Fail::new(format_args!("{}: cannot be written: it is a directory", path.display())));
-    }
-    let directory = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
+    let written = match fs::metadata(path) {
+        Ok(there) if there.is_file() => replace(path, bytes),
+        Ok(_) => OpenOptions::new().write(true).open(path).and_then(|mut device| device.write_all(bytes)),
+        Err(_) => create(path, bytes, None),
     };
+    written.map_err(|error| refused(path, &error))
+}
+
+/// Whether a file that is there may be written, before anything is computed for it.
+pub(crate) fn check(path: &Path) -> Result<(), Fail> {
+    match fs::metadata(path) {
+        Ok(_) => OpenOptions::new().write(true).open(path).map(|_| ()).map_err(|error| refused(path, &error)),
+        Err(_) => Ok(()),
+    }
+}
+
+fn refused(path: &Path, error: &io::Error) -> Fail {
+    Fail::new(format_args!("{}: cannot be written: {error}", path.display()))
+}
+
+/// A file that is there keeps its permissions, and a link to it stays a link.
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // may it be written to?
+    let there = OpenOptions::new().write(true).open(path)?;
+    create(&path.canonicalize()?, bytes, Some(&there))
+}
+
+/// A new file, with the permissions of another.
+fn create(path: &Path, bytes: &[u8], like: Option<&File>) -> io::Result<()> {
+    let directory = parent(path);
     if !directory.is_dir() {
-        let directory = directory.display();
-        return Err(Fail::new(format_args!(
-            "{}: cannot be written: there is no directory {directory}",
-            path.display()
-        )));
+        return Err(io::Error::other(format!("there is no directory {}", directory.display())));
     }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".attractor-").suffix(".part");
@@ -32,14 +50,53 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Fail> {
         // an ordinary file: what the umask leaves of rw-rw-rw-
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(directory).map_err(fail)?;
-    file.write_all(bytes).map_err(fail)?;
-    file.persist(path).map_err(|error| fail(error.error))?;
+    let mut file = builder.tempfile_in(directory)?;
+    if let Some(like) = like {
+        file.as_file().set_permissions(like.metadata()?.permissions())?;
+    }
+    file.write_all(bytes)?;
+    file.persist(path)?;
     Ok(())
 }
 
-/// Makes a directory, with those above it, unless it is there.
-pub(crate) fn make_directory(path: &Path) -> Result<(), Fail> {
-    fs::create_dir_all(path)
-        .map_err(|error| Fail::new(format_args!("{}: cannot be made: {error}", path.display())))
+/// The directory in which a file lies.
+pub(crate) fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// A directory that is there until the end if something is written into it.
+#[derive(Debug)]
+pub(crate) struct Directory {
+    /// Those that were not there before, the outermost first.
+    made: Vec<PathBuf>,
+}
+
+impl Directory {
+    /// Makes a directory, with those above it, unless it is there, and sees whether it can be written to.
+    /// `output` is what the complaint names.
+    pub(crate) fn ready(path: &Path, output: &Path) -> Result<Self, Fail> {
+        let missing = path.ancestors().take_while(|a| !a.as_os_str().is_empty() && !a.exists());
+        let mut made: Vec<PathBuf> = missing.map(Path::to_path_buf).collect();
+        made.reverse();
+        let this = Self { made };
+        match fs::create_dir_all(path).and_then(|()| tempfile::tempfile_in(path)) {
+            Ok(_) => Ok(this),
+            Err(error) => {
+                let (output, path) = (output.display(), path.display());
+                Err(Fail::new(format_args!("--output {output}: nothing can be written into {path}: {error}")))
+            }
+        }
+    }
+}
+
+impl Drop for Directory {
+    fn drop(&mut self) {
+        // one with something in it stays
+        for directory in self.made.iter().rev() {
+            let _ = fs::remove_dir(directory);
+        }
+    }
 }

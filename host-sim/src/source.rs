@@ -1,5 +1,8 @@
-//! A scene's text and where it stands: every complaint names the file, the line, the key and the value.
+//! A scene's text and where it stands: every complaint names the file, the line, the key and the value, also
+//! one that comes up
+//! while a picture is drawn.
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::Read as _;
 use std::ops::Range;
@@ -7,11 +10,12 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use attractor::fixed::traits::Fixed;
+use embedded_graphics::geometry::Size;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 
 use crate::builtin;
-use crate::fail::Fail;
+use crate::fail::{Fail, say, shortened};
 use crate::number::{self, Number};
 
 /// A number of a scene file, with its place.
@@ -19,6 +23,22 @@ pub(crate) type Num = Spanned<Number>;
 
 /// Scene and data files are a few lines: nothing longer is read.
 const LONGEST: u64 = 1 << 22;
+
+/// A key of a scene file and its value, for complaints that come later.
+#[derive(Debug, Clone)]
+pub(crate) struct Place(String);
+
+impl Place {
+    /// A complaint about the value.
+    pub(crate) fn fail(&self, reason: impl Display) -> Fail {
+        Fail::new(format_args!("{}: {reason}", self.0))
+    }
+
+    /// A complaint about the value that depends on the size of the picture.
+    pub(crate) fn fail_at(&self, size: Size, reason: impl Display) -> Fail {
+        self.fail(format_args!("on {} x {} pixels: {reason}", size.width, size.height))
+    }
+}
 
 /// The text of a scene.
 #[derive(Debug, Clone)]
@@ -62,36 +82,56 @@ impl Source {
         }
     }
 
+    /// Whether nothing is in it.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.text.trim().is_empty()
+    }
+
     /// The description that the text spells.
     pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, Fail> {
         toml::from_str(&self.text).map_err(|error| {
             let message = error.message().trim().replace('\n', ", ");
+            let message = message.split(' ').map(shortened).collect::<Vec<_>>().join(" ");
             match error.span().filter(|span| !message.starts_with("missing field") && !span.is_empty()) {
                 Some(span) => {
                     let place = self.line(span.start);
                     let line = self.text.lines().nth(place - 1).unwrap_or("");
                     Fail::new(format_args!("{}:{place}: {message}: {}", self.name, shortened(line)))
                 }
-                None if self.text.trim().is_empty() => {
-                    Fail::new(format_args!("{}: the file is empty, {message}", self.name))
-                }
                 None => {
                     let place = error.span().map_or(1, |span| self.line(span.start));
-                    Fail::new(format_args!("{}:{place}: {message}", self.name))
+                    let hint = "`attractor list` names the keys of every kind";
+                    Fail::new(format_args!("{}:{place}: {message}; {hint}", self.name))
                 }
             }
         })
     }
 
-    /// A complaint about the value at `span`, which belongs to `key`.
-    pub(crate) fn fail(&self, span: Range<usize>, key: &str, reason: impl std::fmt::Display) -> Fail {
+    /// The value at `span`, which belongs to `key`.
+    pub(crate) fn place(&self, span: Range<usize>, key: &str) -> Place {
         let value = shortened(self.text.get(span.clone()).unwrap_or(""));
-        Fail::new(format_args!("{}:{}: {key} = {value}: {reason}", self.name, self.line(span.start)))
+        Place(format!("{}:{}: {key} = {value}", self.name, self.line(span.start)))
+    }
+
+    /// A key that the file leaves out, or the scene as a whole.
+    pub(crate) fn whole(&self, what: &str) -> Place {
+        Place(format!("{}: {what}", self.name))
+    }
+
+    /// A complaint about the value at `span`, which belongs to `key`.
+    pub(crate) fn fail(&self, span: Range<usize>, key: &str, reason: impl Display) -> Fail {
+        self.place(span, key).fail(reason)
     }
 
     /// A complaint about the scene as a whole.
-    pub(crate) fn fail_all(&self, what: &str, reason: impl std::fmt::Display) -> Fail {
-        Fail::new(format_args!("{}: {what}: {reason}", self.name))
+    pub(crate) fn fail_all(&self, what: &str, reason: impl Display) -> Fail {
+        self.whole(what).fail(reason)
+    }
+
+    /// Says on standard error what becomes of the value at `span`, which is no mistake.
+    pub(crate) fn note(&self, span: Range<usize>, key: &str, what: &str) {
+        let Place(place) = self.place(span, key);
+        say(&format!("{place}: {what}"));
     }
 
     /// The number nearest to the digits in the file.
@@ -125,14 +165,6 @@ impl Source {
     }
 }
 
-fn shortened(text: &str) -> String {
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match words.char_indices().nth(60) {
-        Some((end, _)) => format!("{}...", &words[..end]),
-        None => words,
-    }
-}
-
 fn read_text(path: &Path) -> Result<String, Fail> {
     let fail = |reason: String| Fail::new(format_args!("{}: cannot be read: {reason}", path.display()));
     if path.is_dir() {
@@ -144,6 +176,11 @@ fn read_text(path: &Path) -> Result<String, Fail> {
     if bytes.len() as u64 > LONGEST {
         return Err(fail(format!("it is longer than {LONGEST} bytes")));
     }
+    // an editor's mark of UTF-8, no part of the text
+    let bytes = match bytes.strip_prefix(b"\xef\xbb\xbf") {
+        Some(text) => text.to_vec(),
+        None => bytes,
+    };
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let byte = error.as_bytes().get(at).copied().unwrap_or(0);

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use std::io::Write as _;
 
 use crate::cli::Spectrum;
-use crate::fail::Fail;
+use crate::fail::{Fail, one_line};
 use crate::fit::Fit;
 use crate::scene::{self, Subject};
 use crate::theory::Theory;
@@ -55,7 +55,7 @@ pub(crate) fn run(args: &Spectrum) -> Result<(), Fail> {
         }
         return Ok(());
     }
-    writeln!(out, "scene      {} ({})", scene.name, scene.kind())?;
+    writeln!(out, "scene      {} ({})", one_line(&scene.name), scene.kind())?;
     writeln!(out, "method     periodogram: {count} {what}, Hann window, mean power of octaves")?;
     writeln!(out, "fit range  {} to {} periods, {} octaves", 1 << FIRST, count >> LAST, octaves.len())?;
     writeln!(out, "beta       {:.3} +- {:.3}", -fit.slope, fit.error)?;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{bad, good};
+use crate::common::{attractor_in, bad, good, text};
 
 const CURVE: &str =
     "kind = \"curve\"\ngenerator = [[0, 0], [1, 0], [1, 1], [2, 1]]\norder = 3\nbase = [[0, 0], [1, 0]]\n";
@@ -28,6 +28,12 @@ fn refused(scene: &str, from: &str, to: &str, words: &[&str]) {
         }
     }
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1, "something was written");
+}
+
+fn good_but_for_notes(directory: &std::path::Path, args: &[&str]) -> String {
+    let output = attractor_in(directory, args);
+    assert_eq!(output.status.code(), Some(0), "{args:?}");
+    text(&output.stdout)
 }
 
 #[test]
@@ -119,9 +125,42 @@ fn parameters_outside_their_range_are_refused() {
 }
 
 #[test]
-fn deep_coordinates_are_told_how_many_digits_fit() {
-    let long = format!("0.{}", "3".repeat(500));
-    refused(DEEP, "0.0", &long, &["centre[0]", "500 decimal places", "room for 114"]);
+fn digits_of_deep_coordinates_that_no_picture_shows_are_rounded_away() {
+    // the same picture as with 114 digits, to the last one of which it is rounded up
+    let short = format!("-1.{}{}", "6".repeat(113), "7");
+    let long = format!("-1.{}", "6".repeat(500));
+    let mut pictures = Vec::new();
+    for (centre, note) in [
+        (&short, String::new()),
+        (&long, {
+            let quoted = &long[..59];
+            let reason = "rounded to 114 decimal places: no picture shows the difference";
+            format!("attractor: scene.toml:2: centre[0] = \"{quoted}...: {reason}\n")
+        }),
+    ] {
+        let directory = tempfile::tempdir().unwrap();
+        fs::write(directory.path().join("scene.toml"), DEEP.replace("0.0", centre)).unwrap();
+        let output =
+            attractor_in(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"]);
+        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), note));
+        let samples = good_but_for_notes(directory.path(), &["sample", "scene.toml", "--size", "4x4"]);
+        pictures.push((fs::read(directory.path().join("out.png")).unwrap(), samples));
+    }
+    assert!(pictures[0] == pictures[1]);
+    // a view that 32 bits may show on a smaller display
+    let directory = tempfile::tempdir().unwrap();
+    let shallow = DEEP.replace("0.0", &long).replace("1e-60", "1e-7");
+    fs::write(directory.path().join("scene.toml"), shallow).unwrap();
+    for size in ["16x16", "400x400"] {
+        good(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", size]);
+    }
+    // rounding a width as narrow as this would show
+    refused(
+        DEEP,
+        "1e-60",
+        &format!("1.{}e-110", "3".repeat(9)),
+        &["width = \"1.3", "119 decimal places", "room for 114"],
+    );
     for width in ["0", "-1e-30", "-3"] {
         refused(DEEP, "1e-60", width, &["width", width, "above 0"]);
     }

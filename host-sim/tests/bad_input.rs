@@ -173,9 +173,24 @@ fn unknown_keys_and_words_are_refused() {
     );
 }
 
+const DATA: &str = "kind = \"fif-curve\"\n[data]\ncsv = \"d.csv\"\nx = \"t\"\ny = \"v\"\n";
+
+/// What the command says about a table; nothing when it draws it.
+fn said_of_data(csv: &[u8]) -> String {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("scene.toml"), DATA).unwrap();
+    fs::write(directory.path().join("d.csv"), csv).unwrap();
+    let output = attractor_in(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"]);
+    let written = directory.path().join("out.png").exists();
+    assert_eq!(
+        (output.status.code(), output.stderr.is_empty()),
+        if written { (Some(0), true) } else { (Some(2), false) }
+    );
+    text(&output.stderr)
+}
+
 #[test]
 fn data_that_cannot_be_read_are_named() {
-    const DATA: &str = "kind = \"fif-curve\"\n[data]\ncsv = \"d.csv\"\nx = \"t\"\ny = \"v\"\n";
     for (csv, words) in [
         ("t,v\n0,1\n1,2\n2,3\n", &[][..]),
         ("t,v\n0,1\n1,x\n2,3\n", &["d.csv:3", "v = x"]),
@@ -184,19 +199,128 @@ fn data_that_cannot_be_read_are_named() {
         ("t,v\n0,1\n1,1000\n2,3\n", &["d.csv:3", "v = 1000"]),
         ("a,b\n0,1\n", &["data.x", "\"t\"", "a, b"]),
         ("", &["data.x"]),
+        // the line is that of the file, whatever its line ends and empty lines
+        ("t,v\n\n0,1\n\n\n1,x\n2,3\n", &["d.csv:6: v = x"]),
+        ("\r\nt,v\r\n0,1\r\n  \r\n1,x\r\n2,3\r\n", &["d.csv:5: v = x"]),
+        ("t,\"v\n\"\n0,1\n1,x\n", &["d.csv:4: v = x"]),
     ] {
-        let directory = tempfile::tempdir().unwrap();
-        fs::write(directory.path().join("scene.toml"), DATA).unwrap();
-        fs::write(directory.path().join("d.csv"), csv).unwrap();
-        let args = ["dump", "scene.toml", "-o", "out.png", "--size", "16x16"];
-        if words.is_empty() {
-            crate::common::good(directory.path(), &args);
-        } else {
-            let complaint = bad(directory.path(), &args);
-            assert!(words.iter().all(|word| complaint.contains(word)), "{complaint}");
-        }
+        let complaint = said_of_data(csv.as_bytes());
+        assert_eq!(complaint.is_empty(), words.is_empty(), "{complaint}");
+        assert!(words.iter().all(|word| complaint.contains(word)), "{complaint}");
     }
     refused_text(DATA.as_bytes(), &["d.csv", "csv"]);
+}
+
+#[test]
+fn tables_as_spreadsheets_write_them_are_read() {
+    for csv in [
+        "\u{feff}t,v\n0,1\n1,2\n2,3\n",
+        "\u{feff}\"t\",\"v\"\r\n\"0\",\"1\"\r\n1,2\r\n2,3\r\n",
+        "name,t, v \n\"one, two\",0,1\n\n\"say \"\"3\"\"\",1, 2\nx,2,3",
+        "t,v\n0,1\n1,2\n2,3\n,\n\n",
+    ] {
+        assert_eq!(said_of_data(csv.as_bytes()), "", "{csv:?}");
+    }
+    // a scene file may begin with the mark too, and lines are counted as before
+    let marked = |scene: &str| format!("\u{feff}{scene}");
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("scene.toml"), marked(CURVE)).unwrap();
+    crate::common::good(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"]);
+    refused_text(
+        marked(CURVE).replace("[1.0, 1.0]", "[1.0, 1e9]").as_bytes(),
+        &["scene.toml:2: knots[1][1] = 1e9"],
+    );
+    assert!(said_of_data(b"\xff\xfet\0,\0").contains("byte 0 is 0xff, this is no text in UTF-8"));
+}
+
+#[test]
+fn what_is_quoted_is_short() {
+    let long = "9x".repeat(20_000);
+    let start = &long[..60];
+    assert_eq!(
+        said_of_data(format!("t,v\n0,1\n1,{}\n2,3\n", "9x".repeat(1_500_000)).as_bytes()),
+        format!("attractor: d.csv:3: v = {start}...: is not a finite decimal number\n")
+    );
+    assert_eq!(
+        said_of_data(format!("{long},b\n0,1\n1,1\n2,3\n").as_bytes()),
+        format!("attractor: scene.toml:4: data.x = \"t\": d.csv has the columns {start}..., b\n")
+    );
+    let directory = tempfile::tempdir().unwrap();
+    let short = |complaint: String, words: &[&str]| {
+        assert!(complaint.len() < 1200, "{} bytes", complaint.len());
+        assert!(words.iter().all(|word| complaint.contains(word)), "{words:?}: {complaint}");
+    };
+    for (scene, words) in [
+        (format!("kind = \"{long}\"\n"), &["scene.toml:1: kind = \"9x9x", "allowed is fif-curve"][..]),
+        (format!("kind = \"ifs\"\n{long} = 3\n"), &["scene.toml:2: "]),
+        (
+            format!("kind = \"ifs\"\na{long} = 3\n"),
+            &["scene.toml:2: unknown field `a9x9x", "... expected one of `kind`"],
+        ),
+        (format!("kind = \"ifs\"\nmaps = \"{long}\"\n"), &["scene.toml:2: invalid type", "maps = \"9x9x"]),
+        (CURVE.replace("[0.5, 0.5]", &format!("[0.5, \"{long}\"]")), &["vertical_scaling[1] = \"9x9x"]),
+        (format!("kind = \"curve\"\ncurve = \"{long}\"\norder = 1\n"), &["curve = \"9x9x", "koch"]),
+        (format!("kind = \"curve\"\nturtle = \"{long}\"\nangle = 60\norder = 1\n"), &["turtle = \"9x9x"]),
+        (
+            format!("kind = \"fif-curve\"\n[data]\ncsv = \"{long}\"\nx = \"t\"\ny = \"v\"\n"),
+            &["csv = \"9x9x", "cannot be read"],
+        ),
+        (
+            format!("kind = \"fif-curve\"\n[data]\ncsv = \"d.csv\"\nx = \"{long}\"\ny = \"v\"\n"),
+            &["data.x = \"9x9x", "a, b"],
+        ),
+    ] {
+        fs::write(directory.path().join("scene.toml"), scene).unwrap();
+        fs::write(directory.path().join("d.csv"), "a,b\n0,1\n").unwrap();
+        short(bad(directory.path(), &["dump", "scene.toml", "-o", "out.png"]), words);
+    }
+    let long = long.as_str();
+    // and what stands on the command line; control characters in it do nothing to the terminal
+    for args in
+        [&["dump", long][..], &["dump", "fern", "--size", long], &["dump", "fern", "--color", long], &[long]]
+    {
+        short(bad(directory.path(), args), &[&start[..40]]);
+    }
+    for args in [&["dump", "\u{1b}[2Jfern"][..], &["dump", "fern", "--size", "\u{1b}[2J\n8"], &["\u{1b}[2J"]]
+    {
+        let complaint = bad(directory.path(), args);
+        assert!(!complaint.trim_end().contains(char::is_control), "{complaint:?}");
+    }
+}
+
+#[test]
+fn what_comes_up_while_a_picture_is_drawn_names_file_key_and_value() {
+    let directory = tempfile::tempdir().unwrap();
+    for (scene, size, want) in [
+        (
+            "kind = \"curve\"\ngenerator = [[0, 0], [\"0.9\", \"0.43\"], [1, 0]]\nadaptive = true\n",
+            "64x64",
+            "attractor: scene.toml:3: adaptive = true: on 64 x 64 pixels: ",
+        ),
+        (
+            "kind = \"random-curve\"\nlaw = \"elbow\"\nparameter = \"0.000001\"\ncoast = \"iceland\"\n",
+            "64x64",
+            "attractor: scene.toml:3: parameter = \"0.000001\": on 64 x 64 pixels: ",
+        ),
+        (
+            "kind = \"mandelbrot\"\nwidth = \"3000\"\n",
+            "1x16384",
+            "attractor: scene.toml: width = 3000 on 1 x 16384 pixels: ",
+        ),
+    ] {
+        fs::write(directory.path().join("scene.toml"), scene).unwrap();
+        for args in [
+            &["dump", "scene.toml", "-o", "new/out.png", "--size", size][..],
+            &["sample", "scene.toml", "--size", size],
+        ] {
+            let complaint = bad(directory.path(), args);
+            assert!(complaint.starts_with(want), "{args:?}: {complaint}");
+            let allowed = ["there is room for ", "it must lie between "];
+            assert!(allowed.iter().any(|words| complaint.contains(words)), "{complaint}");
+        }
+        // nor does a directory stay that was made for it
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1, "something was written");
+    }
 }
 
 #[test]
@@ -207,7 +331,10 @@ fn files_that_are_no_scene_are_refused() {
     refused_text(&CURVE.as_bytes()[..45], &[]);
     refused_text(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", &["byte 0", "0x89"]);
     refused_text(&[0; 64], &[]);
-    refused_text("title = \"no kind\"\n".as_bytes(), &["kind"]);
+    const KINDS: &str = "kind: missing, allowed is fif-curve, fif-surface, curve, random-curve, ifs, copier, mandelbrot, julia, julia-set";
+    refused_text("title = \"no kind\"\n".as_bytes(), &[KINDS]);
+    refused_text(b"", &[KINDS]);
+    refused_text(b"kind = \"random-curve\"\n", &["missing field `law`", "`attractor list` names the keys"]);
     refused_text(&vec![b'#'; 5_000_000], &["longer than"]);
 }
 
@@ -279,18 +406,65 @@ fn places_that_cannot_be_written_are_named() {
         at(&args)
     };
     fs::write(directory.path().join("file"), "kept").unwrap();
-    assert!(dump(&["fern"], "nowhere/at/all/a.png").contains("nowhere/at/all/a.png"));
-    assert!(dump(&["fern"], "/proc/a.png").contains("/proc/a.png"));
-    assert!(dump(&["fern"], "file/a.png").contains("file/a.png"));
-    assert!(dump(&["fern", "dragon"], "file").contains("file"));
-    assert!(dump(&["fern", "dragon"], "a.png").contains("a.png"));
+    assert!(
+        dump(&["fern"], "/proc/a.png").contains("--output /proc/a.png: nothing can be written into /proc: ")
+    );
+    assert!(
+        dump(&["fern"], "file/a.png").contains("--output file/a.png: nothing can be written into file: ")
+    );
+    assert_eq!(
+        dump(&["fern"], "file"),
+        "attractor: --output file: it is a file; pictures are PNG files, whose names end in .png\n"
+    );
+    for other in ["a.png", "-", "/dev/null"] {
+        let reason = "2 scenes go into a directory, not into one file";
+        assert_eq!(dump(&["fern", "dragon"], other), format!("attractor: --output {other}: {reason}\n"));
+    }
+    let reason = "pictures are PNG files, whose names end in .png; a new directory is x.jpg/ with a slash";
+    assert_eq!(dump(&["fern"], "x.jpg"), format!("attractor: --output x.jpg: {reason}\n"));
+    assert!(dump(&["fern", "dragon"], "file").contains("--output file: it is a file"));
     assert!(dump(&["fern", "fern"], "out").contains("fern"));
+    assert_eq!(
+        dump(&["fern"], "/dev/full"),
+        "attractor: /dev/full: cannot be written: No space left on device (os error 28)\n"
+    );
     assert_eq!(fs::read(directory.path().join("file")).unwrap(), b"kept");
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
-    // a directory stands where the file should go
+    // a directory stands where the file should go, said before anything is drawn
     fs::create_dir_all(directory.path().join("out/fern.png")).unwrap();
-    assert!(dump(&["fern"], "out").contains("fern.png"));
+    assert!(dump(&["koch-curve", "fern"], "out").contains("out/fern.png: cannot be written: Is a directory"));
     assert_eq!(fs::read_dir(directory.path().join("out")).unwrap().count(), 1);
+}
+
+/// Standard output that is full.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_be_printed_is_an_error() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("curve.toml"), CURVE).unwrap();
+    for args in [
+        &["--help"][..],
+        &["help", "dump"],
+        &["--version"],
+        &["list"],
+        &[],
+        &["sample", "curve.toml"],
+        &["export", "curve.toml"],
+        &["dimension", "koch-curve", "--csv"],
+        &["spectrum", "figure-1-g"],
+        &["dump", "koch-curve", "-o", "-", "--size", "8x8"],
+        &["dump", "koch-curve", "-o", "a.png", "--size", "8x8"],
+    ] {
+        let full = fs::File::create("/dev/full").unwrap();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_attractor"))
+            .args(args)
+            .current_dir(directory.path())
+            .stdout(full)
+            .output()
+            .unwrap();
+        let complaint = "attractor: standard output: No space left on device (os error 28)\n";
+        assert_eq!((output.status.code(), text(&output.stderr).as_str()), (Some(2), complaint), "{args:?}");
+    }
 }
 
 #[cfg(not(feature = "window"))]

@@ -1,5 +1,6 @@
 //! `attractor export`: what it writes is a module that firmware compiles, with the bits that the command draws with.
 
+use std::fs;
 use std::path::Path;
 
 use crate::common::{bad, good};
@@ -34,6 +35,29 @@ fn an_integrated_function_says_so() {
     assert!(
         text.contains(&format!("Scaling::from_bits({})", attractor::num::Scaling::lit("0.85").to_bits()))
     );
+}
+
+/// Nothing of a scene file's title or name becomes code: all that is not a comment is what the scene without
+/// them gives.
+#[test]
+fn titles_and_names_of_files_stay_comments() {
+    let directory = tempfile::tempdir().unwrap();
+    let scene = "kind = \"fif-curve\"\nknots = [[0, 0], [1, 1], [2, 0]]\nvertical_scaling = [0.5, 0.5]\n";
+    let code = |file: &str, title: &str| {
+        fs::write(directory.path().join(file), format!("title = \"{title}\"\n{scene}")).unwrap();
+        let module = good(directory.path(), &["export", file]);
+        let comment = |line: &&str| line.starts_with("//!");
+        assert!(!module.contains(['\r', '\u{1b}', '\u{202e}', '\u{2066}']), "{module:?}");
+        assert_eq!(module.lines().take_while(comment).count(), 3, "{module}");
+        module.lines().skip_while(comment).map(|line| format!("{line}\n")).collect::<String>()
+    };
+    let plain = code("plain.toml", "Plain");
+    for title in ["One\\npub fn injected() {}\\n", "a\\rb", "\\u001b[2J\\u202e}\\u2066 \\u2028 \\t", ""] {
+        assert_eq!(code("plain.toml", title), plain, "{title}");
+    }
+    for file in ["one\npub fn injected() {}\n.toml", "a`b\u{202e}.toml", "c\rd.toml"] {
+        assert_eq!(code(file, "Plain"), plain, "{file:?}");
+    }
 }
 
 #[test]

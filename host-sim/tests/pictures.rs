@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{decode, good};
+use crate::common::{attractor_in, bad, decode, good};
 use png::{BitDepth, ColorType};
 
 const GOLDENS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/goldens.txt");
@@ -69,6 +69,48 @@ fn pictures_are_the_same_to_the_last_bit() {
     assert_eq!(text.lines().count(), goldens.lines().count(), "goldens.txt has scenes that are gone");
 }
 
+/// A complete scene of each kind stands in `host-sim/README.md`.
+#[test]
+fn the_examples_of_the_readme_are_drawn_and_sampled() {
+    const README: &str = include_str!("../README.md");
+    let examples = README.split("```toml\n").skip(1).map(|example| example.split("```").next().unwrap());
+    let directory = tempfile::tempdir().unwrap();
+    let mut kinds = Vec::new();
+    for example in examples {
+        fs::write(directory.path().join("scene.toml"), example).unwrap();
+        good(directory.path(), &["dump", "scene.toml", "-o", "a.png", "--size", "64x64"]);
+        let png = decode(&directory.path().join("a.png"));
+        assert!(png.data.chunks(3).any(|pixel| pixel != &png.data[..3]), "shows nothing: {example}");
+        good(directory.path(), &["sample", "scene.toml", "--points", "9", "--size", "4x4"]);
+        kinds.push(example.lines().next().unwrap().trim_start_matches("kind = ").trim_matches('"'));
+    }
+    // all kinds that the command knows, one example each
+    fs::write(directory.path().join("scene.toml"), "title = \"no kind\"\n").unwrap();
+    let complaint = bad(directory.path(), &["dump", "scene.toml"]);
+    let known = complaint.trim_end().split("allowed is ").nth(1).unwrap();
+    let mut known: Vec<&str> = known.split(", ").collect();
+    kinds.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(kinds, known);
+}
+
+/// Those of the README are what its first command writes; compression may differ.
+#[test]
+fn pictures_of_the_readme_are_what_dump_draws() {
+    const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs");
+    let files = fs::read_dir(DOCS).unwrap().map(|entry| entry.unwrap().path());
+    let pictures: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "png")).collect();
+    let scenes: Vec<_> = pictures.iter().map(|path| path.file_stem().unwrap().to_str().unwrap()).collect();
+    assert!(scenes.len() >= 9);
+    let directory = tempfile::tempdir().unwrap();
+    good(directory.path(), &[&["dump"], &scenes[..], &["-o", "out"]].concat());
+    for (path, scene) in pictures.iter().zip(&scenes) {
+        let (kept, drawn) = (decode(path), decode(&directory.path().join(format!("out/{scene}.png"))));
+        assert!((kept.size, kept.color, kept.depth) == (drawn.size, drawn.color, drawn.depth), "{scene}");
+        assert!(kept.data == drawn.data, "{scene}: look at it, and copy it to docs/");
+    }
+}
+
 /// What a driver would send: Rgb565 big-endian, mono packed with the leftmost pixel highest.
 fn display_bytes(path: &Path) -> Vec<u8> {
     let png = decode(path);
@@ -89,6 +131,61 @@ fn another_seed_makes_another_walk_and_the_same_seed_the_same_file() {
         files.push(fs::read(directory.path().join(file)).unwrap());
     }
     assert!(files[0] == files[1] && files[0] != files[2]);
+}
+
+#[test]
+fn directories_are_made_and_a_slash_means_one() {
+    let directory = tempfile::tempdir().unwrap();
+    let dump =
+        |output: &str| good(directory.path(), &["dump", "koch-curve", "-o", output, "--size", "16x16"]);
+    for (output, file) in [
+        ("nowhere/at/all/a.png", "nowhere/at/all/a.png"),
+        ("deep/directory", "deep/directory/koch-curve.png"),
+        ("x.jpg/", "x.jpg/koch-curve.png"),
+        ("x.jpg", "x.jpg/koch-curve.png"),
+        ("b.PNG", "b.PNG"),
+    ] {
+        assert_eq!(dump(output), format!("{file}\n"));
+        decode(&directory.path().join(file));
+    }
+}
+
+#[test]
+fn one_picture_goes_to_standard_output_as_png() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = attractor_in(directory.path(), &["dump", "koch-curve", "-o", "-", "--size", "16x16"]);
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
+    good(directory.path(), &["dump", "koch-curve", "-o", "a.png", "--size", "16x16"]);
+    assert!(output.stdout == fs::read(directory.path().join("a.png")).unwrap());
+    #[cfg(unix)]
+    {
+        // a device is written to, not replaced
+        let again =
+            attractor_in(directory.path(), &["dump", "koch-curve", "-o", "/dev/stdout", "--size", "16x16"]);
+        assert!(again.stdout == output.stdout);
+        assert_eq!(good(directory.path(), &["dump", "koch-curve", "-o", "/dev/null", "--size", "16x16"]), "");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_replaced_keeps_its_permissions_and_its_links() {
+    use std::os::unix::fs::{PermissionsExt as _, symlink};
+    let directory = tempfile::tempdir().unwrap();
+    let at = |file: &str| directory.path().join(file);
+    for mode in [0o600, 0o640, 0o666, 0o755] {
+        fs::write(at("real.png"), "old").unwrap();
+        fs::set_permissions(at("real.png"), fs::Permissions::from_mode(mode)).unwrap();
+        good(directory.path(), &["dump", "koch-curve", "-o", "real.png", "--size", "16x16"]);
+        decode(&at("real.png"));
+        assert_eq!(fs::metadata(at("real.png")).unwrap().permissions().mode() & 0o7777, mode);
+    }
+    symlink("real.png", at("link.png")).unwrap();
+    good(directory.path(), &["dump", "koch-curve", "-o", "link.png", "--size", "8x8"]);
+    assert!(fs::symlink_metadata(at("link.png")).unwrap().is_symlink());
+    assert_eq!(decode(&at("real.png")).size, (8, 8));
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2);
 }
 
 #[cfg(unix)]

@@ -1,6 +1,7 @@
 #!/bin/sh
 # The window under Xvfb: it shows the picture that dump writes, keys change the scene, keys and mouse move about in it, and what it saves can be
-# shown again from the lines that it prints; Esc closes it.
+# shown again from the lines that it prints. It never goes black, stays bright however far one zooms, and Esc
+# closes it at any time.
 # Needs: apt install libsdl2-dev xvfb xdotool imagemagick
 # Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]
 set -eu
@@ -8,11 +9,13 @@ cd "$(dirname "$0")/../.."
 shots=${1:-$(mktemp -d)}
 mkdir -p "$shots"
 shots=$(cd "$shots" && pwd)
+rm -f "$shots"/tip-*.png "$shots"/mandelbrot-*.png
 if [ "${ATTRACTOR_UNDER_XVFB:-}" != 1 ]; then
-    cargo build --release --quiet -p attractor-sim --features window
-    ATTRACTOR_UNDER_XVFB=1 exec timeout 180 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
+    # the profile of the tests: optimised, with every overflow checked
+    cargo build --quiet -p attractor-sim --features window
+    ATTRACTOR_UNDER_XVFB=1 exec timeout 240 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
 fi
-attractor=$PWD/target/release/attractor
+attractor=$PWD/target/debug/attractor
 fail() {
     echo "window: $1" >&2
     [ -z "${pid:-}" ] || kill "$pid" 2>/dev/null || true
@@ -27,10 +30,15 @@ shows() {
     done
     fail "does not show $1 (see $shots/$2.png)"
 }
+# The mean brightness of what the window shows, in thousandths.
+brightness() {
+    import -window "$window" "$shots/$1.png"
+    convert "$shots/$1.png" -colorspace gray -format '%[fx:int(1000*mean)]' info:
+}
 # Opens a window on a scene, in the directory of the shots.
 open() {
     cd "$shots"
-    "$attractor" window "$1" >"$shots/said" 2>"$shots/keys" &
+    "$attractor" window "$@" >"$shots/said" 2>"$shots/keys" &
     pid=$!
     cd - >/dev/null
     window=$(timeout 20 xdotool search --sync --onlyvisible --name '^attractor$' | head -1)
@@ -47,7 +55,7 @@ closes() {
     kill -0 "$pid" 2>/dev/null && fail "Esc does not close it"
     wait "$pid" || fail "ended with code $?"
 }
-"$attractor" dump figure-6-gg figure-6-ff-diffuse fern -o "$shots/dump" >/dev/null
+"$attractor" dump figure-6-gg figure-6-ff-diffuse fern mandelbrot -o "$shots/dump" >/dev/null
 
 open figure-6-gg
 grep -q 'Enter *save' "$shots/keys" || fail "does not say its keys"
@@ -113,4 +121,64 @@ sleep 0.5
 shows "$shots/dump/fern.png" still
 grep -q 'fern: .*all there is' "$shots/keys" || fail "does not say why it does not zoom"
 closes
-echo "window: shows the picture, follows the keys and the mouse, saves what it shows, closes on Esc"
+
+# the window of the README, 20 steps into the set: as bright as at home, and what it saves is what its lines
+# show
+open mandelbrot
+shows "$shots/dump/mandelbrot.png" home
+home=$(brightness home)
+# about c = i, from which filaments go out at every depth: a corner of four pixels
+xdotool mousemove --window "$window" 180 40 click 1
+i=0
+while [ $i -lt 20 ]; do
+    xdotool key plus
+    i=$((i + 1))
+done
+xdotool key Return
+i=0
+while [ $i -lt 60 ]; do
+    sleep 0.5
+    i=$((i + 1))
+    grep -q equalised "$shots/said" && break
+done
+deep=$(brightness deep)
+closes
+[ "$deep" -ge "$home" ] || fail "is darker after 20 steps of zoom: $deep thousandths, $home at home (see $shots/deep.png)"
+[ "$(convert "$shots/mandelbrot-1.png" -format %k info:)" -gt 12 ] || fail "shows few colours after 20 steps of zoom"
+{
+    sed -e '/max_dwell/d' -e '/^\[grey\]/,$d' host-sim/scenes/mandelbrot.toml
+    grep -v '\.png$' "$shots/said"
+} >"$shots/bright.toml"
+"$attractor" dump "$shots/bright.toml" -o "$shots/bright.png" >/dev/null
+[ "$(compare -metric AE "$shots/mandelbrot-1.png" "$shots/bright.png" null: 2>&1)" = 0 ] || fail "saves other colours than its lines show"
+
+# an equalised picture: after a pan the last one stays, moved
+cat >"$shots/slow.toml" <<'END'
+kind = "mandelbrot"
+centre = ["-0.7453", "0.1127"]
+width = "0.0065"
+max_dwell = 500
+equalised = true
+palette = "dusk"
+END
+"$attractor" dump "$shots/slow.toml" --size 800x600 -o "$shots/dump/slow.png" >/dev/null
+open "$shots/slow.toml" --size 800x600
+shows "$shots/dump/slow.png" whole
+before=$(brightness before)
+xdotool key Right
+sleep 0.05
+after=$(brightness after)
+[ $((2 * after)) -ge "$before" ] || fail "goes dark after a pan: $after thousandths, $before before (see $shots/after.png)"
+# now orbits that are a thousand times as long: minutes of work, in the middle of which Esc closes the window
+# within a second
+sed -i -e 's/-0.7453", "0.1127/-0.75", "0.00003/' -e 's/0.0065/0.00001/' -e 's/500/1000000/' "$shots/slow.toml"
+xdotool key r
+sleep 3
+import -window "$window" "$shots/working.png"
+xdotool key Escape
+sleep 1
+kill -0 "$pid" 2>/dev/null && fail "Esc does not close it within a second while an equalised picture is drawn"
+wait "$pid" || fail "ended with code $?"
+# it was at work: a tenth of the rows at most
+[ "$(convert "$shots/working.png" -crop 800x540+0+60 -format %k info:)" = 1 ] || fail "has drawn in 3 s what takes minutes"
+echo "window: shows the picture, follows the keys and the mouse, saves what it shows, stays bright, closes on Esc"

@@ -2,13 +2,13 @@
 
 use std::convert::Infallible;
 
-use attractor::draw::{Equalised, Inside, Level, Leveled, Palette, Ramp};
+use attractor::draw::{Inside, Leveled, Ramp};
 use attractor::escape::{Distance, EscapeTime, FractionalDwell, Interior, Smooth};
 use attractor::picture::Field;
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 
-use super::{Watch, draw_field};
+use super::{Watch, draw_field, equalised};
 use crate::color::{Depth, ground};
 use crate::fail::Fail;
 use crate::palette::Colors;
@@ -43,18 +43,16 @@ where
     D: DrawTarget<Error = Infallible>,
     D::Color: Depth,
 {
-    let counts = if equalised { picture.max_dwell() } else { 0 };
+    // colours that come round need no equal shares
+    let equalised = equalised && colors.cycle.is_none();
     match coloring {
-        Coloring::Dwell => paint(picture, colors, counts, target, watch),
+        Coloring::Dwell => paint(picture, colors, equalised, target, watch),
         Coloring::Smooth => {
             let cycle = colors.cycle.map(|counts| counts * FractionalDwell::STEPS);
             let colors = Colors { cycle, ..colors };
-            paint(Smooth(picture), colors, counts * FractionalDwell::STEPS, target, watch)
+            paint(Smooth(picture), colors, equalised, target, watch)
         }
-        Coloring::Distance => {
-            let counts = if equalised { 1 << 16 } else { 0 };
-            paint(Distance(picture), colors, counts, target, watch)
-        }
+        Coloring::Distance => paint(Distance(picture), colors, equalised, target, watch),
         Coloring::Interior => {
             let paper = ground::<D::Color>(PAPER);
             let color = Inside::new(Ramp::of_periods(|level| colors.named.at(level)), paper);
@@ -64,11 +62,11 @@ where
     }
 }
 
-/// Draws a field as the palette says; with `counts` above 0 every colour covers the same share of the outside.
-pub(super) fn paint<F, D>(
+/// Draws a field as the palette says.
+fn paint<F, D>(
     field: F,
     colors: Colors,
-    counts: u32,
+    equalised: bool,
     target: &mut D,
     watch: Watch<'_, D>,
 ) -> Result<(), Fail>
@@ -78,14 +76,9 @@ where
     D: DrawTarget<Error = Infallible>,
     D::Color: Depth,
 {
-    if counts == 0 {
-        draw_field(field, colors, target, watch);
-        return Ok(());
+    if equalised {
+        return equalised::draw(field, colors, target, watch);
     }
-    let mut counts = vec![0; counts as usize + 1];
-    let named = |level: Level| colors.named.at(level);
-    let equalised = Equalised::new(&field, &mut counts, named).map_err(Fail::new)?;
-    let color = |value: F::Value| if value.is_inside() { colors.inside } else { equalised.rgb(value) };
-    draw_field(field, color, target, watch);
+    draw_field(field, colors, target, watch);
     Ok(())
 }

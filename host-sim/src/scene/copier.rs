@@ -3,7 +3,6 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::Error;
 use attractor::curve::koch;
 use attractor::ifs::{Ifs, MAX_MAPS, catalogue};
 use attractor::picture::Point2;
@@ -20,7 +19,7 @@ use crate::cli::MAX_POINTS;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
-use crate::source::Source;
+use crate::source::{Place, Source};
 
 /// Room for orders.
 const DEPTH: usize = 24;
@@ -48,6 +47,8 @@ pub(super) struct CopierScene {
     shape: Vec<Point2>,
     orders: Vec<u32>,
     palette: Named,
+    /// What is copied, or by which maps.
+    place: Place,
 }
 
 impl CopierScene {
@@ -63,11 +64,13 @@ impl CopierScene {
             None => koch::SEGMENT.to_vec(),
         };
         let orders = orders(source, file.orders.as_ref(), ifs.maps().len(), shape.len())?;
-        let scene = Self { ifs, shape, orders, palette: file.palette.unwrap_or(Named::Even) };
-        scene.copies().map_err(|error| match &file.polyline {
-            Some(list) => source.fail(list.span(), "polyline", error),
-            None => Fail::new(error),
-        })?;
+        let place = match (&file.polyline, &file.maps, &file.attractor) {
+            (Some(list), ..) => source.place(list.span(), "polyline"),
+            (None, Some(maps), _) => source.place(maps.span(), "maps"),
+            (None, None, name) => source.place(name.as_ref().map_or(0..0, Spanned::span), "attractor"),
+        };
+        let scene = Self { ifs, shape, orders, palette: file.palette.unwrap_or(Named::Even), place };
+        scene.copies()?;
         Ok(scene)
     }
 
@@ -76,8 +79,9 @@ impl CopierScene {
         &self.ifs
     }
 
-    fn copies(&self) -> Result<Copies<'_, MAX_MAPS, DEPTH>, Error> {
-        Copies::new(&self.ifs, &self.shape, &self.orders, self.palette)
+    fn copies(&self) -> Result<Copies<'_, MAX_MAPS, DEPTH>, Fail> {
+        let copies = Copies::new(&self.ifs, &self.shape, &self.orders, self.palette);
+        copies.map_err(|error| self.place.fail(error))
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -85,13 +89,15 @@ impl CopierScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        self.copies().and_then(|copies| copies.draw(request.size, target, watch)).map_err(Fail::new)
+        let drawn = self.copies()?.draw(request.size, target, watch);
+        drawn.map_err(|error| self.place.fail_at(request.size, error))
     }
 
     /// `x,y` of the first vertices of the last order.
     pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
         let last = self.orders.last().copied().unwrap_or(0);
-        vertices(self.copies().and_then(|copies| copies.path(last)).map_err(Fail::new)?, points, out)
+        let path = self.copies()?.path(last);
+        vertices(path.map_err(|error| self.place.fail(error))?, points, out)
     }
 }
 
@@ -103,21 +109,21 @@ fn named(source: &Source, name: &Spanned<String>) -> Result<Box<Ifs<MAX_MAPS>>, 
     attractor.ifs().map(Box::new).map_err(|error| source.fail(name.span(), "attractor", error))
 }
 
-/// 0 to 6 unless said otherwise.
+/// 0 to 6 unless said otherwise, or as many as there are points for.
 fn orders(
     source: &Source,
     given: Option<&Spanned<Vec<Spanned<i64>>>>,
     maps: usize,
     vertices: usize,
 ) -> Result<Vec<u32>, Fail> {
-    let Some(list) = given else { return Ok((0..=6).collect()) };
+    let points = |order: u32| (maps as u64).saturating_pow(order).saturating_mul(vertices.max(1) as u64);
+    let fits = |order: &u32| points(*order) <= u64::from(MAX_POINTS);
+    let most = (0..=DEPTH as u32).take_while(fits).last().unwrap_or(0);
+    let Some(list) = given else { return Ok((0..=most.min(6)).collect()) };
     if list.get_ref().is_empty() || list.get_ref().len() > PANELS {
         let reason = format!("1 to {PANELS} orders are shown");
         return Err(source.fail(list.span(), "orders", reason));
     }
-    let points = |order: u32| (maps as u64).saturating_pow(order).saturating_mul(vertices.max(1) as u64);
-    let fits = |order: &u32| points(*order) <= u64::from(MAX_POINTS);
-    let most = (0..=DEPTH as u32).take_while(fits).last().unwrap_or(0);
     let order = |(i, order): (usize, &Spanned<i64>)| match u32::try_from(*order.get_ref()) {
         Ok(n) if n <= most => Ok(n),
         _ => {

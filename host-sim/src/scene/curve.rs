@@ -20,7 +20,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
-use crate::source::{Num, Source};
+use crate::source::{Num, Place, Source};
 use crate::theory::{Theory, boundary_of};
 
 /// Room for segments of a generator and for orders.
@@ -54,6 +54,8 @@ pub(super) struct CurveScene {
     order: Option<u32>,
     filled: bool,
     pencil: Pencil,
+    /// What decides how far it is refined.
+    place: Place,
 }
 
 impl CurveScene {
@@ -74,6 +76,10 @@ impl CurveScene {
             (None, _) if is_adaptive => None,
             (None, _) => return Err(source.fail_all("order", "missing, or adaptive = true")),
         };
+        let place = match (&file.order, &file.adaptive) {
+            (Some(order), _) => source.place(order.span(), "order"),
+            (None, adaptive) => source.place(adaptive.as_ref().map_or(0..0, Spanned::span), "adaptive"),
+        };
         let closed = base.first() == base.last();
         let scene = Self {
             generator: Box::new(generator),
@@ -81,6 +87,7 @@ impl CurveScene {
             order,
             filled: file.fill.unwrap_or(closed),
             pencil: Pencil { palette: file.palette.unwrap_or(Named::Ocean), closed },
+            place,
         };
         // what the kernel says against the base
         scene.refined(scene.order.unwrap_or(0)).map_err(|error| match &file.base {
@@ -110,7 +117,7 @@ impl CurveScene {
     }
 
     fn picture(&self) -> CurvePicture<'_, SEGMENTS, DEPTH> {
-        let Self { generator, base, order, filled, pencil } = self;
+        let Self { generator, base, order, filled, pencil, .. } = self;
         CurvePicture { generator, base, order: *order, filled: *filled, pencil: *pencil }
     }
 
@@ -121,12 +128,13 @@ impl CurveScene {
     {
         self.picture()
             .draw(request.size, target, &mut vec![0; ground_words(request.size)], watch)
-            .map_err(Fail::new)
+            .map_err(|error| self.place.fail_at(request.size, error))
     }
 
     /// `x,y` of the first vertices.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        vertices(self.picture().path(request.size).map_err(Fail::new)?, points, out)
+        let path = self.picture().path(request.size);
+        vertices(path.map_err(|error| self.place.fail_at(request.size, error))?, points, out)
     }
 }
 

@@ -5,10 +5,11 @@
 //! Least squares over the data's own abscissae give `alpha_j = sum r rho(t) / sum r^2` in closed form.
 
 use attractor::num::{Scaling, Wide};
+use csv::{ReaderBuilder, Trim};
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::fail::Fail;
+use crate::fail::{Fail, shortened};
 use crate::number;
 use crate::source::{Num, Source};
 
@@ -42,21 +43,27 @@ impl Table {
             None => 1.0,
         };
         let (name, text) = source.data(&self.csv)?;
-        let mut lines = text.lines().enumerate();
-        let header: Vec<&str> = lines.next().map_or("", |l| l.1).split(',').map(str::trim).collect();
+        let malformed = |error: csv::Error| Fail::new(format_args!("{name}: {error}"));
+        let mut table = ReaderBuilder::new().flexible(true).trim(Trim::All).from_reader(text.as_bytes());
+        let header = table.headers().map_err(malformed)?.clone();
         let column = |key: &str, title: &Spanned<String>| {
-            header.iter().position(|t| *t == title.get_ref().as_str()).ok_or_else(|| {
-                source.fail(title.span(), key, format!("{name} has the columns {}", header.join(", ")))
+            header.iter().position(|t| t == title.get_ref().as_str()).ok_or_else(|| {
+                let columns: Vec<String> = header.iter().map(shortened).collect();
+                source.fail(title.span(), key, format!("{name} has the columns {}", columns.join(", ")))
             })
         };
         let (x, y) = (column("data.x", &self.x)?, column("data.y", &self.y)?);
         let mut points: Vec<(Wide, Wide)> = Vec::new();
-        for (i, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
-            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
-            let cell = |column: usize| cells.get(column).copied().unwrap_or("");
+        for row in table.records() {
+            let row = row.map_err(malformed)?;
+            if row.iter().all(str::is_empty) {
+                continue;
+            }
+            let cell = |column: usize| row.get(column).unwrap_or("");
             let fail = |column: usize, reason: &str| {
-                let title = header.get(column).copied().unwrap_or("");
-                Fail::new(format_args!("{name}:{}: {title} = {}: {reason}", i + 1, cell(column)))
+                let (title, value) = (header.get(column).unwrap_or(""), shortened(cell(column)));
+                let line = line_of(&text, row.position());
+                Fail::new(format_args!("{name}:{line}: {} = {value}: {reason}", shortened(title)))
             };
             let abscissa = number::nearest::<Wide>(cell(x)).map_err(|reason| fail(x, &reason))?;
             number::nearest::<Wide>(cell(y)).map_err(|reason| fail(y, &reason))?;
@@ -73,6 +80,15 @@ impl Table {
         }
         Ok(points)
     }
+}
+
+/// The line on which a row stands, from 1. Its position is where the row before ended: line ends and empty
+/// lines follow.
+fn line_of(text: &str, position: Option<&csv::Position>) -> usize {
+    let before = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
+    let bytes = text.as_bytes();
+    let empty = bytes.iter().skip(before).take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
+    1 + bytes.iter().take(before + empty).filter(|byte| **byte == b'\n').count()
 }
 
 /// The vertical scaling of each map by least squares.

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use attractor::Error;
 use attractor::escape::{Complex, DeepMandelbrot, DeepView, OrbitPoint};
 use attractor::num::Limbs;
 use attractor::picture::Field as _;
@@ -17,6 +18,9 @@ use crate::source::{Num, Source};
 pub(super) const LIMBS: usize = 12;
 /// A unit of the 32-bit format: no display shows a view as narrow as this in it.
 pub(super) const UNIT: f64 = 1.0 / (1 << 29) as f64;
+/// A coordinate rounded to 114 decimal places is within a 256th of a pixel of the largest display in views as
+/// wide as this.
+const ROUNDED: f64 = 1e-114 * (1 << 22) as f64;
 /// The widest view that may be too fine for it, on the largest display.
 const WIDEST: f64 = UNIT * (1 << 14) as f64;
 
@@ -42,7 +46,19 @@ impl Deep {
         let Some(centre) = keys.centre.filter(|_| about < WIDEST) else { return Ok(None) };
         let limbs = |number: &Num, key: &str| {
             let digits = source.digits(number).replace('_', "");
-            digits.parse::<Limbs<LIMBS>>().map_err(|error| source.fail(number.span(), key, error))
+            let rounded = match digits.parse::<Limbs<LIMBS>>() {
+                Err(Error::Capacity { .. }) if about >= ROUNDED => {
+                    let places = Limbs::<LIMBS>::DECIMAL_PLACES;
+                    if about < UNIT {
+                        let note =
+                            format!("rounded to {places} decimal places: no picture shows the difference");
+                        source.note(number.span(), key, &note);
+                    }
+                    number::rounded(&digits, places).parse()
+                }
+                exactly => exactly,
+            };
+            rounded.map_err(|error| source.fail(number.span(), key, error))
         };
         let [re, im] = centre.get_ref();
         let deep = || {
@@ -61,8 +77,8 @@ impl Deep {
     }
 
     /// The view on a display of this size.
-    pub(super) fn view(&self, size: Size) -> Result<View, Fail> {
-        DeepView::new(self.0.centre, self.0.width, size).map_err(Fail::new)
+    pub(super) fn view(&self, size: Size) -> Result<View, Error> {
+        DeepView::new(self.0.centre, self.0.width, size)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use attractor::Error;
 use attractor::escape::{Complex, MAX_DWELL, View};
 use attractor::num::{Limbs, Wide};
 use attractor::picture::MAX_SIDE;
@@ -14,7 +15,7 @@ use super::coloring::Coloring;
 use super::deep::{self, Deep};
 use super::motion::{Motion, Sight};
 use crate::color::Depth;
-use crate::fail::Fail;
+use crate::fail::{Fail, shortened};
 use crate::number::{self, exact};
 use crate::palette::{Colors, Named, color};
 use crate::source::{Num, Source};
@@ -128,10 +129,13 @@ impl Escape {
     /// The deep view on a display of this size, if 32 bits are too coarse for it.
     pub(super) fn deep_view(&self, size: Size) -> Result<Option<deep::View>, Fail> {
         let Some(deep) = self.deep.filter(|_| self.view(size).is_err()) else { return Ok(None) };
-        deep.view(size).map(Some)
+        let Deep(Sight { width, .. }) = deep;
+        deep.view(size).map(Some).map_err(|error| self.refused(&deep::decimal(width), size, error))
     }
 
-    /// Moves about on a display of this size. Each doubling of the scale adds iterations: finer detail needs longer orbits.
+    /// Moves about on a display of this size. Each doubling of the scale adds iterations: finer detail needs
+    /// longer orbits. A dwell that
+    /// is a share of ever more iterations would be ever darker: its colours are equalised from then on.
     ///
     /// The message says why not.
     pub(super) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
@@ -166,6 +170,11 @@ impl Escape {
             return Err(fail);
         }
         self.max_dwell = max_dwell.clamp(1, MAX_DWELL);
+        let is_share =
+            matches!(self.coloring, Coloring::Dwell | Coloring::Smooth) && self.colors.cycle.is_none();
+        if let Motion::Zoom { closer: true, .. } | Motion::Iterate { more: true } = motion {
+            self.equalised |= is_share;
+        }
         Ok(())
     }
 
@@ -185,7 +194,11 @@ impl Escape {
     pub(super) fn place(&self, size: Size) -> Result<String, Fail> {
         let Sight { centre, width } = self.sight(size)?;
         let [re, im, width] = [centre.re, centre.im, width].map(deep::decimal);
-        Ok(format!("centre = [\"{re}\", \"{im}\"]\nwidth = \"{width}\"\nmax_dwell = {}\n", self.max_dwell))
+        let equalised = if self.equalised { "equalised = true\n" } else { "" };
+        let max_dwell = self.max_dwell;
+        Ok(format!(
+            "centre = [\"{re}\", \"{im}\"]\nwidth = \"{width}\"\nmax_dwell = {max_dwell}\n{equalised}"
+        ))
     }
 
     /// The palette on a display of colour `C`.
@@ -202,15 +215,13 @@ impl Escape {
                 i128::from(height.to_bits()) * i128::from(size.width) / i128::from(size.height.max(1));
             width.max(Wide::from_bits(scaled.min(i128::from(i64::MAX)) as i64))
         });
-        View::new(self.centre, width, size).map_err(|error| {
-            Fail::new(format_args!(
-                "{}: width = {} on {} x {} pixels: {error}",
-                self.file,
-                exact(width),
-                size.width,
-                size.height
-            ))
-        })
+        View::new(self.centre, width, size).map_err(|error| self.refused(&exact(width), size, error))
+    }
+
+    /// The kernel's error with the width that is shown now.
+    fn refused(&self, width: &str, size: Size, error: Error) -> Fail {
+        let (file, width) = (&self.file, shortened(width));
+        Fail::new(format_args!("{file}: width = {width} on {} x {} pixels: {error}", size.width, size.height))
     }
 }
 

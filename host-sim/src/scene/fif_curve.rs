@@ -19,7 +19,7 @@ use crate::export::Constants;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
-use crate::source::{Num, Source};
+use crate::source::{Num, Place, Source};
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,6 +44,8 @@ pub(super) struct FifCurve {
     /// Maps by index from 0, the outermost first.
     contractions: Vec<usize>,
     palette: Named,
+    /// What it passes through.
+    place: Place,
 }
 
 impl FifCurve {
@@ -51,6 +53,10 @@ impl FifCurve {
         let file: File = source.parse()?;
         let palette = file.palette.unwrap_or(Named::Ocean);
         let contractions = file.contractions;
+        let place = match (&file.data, &file.knots) {
+            (Some(table), _) => source.place(table.span(), "data"),
+            (None, knots) => source.place(knots.as_ref().map_or(0..0, Spanned::span), "knots"),
+        };
         let function = match (file.data, file.knots, file.vertical_scaling) {
             (Some(table), None, None) if file.polynomials.is_none() && file.integrate.is_none() => {
                 from_data(source, &table)?
@@ -81,7 +87,7 @@ impl FifCurve {
         if let Some(list) = contractions.filter(|list| list.get_ref().len() > 16) {
             return Err(source.fail(list.span(), "contractions", "at most 16 are shown"));
         }
-        Ok(Self { function, contractions: indices, palette })
+        Ok(Self { function, contractions: indices, palette, place })
     }
 
     /// What measurements need of it.
@@ -107,7 +113,7 @@ impl FifCurve {
         let mut columns = vec![0; request.size.width as usize];
         Chart::new(fif, request.size, &self.contractions, self.palette, &mut cells)
             .and_then(|chart| chart.draw(target, &mut columns, watch))
-            .map_err(Fail::new)
+            .map_err(|error| self.place.fail_at(request.size, error))
     }
 
     /// `x,fixed,reference,error` at `points` equally spaced abscissae, first and last knot included.

@@ -23,7 +23,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::{Colors, Named};
-use crate::source::{Num, Source};
+use crate::source::{Num, Place, Source};
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -68,14 +68,28 @@ enum Surfaced {
     Mirror,
 }
 
+/// A factor of the height, and where its file says how rough it is.
+#[derive(Debug)]
+struct Profile {
+    function: Function,
+    scalings: Place,
+}
+
+impl Profile {
+    fn load(source: &Source, given: &Description, prefix: &str) -> Result<Self, Fail> {
+        let scalings = source.place(given.vertical_scaling.span(), &format!("{prefix}vertical_scaling"));
+        Ok(Self { function: given.compile(source, prefix)?, scalings })
+    }
+}
+
 /// A surface ready to be drawn.
 #[derive(Debug)]
 pub(super) struct FifSurface {
-    /// What messages call the scene.
-    file: String,
-    f: Function,
-    g: Function,
+    f: Profile,
+    g: Profile,
     camera: Camera,
+    /// Where the camera stands.
+    eye: Place,
     orbit: Option<Orbit>,
     light: Option<Light>,
     material: Material,
@@ -110,10 +124,10 @@ impl FifSurface {
         };
         let (camera, orbit) = camera(source, &file.camera)?;
         let scene = Self {
-            file: source.name.clone(),
-            f: file.f.get_ref().compile(source, "f.")?,
-            g: file.g.get_ref().compile(source, "g.")?,
+            f: Profile::load(source, file.f.get_ref(), "f.")?,
+            g: Profile::load(source, file.g.get_ref(), "g.")?,
             camera,
+            eye: source.place(file.camera.get_ref().eye.span(), "camera.eye"),
             orbit,
             light: light.transpose()?,
             material: match file.material.unwrap_or(Surfaced::Diffuse) {
@@ -138,7 +152,7 @@ impl FifSurface {
     }
 
     fn maps(&self) -> usize {
-        self.f.fixed.maps().max(self.g.fixed.maps())
+        self.f.function.fixed.maps().max(self.g.function.fixed.maps())
     }
 
     /// Builds the pyramids down to cells finer than a pixel.
@@ -147,15 +161,15 @@ impl FifSurface {
         side: u32,
         use_it: impl FnOnce(HeightField<'_>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
-        let fewest = self.f.fixed.maps().min(self.g.fixed.maps());
+        let (f, g) = (&self.f.function.fixed, &self.g.function.fixed);
+        let fewest = f.maps().min(g.maps());
         let wanted = self.depth.unwrap_or_else(|| depth_for(fewest, side));
         let depth = wanted.min(depth_for(self.maps(), u32::MAX));
-        let fail = |error: attractor::Error| Fail::new(format_args!("{}: surface: {error}", self.file));
         let cells = |maps: usize| vec![Cell::ZERO; Pyramid::cells(maps, depth)];
-        let (mut a, mut b) = (cells(self.f.fixed.maps()), cells(self.g.fixed.maps()));
-        let x = Pyramid::new(&self.f.fixed, depth, &mut a).map_err(fail)?;
-        let y = Pyramid::new(&self.g.fixed, depth, &mut b).map_err(fail)?;
-        use_it(HeightField::new(&x, &y).map_err(fail)?)
+        let (mut a, mut b) = (cells(f.maps()), cells(g.maps()));
+        let x = Pyramid::new(f, depth, &mut a).map_err(|error| self.f.scalings.fail(error))?;
+        let y = Pyramid::new(g, depth, &mut b).map_err(|error| self.g.scalings.fail(error))?;
+        use_it(HeightField::new(&x, &y).map_err(|error| self.f.scalings.fail(error))?)
     }
 
     fn caster<'a>(
@@ -202,7 +216,7 @@ impl FifSurface {
         self.with_surface(request.size.width.max(request.size.height), |surface| {
             let caster = self
                 .caster(surface, request.size, request.seed)
-                .map_err(|error| Fail::new(format_args!("{}: camera: {error}", self.file)))?;
+                .map_err(|error| self.eye.fail_at(request.size, error))?;
             draw_field(&caster, Colors::plain(self.palette), target, watch);
             Ok(())
         })
@@ -210,22 +224,22 @@ impl FifSurface {
 
     /// Height and normal on a square grid of about `points` points, corners included.
     pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        let factor = |function: &Function, key: &str| {
-            Factor::<MAPS, DEGREE>::new(&function.fixed)
+        let factor = |profile: &Profile| {
+            Factor::<MAPS, DEGREE>::new(&profile.function.fixed)
                 .map(Box::new)
-                .map_err(|error| Fail::new(format_args!("{}: [{key}]: {error}", self.file)))
+                .map_err(|error| profile.scalings.fail(error))
         };
-        let (f, g) = (factor(&self.f, "f")?, factor(&self.g, "g")?);
-        let profile = |function: &Function, key: &str| {
-            reference::Factor::new(function.reference.clone())
-                .map_err(|error| Fail::new(format_args!("{}: [{key}]: {error}", self.file)))
+        let (f, g) = (factor(&self.f)?, factor(&self.g)?);
+        let exact_factor = |profile: &Profile| {
+            reference::Factor::new(profile.function.reference.clone())
+                .map_err(|error| profile.scalings.fail(error))
         };
-        let exactly = reference::Surface { x: profile(&self.f, "f")?, y: profile(&self.g, "g")? };
+        let exactly = reference::Surface { x: exact_factor(&self.f)?, y: exact_factor(&self.g)? };
         let surface = Surface::new(&f, &g);
         writeln!(out, "x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference")?;
         let root = points.isqrt();
         let side = if root * root < points { root + 1 } else { root };
-        let ((x0, x1), (y0, y1)) = (self.f.fixed.domain(), self.g.fixed.domain());
+        let ((x0, x1), (y0, y1)) = (self.f.function.fixed.domain(), self.g.function.fixed.domain());
         for j in 0..side {
             let y = abscissa(y0, y1, j, side);
             for i in 0..side {

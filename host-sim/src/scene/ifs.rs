@@ -16,7 +16,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
-use crate::source::Source;
+use crate::source::{Place, Source};
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,6 +38,8 @@ pub(super) struct IfsScene {
     points: Option<u32>,
     shading: Shading,
     palette: Named,
+    /// Its maps.
+    place: Place,
 }
 
 impl IfsScene {
@@ -53,6 +55,7 @@ impl IfsScene {
             points: points.transpose()?,
             shading: file.shading.unwrap_or(Shading::Maps),
             palette: file.palette.unwrap_or(Named::Even),
+            place: source.place(file.maps.span(), "maps"),
         })
     }
 
@@ -73,7 +76,7 @@ impl IfsScene {
         };
         IfsPicture { ifs, points, shading, palette }
             .draw((request.size, request.seed), target, &mut counts, watch)
-            .map_err(Fail::new)
+            .map_err(|error| self.place.fail_at(request.size, error))
     }
 
     /// `x,y` of the first points of the chaos game.

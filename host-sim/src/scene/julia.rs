@@ -80,7 +80,8 @@ impl JuliaScene {
 
     /// What measurements need of it: its boundary, the Julia set itself, whatever part of it is in view.
     pub(super) fn trail(&self) -> Result<Trail<'_>, Fail> {
-        JuliaSet::new(self.c).map(julia_set::trail).map_err(Fail::new)
+        let set = JuliaSet::new(self.c);
+        set.map(julia_set::trail).map_err(|error| Fail::new(format_args!("c: {error}")))
     }
 
     fn picture(&self, request: &Request) -> Result<Julia, Fail> {

@@ -18,7 +18,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
-use crate::source::{Num, Source};
+use crate::source::{Num, Place, Source};
 use crate::theory::Theory;
 
 /// How often the pruned method goes on from a cell where the set is measured.
@@ -41,7 +41,11 @@ struct File {
 
 /// A Julia set ready to be drawn.
 #[derive(Debug)]
-pub(super) struct JuliaSetScene(JuliaSetPicture);
+pub(super) struct JuliaSetScene {
+    picture: JuliaSetPicture,
+    /// Its constant.
+    place: Place,
+}
 
 impl JuliaSetScene {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
@@ -53,17 +57,18 @@ impl JuliaSetScene {
             _ => Err(source.fail(points.span(), "points", format!("allowed is 1 to {MAX_POINTS}"))),
         });
         let (method, palette) = (file.method.unwrap_or(Method::Pruned), file.palette.unwrap_or(Named::Fire));
-        Ok(Self(JuliaSetPicture { set, method, points: points.transpose()?, palette }))
+        let picture = JuliaSetPicture { set, method, points: points.transpose()?, palette };
+        Ok(Self { picture, place: source.place(file.c.span(), "c") })
     }
 
     /// What measurements need of it.
     pub(super) fn trail(&self) -> Trail<'_> {
-        trail(self.0.set)
+        trail(self.picture.set)
     }
 
     /// The grid of the pruned method.
     fn hits(&self, window: &Window) -> Vec<u8> {
-        vec![0; self.0.grid(window).pow(2)]
+        vec![0; self.picture.grid(window).pow(2)]
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -72,14 +77,16 @@ impl JuliaSetScene {
         D::Color: Depth,
     {
         let size = request.size;
-        let mut hits = self.hits(&self.0.window(size).map_err(Fail::new)?);
+        let fail = |error| self.place.fail_at(size, error);
+        let mut hits = self.hits(&self.picture.window(size).map_err(fail)?);
         let mut counts = vec![0; (size.width * size.height) as usize];
-        self.0.draw((size, request.seed), target, (&mut counts, &mut hits), watch).map_err(Fail::new)
+        self.picture.draw((size, request.seed), target, (&mut counts, &mut hits), watch).map_err(fail)
     }
 
     /// `x,y` of the first points.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        let window = self.0.window(request.size).map_err(Fail::new)?;
+        let fail = |error| self.place.fail_at(request.size, error);
+        let window = self.picture.window(request.size).map_err(fail)?;
         writeln!(out, "x,y")?;
         let print = |found: &mut dyn Iterator<Item = Point2>| -> Result<(), Fail> {
             for p in found {
@@ -87,7 +94,7 @@ impl JuliaSetScene {
             }
             Ok(())
         };
-        self.0.found((&window, request.seed, points), &mut self.hits(&window), print).map_err(Fail::new)?
+        self.picture.found((&window, request.seed, points), &mut self.hits(&window), print).map_err(fail)?
     }
 }
 

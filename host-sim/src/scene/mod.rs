@@ -6,6 +6,7 @@ mod curve;
 mod data;
 mod deep;
 mod environment;
+mod equalised;
 mod escape;
 mod fif_curve;
 mod fif_surface;
@@ -40,7 +41,7 @@ use toml::Spanned;
 use crate::builtin;
 use crate::color::Depth;
 use crate::export::Constants;
-use crate::fail::Fail;
+use crate::fail::{Fail, shortened};
 use crate::source::Source;
 
 pub(crate) use graph::Graph;
@@ -79,7 +80,7 @@ pub(crate) struct Scene {
 #[derive(Debug)]
 enum Kind {
     FifCurve(fif_curve::FifCurve),
-    FifSurface(fif_surface::FifSurface),
+    FifSurface(Box<fif_surface::FifSurface>),
     Curve(curve::CurveScene),
     RandomCurve(random_curve::RandomCurve),
     LSystem(l_system::LSystemScene),
@@ -90,10 +91,24 @@ enum Kind {
     JuliaSet(julia_set::JuliaSetScene),
 }
 
+/// What the key `kind` may say.
+const KINDS: [&str; 10] = [
+    "fif-curve",
+    "fif-surface",
+    "curve",
+    "random-curve",
+    "l-system",
+    "ifs",
+    "copier",
+    "mandelbrot",
+    "julia",
+    "julia-set",
+];
+
 /// The only key that is read before the kind is known.
 #[derive(Deserialize)]
 struct Head {
-    kind: Spanned<String>,
+    kind: Option<Spanned<String>>,
     title: Option<Spanned<String>>,
     #[serde(flatten)]
     _rest: HashMap<String, IgnoredAny>,
@@ -109,7 +124,8 @@ pub(crate) fn load(scene: &str) -> Result<Scene, Fail> {
     if !looks_like_a_path {
         let hint = builtin::nearest(scene).map(|name| format!("; did you mean {name}?")).unwrap_or_default();
         return Err(Fail::new(format_args!(
-            "SCENE = {scene}: no such scene is built in and no such file is there{hint} (`attractor list` names all)"
+            "SCENE = {}: no such scene is built in and no such file is there{hint} (`attractor list` names all)",
+            shortened(scene)
         )));
     }
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
@@ -118,9 +134,13 @@ pub(crate) fn load(scene: &str) -> Result<Scene, Fail> {
 
 fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
     let head: Head = source.parse()?;
-    let kind = match head.kind.get_ref().as_str() {
+    let Some(named) = head.kind else {
+        let key = if source.is_empty() { "the file is empty: kind" } else { "kind" };
+        return Err(source.fail_all(key, format_args!("missing, allowed is {}", KINDS.join(", "))));
+    };
+    let kind = match named.get_ref().as_str() {
         "fif-curve" => Kind::FifCurve(fif_curve::FifCurve::load(source)?),
-        "fif-surface" => Kind::FifSurface(fif_surface::FifSurface::load(source)?),
+        "fif-surface" => Kind::FifSurface(Box::new(fif_surface::FifSurface::load(source)?)),
         "curve" => Kind::Curve(curve::CurveScene::load(source)?),
         "random-curve" => Kind::RandomCurve(random_curve::RandomCurve::load(source)?),
         "l-system" => Kind::LSystem(l_system::LSystemScene::load(source)?),
@@ -130,8 +150,8 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
         "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
         _ => {
-            let reason = "allowed is fif-curve, fif-surface, curve, random-curve, l-system, ifs, copier, mandelbrot, julia or julia-set";
-            return Err(source.fail(head.kind.span(), "kind", reason));
+            let reason = format!("allowed is {}", KINDS.join(", "));
+            return Err(source.fail(named.span(), "kind", reason));
         }
     };
     let title = head.title.map_or_else(|| name.clone(), Spanned::into_inner);
@@ -202,6 +222,12 @@ impl Scene {
             _ => "this kind of scene shows all there is",
         };
         Err(Fail::new(format_args!("{}: {reason}", self.name)))
+    }
+
+    /// Whether a motion moves all pixels alike.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window moves about"))]
+    pub(crate) fn is_flat(&self) -> bool {
+        matches!(self.kind, Kind::Mandelbrot(_) | Kind::Julia(_))
     }
 
     /// Where the viewer stands, as lines of a scene file; nothing for a kind in which nobody moves.

@@ -20,7 +20,7 @@ use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
-use crate::source::{Num, Source};
+use crate::source::{Num, Place, Source};
 
 /// The most halvings between two knots.
 const LEVELS: usize = 20;
@@ -33,7 +33,7 @@ struct File {
     _kind: String,
     #[serde(rename = "title")]
     _title: Option<String>,
-    law: Name,
+    law: Spanned<Name>,
     knots: Option<Points>,
     coast: Option<Spanned<String>>,
     beta: Option<Num>,
@@ -58,6 +58,8 @@ pub(super) struct RandomCurve {
     stop: Option<Stop>,
     filled: bool,
     pencil: Pencil,
+    /// Where it stops, or its law.
+    place: Place,
 }
 
 impl RandomCurve {
@@ -66,7 +68,7 @@ impl RandomCurve {
         let law = law(
             source,
             &Parameters {
-                law: file.law,
+                law: *file.law.get_ref(),
                 beta: file.beta.clone(),
                 deviation: file.deviation.clone(),
                 offset: file.offset.clone(),
@@ -86,10 +88,14 @@ impl RandomCurve {
         let (stop, limit) = stop(source, &file)?;
         let scene = {
             let closed = knots.first() == knots.last();
-            let is_graph = file.law == Name::LineToLine;
+            let is_graph = *file.law.get_ref() == Name::LineToLine;
+            let place = match limit {
+                Some((key, number)) => source.place(number.span(), key),
+                None => source.place(file.law.span(), "law"),
+            };
             let palette = file.palette.unwrap_or(Named::Ocean);
             let filled = file.fill.unwrap_or(closed || is_graph);
-            Self { law, knots, stop, filled, pencil: Pencil { palette, closed } }
+            Self { law, knots, stop, filled, pencil: Pencil { palette, closed }, place }
         };
         scene.curve(stop.unwrap_or(Stop::Length(Real::ONE))).map_err(|error| match (error, limit) {
             (Error::OutOfRange { .. } | Error::Capacity { .. }, Some((key, number))) => {
@@ -128,7 +134,7 @@ impl RandomCurve {
     }
 
     fn picture(&self) -> RandomCurvePicture<'_, Law, LEVELS> {
-        let Self { law, knots, stop, filled, pencil } = self;
+        let Self { law, knots, stop, filled, pencil, .. } = self;
         let graph = matches!(law, Law::LineToLine(..));
         RandomCurvePicture { law, graph, knots, stop: *stop, filled: *filled, pencil: *pencil }
     }
@@ -140,12 +146,13 @@ impl RandomCurve {
     {
         self.picture()
             .draw(request.size, target, &mut vec![0; ground_words(request.size)], watch)
-            .map_err(Fail::new)
+            .map_err(|error| self.place.fail_at(request.size, error))
     }
 
     /// `x,y` of the first points.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        vertices(self.picture().path(request.size).map_err(Fail::new)?, points, out)
+        let path = self.picture().path(request.size);
+        vertices(path.map_err(|error| self.place.fail_at(request.size, error))?, points, out)
     }
 }
 
