@@ -29,12 +29,26 @@ pub(super) fn moved((x, y): Spans, offset: Point) -> Spans {
     (by(x, offset.x), by(y, offset.y))
 }
 
+/// The columns and rows of a picture of `size`, in its own coordinates.
+pub(super) type Part = (Range<u32>, Range<u32>);
+
 /// The part of a picture of `size` that shows when its `area` is drawn with the area's top left at the origin of a target whose
-/// bounding box is `target`. In the picture's own coordinates; either range may be empty.
-pub(super) fn visible(size: Size, area: &Rectangle, target: &Rectangle) -> (Range<u32>, Range<u32>) {
-    let picture = spans(&Rectangle::new(Point::zero(), size));
-    let (x, y) = common(&common(&picture, &spans(area)), &moved(spans(target), area.top_left));
-    // not negative and at most 2^31: common with the picture's own spans
+/// bounding box is `target`; either range may be empty.
+pub(super) fn visible(size: Size, area: &Rectangle, target: &Rectangle) -> Part {
+    narrow(common(&inside(size, area), &moved(spans(target), area.top_left)))
+}
+
+/// The part of a picture of `size` in `area`; either range may be empty.
+pub(super) fn part(size: Size, area: &Rectangle) -> Part {
+    narrow(inside(size, area))
+}
+
+fn inside(size: Size, area: &Rectangle) -> Spans {
+    common(&spans(&Rectangle::new(Point::zero(), size)), &spans(area))
+}
+
+/// Of spans in common with a picture's own: not negative and at most 2^31.
+fn narrow((x, y): Spans) -> Part {
     let narrow = |span: Range<i64>| span.start.max(0) as u32..span.end.max(0) as u32;
     (narrow(x), narrow(y))
 }

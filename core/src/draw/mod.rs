@@ -67,7 +67,7 @@ pub use gradient::Gradient;
 pub use image::{Colors, Picture};
 pub use ink::{Ink, bayer, dithered, luma};
 pub use level::{Level, Leveled};
-pub use packing::{BigEndian, Lines, LsbPages, MsbRows, Packing};
+pub use packing::{Lines, LsbPages, MsbRows, Packing, PixelBytes, PixelWords};
 pub use palette::{CourseUnit, Grey, Inside, Lifted, Palette, hex};
 pub use path::Stroke;
 pub use points::{ColoredDots, Dots};
