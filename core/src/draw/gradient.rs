@@ -1,7 +1,5 @@
-//! A gradient: piecewise linear through colours at given levels.
-//!
-//! Between neighbouring stops `(p, c)` and `(q, d)` each channel is `c + (d - c) (x - p) / (q - p)`, rounded. The quotient is a product with a
-//! reciprocal prepared in the constructor, 32 bits wide. Interpolation is in the encoded (sRGB) channels: put enough stops where that matters.
+//! A gradient: piecewise linear through colours at given levels. The quotient is a product with a reciprocal prepared in the constructor,
+//! 32 bits wide.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
@@ -10,7 +8,8 @@ use crate::draw::{Level, Leveled, Palette};
 
 /// A palette that runs through `N` colours.
 ///
-/// Result: exact at the stops, constant outside the first and the last. Values inside the set are black. Interpolation is in the encoded
+/// Result: between neighbouring stops `(p, c)` and `(q, d)` each channel is `c + (d - c) (x - p) / (q - p)`, rounded; exact at the stops,
+/// constant outside the first and the last. Values inside the set are black. Interpolation is in the encoded
 /// (sRGB) channels: put enough stops where that matters.
 /// Error: 0.51 of a step of a channel (`a_gradient_stays_within_half_a_step_of_the_exact_line`).
 /// Cost: a walk along the stops up to the level, and 4 multiplications.

@@ -26,7 +26,7 @@ use crate::draw::Palette;
 /// display.assert_pattern(&[
 ///     "#.#.#.#.",
 ///     "........",
-///     "..#.#...",
+///     "#.#...#.",
 ///     "........",
 /// ]);
 /// # Ok::<(), core::convert::Infallible>(())
@@ -66,7 +66,7 @@ fn light(channel: u8) -> u32 {
 /// let wedge = from_fn(Size::new(8, 2), |x, _| (x * 36) as u8);
 /// let mut display = MockDisplay::<BinaryColor>::new();
 /// Image::new(&Picture::new(wedge, Inverted(Grey)), Point::zero()).draw(&mut display)?;
-/// display.assert_pattern(&["#######.", "#.#....."]);
+/// display.assert_pattern(&["###.#...", "##.#.#.."]);
 /// # Ok::<(), core::convert::Infallible>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -171,7 +171,7 @@ impl<V: Leveled, P: Palette<V>> Palette<V> for Inside<P> {
 /// ```
 /// use attractor::draw::{Grey, Level, Lifted, Palette, hex};
 ///
-/// assert_eq!(Lifted(Grey).rgb(Level::ratio(1, 4)), hex(0x808080));
+/// assert_eq!(Lifted(Grey).rgb(Level::ratio(1, 4)), hex(0x7f7f7f));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lifted<P>(pub P);
