@@ -134,7 +134,16 @@ impl<I: Iterator<Item = Point2> + Clone, C: PixelColor> Drawable for Dots<I, C> 
 /// let mut display = MockDisplay::<Rgb565>::new();
 /// # display.set_allow_overdraw(true);
 /// let Ok(_) = ColoredDots::new(points, window, maps).draw(&mut display) else { return Ok(()) };
-/// display.assert_pattern(&[]);
+/// display.assert_pattern(&[
+///     "   BB",
+///     "   BB",
+///     "  BBBB",
+///     "  BBBB",
+///     " R   GG",
+///     " RR  GG",
+///     "RRRRGGGG",
+///     "RRRRGGGG",
+/// ]);
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy)]
