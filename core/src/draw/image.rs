@@ -183,6 +183,17 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> GetPixel for Picture<F, P, C> {
 /// The colours of a row, from left to right. [`Picture::colors`] makes it.
 ///
 /// `nth` evaluates only the pixel it returns, as far as the field keeps that promise of [`Field::Row`].
+///
+/// ```
+/// use attractor::draw::{Grey, Picture};
+/// use attractor::picture::from_fn;
+/// use embedded_graphics::{pixelcolor::Gray8, prelude::*};
+///
+/// let picture = Picture::<_, _, Gray8>::new(from_fn(Size::new(9, 9), |x, y| (10 * y + x) as u8), Grey);
+/// let mut row = picture.colors(4, 3..99).expect("row 4 of 9");
+/// assert_eq!((row.next(), row.len(), row.nth(4)), (Some(Gray8::new(43)), 5, Some(Gray8::new(48))));
+/// assert!(picture.colors(9, 0..9).is_none());
+/// ```
 pub struct Colors<'a, F: Field + 'a, P, C> {
     values: F::Row<'a>,
     remaining: u32,

@@ -173,9 +173,7 @@ mod tests {
             let (numerator, whole) = (2 * (start * steps + difference * k) + steps, 2 * steps);
             if whole == 0 { start } else { numerator.div_euclid(whole) }
         };
-        (0..=steps)
-            .map(|k| Point::new(along(from.0, dx, k) as i32, along(from.1, dy, k) as i32))
-            .collect()
+        (0..=steps).map(|k| Point::new(along(from.0, dx, k) as i32, along(from.1, dy, k) as i32)).collect()
     }
 
     #[test]

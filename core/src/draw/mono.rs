@@ -106,9 +106,8 @@ mod tests {
     fn the_light_of_the_dots_is_the_light_of_the_colour() {
         let channel = || (0..=255_u8).step_by(15);
         let cube = || {
-            channel().flat_map(move |r| {
-                channel().flat_map(move |g| channel().map(move |b| Rgb888::new(r, g, b)))
-            })
+            channel()
+                .flat_map(move |r| channel().flat_map(move |g| channel().map(move |b| Rgb888::new(r, g, b))))
         };
         let greys = || (0..=u8::MAX).map(|v| Rgb888::new(v, v, v));
         let (mut worst, mut worst_dots) = (0.0_f64, 0.0_f64);

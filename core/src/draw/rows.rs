@@ -216,10 +216,7 @@ impl<'a, F: Field, P: Palette<F::Value>, C: Ink, K: Packing<C>> Strips<'a, F, P,
     ///
     /// # Errors
     /// The first error of `sink`.
-    pub fn for_each<E>(
-        &mut self,
-        mut sink: impl FnMut(u32, &[K::Unit]) -> Result<(), E>,
-    ) -> Result<(), E> {
+    pub fn for_each<E>(&mut self, mut sink: impl FnMut(u32, &[K::Unit]) -> Result<(), E>) -> Result<(), E> {
         while let Some((y, strip)) = self.next_strip() {
             let sent = sink(y, strip);
             if sent.is_err() {
@@ -393,8 +390,7 @@ mod tests {
         let picture = Picture::<_, _, BinaryColor>::new(&field, Grey);
         for y in [8, 9, 1000, u32::MAX] {
             let mut buffer = [7; 20];
-            let error =
-                Error::TooFew { what: "rows of the picture", given: 8, at_least: y as usize + 1 };
+            let error = Error::TooFew { what: "rows of the picture", given: 8, at_least: y as usize + 1 };
             assert_eq!(picture.pack::<LsbPages>(y, 0..20, &mut buffer), Err(error));
             assert_eq!((buffer, field.evaluated.get()), ([7; 20], 0));
         }
@@ -402,9 +398,8 @@ mod tests {
         let mut buffer = [7; 20];
         let page = picture.pack::<LsbPages>(5, 0..20, &mut buffer).unwrap();
         for (x, byte) in page.iter().enumerate() {
-            let rows = (5..8).fold(0, |bits, y| {
-                bits | u8::from(at(&field, x, y) == Some(BinaryColor::On)) << (y - 5)
-            });
+            let rows = (5..8)
+                .fold(0, |bits, y| bits | u8::from(at(&field, x, y) == Some(BinaryColor::On)) << (y - 5));
             assert_eq!(*byte, rows);
         }
         let none = Counted::new(20, 0);
