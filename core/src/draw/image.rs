@@ -173,9 +173,6 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> GetPixel for Picture<F, P, C> {
     /// Evaluates a row of one pixel; none outside the picture.
     fn pixel(&self, p: Point) -> Option<C> {
         let (x, y) = (u32::try_from(p.x).ok()?, u32::try_from(p.y).ok()?);
-        if x >= self.field.size().width {
-            return None;
-        }
         self.colors(y, x..x.saturating_add(1))?.next()
     }
 }
