@@ -135,12 +135,12 @@ impl<I: Iterator<Item = Point2> + Clone, C: PixelColor> Drawable for Dots<I, C> 
 /// # display.set_allow_overdraw(true);
 /// let Ok(_) = ColoredDots::new(points, window, maps).draw(&mut display) else { return Ok(()) };
 /// display.assert_pattern(&[
-///     "   BB",
-///     "   BB",
-///     "  BBBB",
-///     "  BBBB",
-///     " R   GG",
-///     " RR  GG",
+///     "   BB   ",
+///     "   BB   ",
+///     "  BBBB  ",
+///     "  BBBB  ",
+///     " R   GG ",
+///     " RR  GG ",
 ///     "RRRRGGGG",
 ///     "RRRRGGGG",
 /// ]);

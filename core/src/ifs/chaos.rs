@@ -101,7 +101,6 @@ pub struct ChaosGame<'a, R, const N: usize, W = Walk<R>> {
 impl<'a, R: Rng, const N: usize, W: BorrowMut<Walk<R>>> ChaosGame<'a, R, N, W> {
     /// The index of the map that made the last point: each colours its own image of the attractor.
     pub fn last_map(&self) -> u8 {
-        // a system has at most 256 maps
         self.walk.borrow().map as u8
     }
 
@@ -134,8 +133,10 @@ impl<R: Rng, const N: usize, W: BorrowMut<Walk<R>>> Iterator for WithMaps<'_, R,
 
     #[inline]
     fn next(&mut self) -> Option<(Point2, u8)> {
-        let point = self.0.next()?;
-        Some((point, self.0.last_map()))
+        let walk = self.0.walk.borrow_mut();
+        let point = walk.step(self.0.ifs);
+        // a system has at most 256 maps
+        Some((point, walk.map as u8))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
