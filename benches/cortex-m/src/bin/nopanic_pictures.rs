@@ -6,7 +6,7 @@ use core::hint::black_box as bb;
 
 use attractor::draw::{
     ColoredDots, CourseUnit, Cycled, Dots, Grey, Inverted, LsbPages, Luminance, MsbRows, Packing, Picture,
-    PixelBytes, RowCursor, Stroke, Strips, gradients,
+    PixelBytes, RowCursor, Strips, Stroke, gradients,
 };
 use attractor::escape::{
     Arithmetic, Canvas, Complex, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
