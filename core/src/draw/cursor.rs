@@ -8,7 +8,8 @@ use crate::picture::Field;
 
 /// Draws a [`Picture`] downwards, one row a call, and can stop and go on at every row.
 ///
-/// It holds only the number of the row: picture and target stay free between the calls. Rows that the target does not show take no call.
+/// It holds only the number of the row: picture and target stay free between the calls. Rows that the target
+/// does not show take no call.
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture, RowCursor};
@@ -45,7 +46,8 @@ impl RowCursor {
         self.next
     }
 
-    /// Draws the next row that the target shows of the picture at its origin; `false` if none was left. After an error the same row comes again.
+    /// Draws the next row that the target shows of the picture at its origin; `false` if none was left. After
+    /// an error the same row comes again.
     ///
     /// # Errors
     /// Those of the target.

@@ -1,5 +1,5 @@
-//! A gradient: piecewise linear through colours at given levels. The quotient is a product with a reciprocal prepared in the constructor,
-//! 32 bits wide.
+//! A gradient: piecewise linear through colours at given levels. The quotient is a product with a reciprocal
+//! prepared in the constructor, 32 bits wide.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
@@ -8,10 +8,10 @@ use crate::draw::{Level, Leveled, Palette};
 
 /// A palette that runs through `N` colours.
 ///
-/// Result: between neighbouring stops `(p, c)` and `(q, d)` each channel is `c + (d - c) (x - p) / (q - p)`, rounded; exact at the stops,
-/// constant outside the first and the last. Values inside the set are black. Interpolation is in the encoded
-/// (sRGB) channels: put enough stops where that matters.
-/// Error: 0.51 of a step of a channel (`a_gradient_stays_within_half_a_step_of_the_exact_line`).
+/// Result: between neighbouring stops `(p, c)` and `(q, d)` each channel is `c + (d - c) (x - p) / (q - p)`,
+/// rounded; exact at the stops, constant outside the first and the last. Values inside the set are black.
+/// Interpolation is in the encoded (sRGB) channels: put enough stops where that matters. Error: 0.51 of a
+/// step of a channel (`a_gradient_stays_within_half_a_step_of_the_exact_line`).
 /// Cost: a walk along the stops up to the level, and 4 multiplications.
 ///
 /// ```
@@ -33,7 +33,8 @@ struct Stop {
     slope: u32,
 }
 
-/// `2^32 / distance` to the next stop, rounded down. Where that has 33 bits no level lies between, and any will do.
+/// `2^32 / distance` to the next stop, rounded down. Where that has 33 bits no level lies between, and any
+/// will do.
 const fn slope(distance: u32) -> u32 {
     match (1_u64 << 32).checked_div(distance as u64) {
         Some(slope) if distance > 1 => slope as u32,
@@ -120,7 +121,8 @@ mod tests {
     use super::*;
     use crate::draw::{gradients, hex};
 
-    /// `|channel - exact|` in hundredths of a step, rounded up, at a level between the stops `p` and `q` of the greys `c` and `d`.
+    /// `|channel - exact|` in hundredths of a step, rounded up, at a level between the stops `p` and `q` of
+    /// the greys `c` and `d`.
     fn hundredths((p, c): (u16, u8), (q, d): (u16, u8), level: u16, got: u8) -> i64 {
         let (p, q, c, d) = (i64::from(p), i64::from(q), i64::from(c), i64::from(d));
         let exact = c * (q - p) + (d - c) * (i64::from(level) - p);

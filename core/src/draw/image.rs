@@ -18,7 +18,8 @@ use crate::picture::Field;
 ///
 /// It is an [`ImageDrawable`]: `Image::new(&picture, position)` puts it anywhere, `picture.sub_image(&area)` shows a part, both
 /// evaluate nothing but the pixels that the target can show, row by row with one `fill_contiguous` a row. Dithering follows the
-/// picture's own coordinates: a part shows the same pixels as the whole. [`Picture::with_dither_origin`] lets it follow a pan instead.
+/// picture's own coordinates: a part shows the same pixels as the whole. [`Picture::with_dither_origin`] lets
+/// it follow a pan instead.
 ///
 /// ```
 /// use attractor::draw::{Picture, hex};
@@ -46,9 +47,10 @@ impl<F, P, C> Picture<F, P, C> {
         Self { field, palette, dither_origin: Point::zero(), color: PhantomData }
     }
 
-    /// The same picture, dithered as if its pixel `origin` were the top left one. A view that pans keeps it at the same place of the plane,
-    /// so that a value shows the same dots wherever it moves to: `-(dx, dy)` after [`View::pan`](crate::escape::View::pan)`(dx, dy)`, and so on
-    /// with the sum of all pans. Without it the dots stand still while the picture moves below them, and the display shimmers.
+    /// The same picture, dithered as if its pixel `origin` were the top left one. A view that pans keeps it
+    /// at the same place of the plane, so that a value shows the same dots wherever it moves to: `-(dx, dy)`
+    /// after [`View::pan`](crate::escape::View::pan)`(dx, dy)`, and so on with the sum of all pans. Without
+    /// it the dots stand still while the picture moves below them, and the display shimmers.
     ///
     /// ```
     /// use attractor::draw::{Grey, Picture};
@@ -85,7 +87,8 @@ impl<F, P, C> Picture<F, P, C> {
 }
 
 impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
-    /// The colours of row `y` in the columns `x`, as far as they lie inside the picture; none of a row outside.
+    /// The colours of row `y` in the columns `x`, as far as they lie inside the picture; none of a row
+    /// outside.
     pub fn colors(&self, y: u32, x: Range<u32>) -> Option<Colors<'_, F, P, C>> {
         let size = self.field.size();
         if y >= size.height {

@@ -8,15 +8,18 @@ use embedded_graphics_core::pixelcolor::{
 
 /// A colour that a display can show.
 ///
-/// Displays with 5 bits a channel or more get the nearest colour. Black-and-white and 4 or 16 greys get ordered dithering (B. E. Bayer, "An
-/// optimum method for two-level rendition of continuous-tone pictures", ICC 1973) with an 8 x 8 matrix: [`dithered`]. Grey is the luma of ITU-R
-/// BT.601, as in embedded-graphics: [`luma`]; [`Luminance`](crate::draw::Luminance) makes one bit give off the right light. The decision depends on
-/// the colour and on the pixel's position in its picture alone, so that parts drawn at different times fit together.
+/// Displays with 5 bits a channel or more get the nearest colour. Black-and-white and 4 or 16 greys get
+/// ordered dithering (B. E. Bayer, "An optimum method for two-level rendition of continuous-tone pictures",
+/// ICC 1973) with an 8 x 8 matrix: [`dithered`]. Grey is the luma of ITU-R BT.601, as in embedded-graphics:
+/// [`luma`]; [`Luminance`](crate::draw::Luminance) makes one bit give off the right light. The decision
+/// depends on the colour and on the pixel's position in its picture alone, so that parts drawn at different
+/// times fit together.
 ///
 /// # The colours of a driver
 ///
-/// A colour of your own becomes usable with one `impl Ink`. The colour of another crate, as `epd_waveshare::color::TriColor`, takes a wrapper,
-/// since neither it nor `Ink` is yours, and `color_converted` of embedded-graphics, which takes the wrapper off:
+/// A colour of your own becomes usable with one `impl Ink`. The colour of another crate, as
+/// `epd_waveshare::color::TriColor`, takes a wrapper, since neither it nor `Ink` is yours, and
+/// `color_converted` of embedded-graphics, which takes the wrapper off:
 ///
 /// ```
 /// use attractor::draw::{Gradient, Ink, Picture, dithered, hex, luma};
@@ -83,7 +86,8 @@ pub trait Ink: PixelColor {
     fn ink(rgb: Rgb888, at: Point) -> Self;
 }
 
-/// The luma of ITU-R BT.601, `0.299 R + 0.587 G + 0.114 B`, in 8 bits: how bright an encoded colour looks, not how much light it gives off.
+/// The luma of ITU-R BT.601, `0.299 R + 0.587 G + 0.114 B`, in 8 bits: how bright an encoded colour looks,
+/// not how much light it gives off.
 #[inline]
 pub fn luma(rgb: Rgb888) -> u8 {
     let sum = u32::from(rgb.r()) * 77 + u32::from(rgb.g()) * 150 + u32::from(rgb.b()) * 29;

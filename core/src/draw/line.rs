@@ -1,11 +1,13 @@
 //! A straight line of pixels (J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4, 1965), clipped
 //! without moving a pixel.
 //!
-//! The pixels are a set that does not depend on the direction: each is the nearest to the line across its longer side, and of two equally
-//! near ones the lower or the right one, to which the edge between them belongs in a window too.
+//! The pixels are a set that does not depend on the direction: each is the nearest to the line across its
+//! longer side, and of two equally near ones the lower or the right one, to which the edge between them
+//! belongs in a window too.
 //!
-//! Along the longer direction, `n` steps, pixel `k` lies `m(k) = floor((2 k d + h) / (2 n))` pixels aside, `d` steps in all; `h` is `n` where
-//! the line goes down or right aside, else `n - 1`. A box allows a range of `k` for each direction; `m` grows with `k`, so both are intervals:
+//! Along the longer direction, `n` steps, pixel `k` lies `m(k) = floor((2 k d + h) / (2 n))` pixels aside,
+//! `d` steps in all; `h` is `n` where the line goes down or right aside, else `n - 1`. A box allows a range
+//! of `k` for each direction; `m` grows with `k`, so both are intervals:
 //!
 //! - `m(k) >= a` where `k >= ceil((2 a n - h) / (2 d))`,
 //! - `m(k) <= b` where `k < ceil((2 (b + 1) n - h) / (2 d))`.
@@ -164,7 +166,8 @@ mod tests {
         }
     }
 
-    /// From the definition: along the longer side one pixel a step, aside the nearest to the exact rational, `floor(exact + 1/2)`.
+    /// From the definition: along the longer side one pixel a step, aside the nearest to the exact rational,
+    /// `floor(exact + 1/2)`.
     fn nearest(from: (i64, i64), to: (i64, i64)) -> Vec<Point> {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let steps = dx.abs().max(dy.abs());

@@ -4,15 +4,17 @@ use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
 use crate::draw::Palette;
 
-/// Another palette as greys in linear light: dithered to dots of one bit, they give off as much light as its colours do.
+/// Another palette as greys in linear light: dithered to dots of one bit, they give off as much light as its
+/// colours do.
 ///
-/// The channels of a colour are encoded (sRGB): the code 128 means 22 % of the light. Half of all dots, which is what plain dithering shows for
-/// it, is 50 %. So a picture that is dithered without this palette is too bright in the middle, by up to 0.29 of full light; with it, it is
-/// darker and true. Where dots are few and coarse the brighter picture may still read better: compare both on the display.
+/// The channels of a colour are encoded (sRGB): the code 128 means 22 % of the light. Half of all dots, which
+/// is what plain dithering shows for it, is 50 %. So a picture that is dithered without this palette is too
+/// bright in the middle, by up to 0.29 of full light; with it, it is darker and true. Where dots are few and
+/// coarse the brighter picture may still read better: compare both on the display.
 ///
-/// Result: a grey of the relative luminance `0.2126 R + 0.7152 G + 0.0722 B` of IEC 61966-2-1, the channels decoded by
-/// `0.01814 v + 0.66743 v^2 + 0.31443 v^3`. Error: 0.85 of a step of 255 (`the_light_of_the_dots_is_the_light_of_the_colour`); black and
-/// white are exact. Cost: 13 multiplications.
+/// Result: a grey of the relative luminance `0.2126 R + 0.7152 G + 0.0722 B` of IEC 61966-2-1, the channels
+/// decoded by `0.01814 v + 0.66743 v^2 + 0.31443 v^3`. Error: 0.85 of a step of 255
+/// (`the_light_of_the_dots_is_the_light_of_the_colour`); black and white are exact. Cost: 13 multiplications.
 ///
 /// ```
 /// use attractor::draw::{Grey, Luminance, Picture};
@@ -54,9 +56,11 @@ fn light(channel: u8) -> u32 {
     (v * line) >> 16
 }
 
-/// The negative of another palette: for displays whose `On` is black, as most e-paper's, or for white paper instead of a dark ground.
+/// The negative of another palette: for displays whose `On` is black, as most e-paper's, or for white paper
+/// instead of a dark ground.
 ///
-/// Every channel becomes 255 minus itself. Outermost, so that the light is computed first: `Inverted(Luminance(palette))`.
+/// Every channel becomes 255 minus itself. Outermost, so that the light is computed first:
+/// `Inverted(Luminance(palette))`.
 ///
 /// ```
 /// use attractor::draw::{Grey, Inverted, Picture};

@@ -1,4 +1,5 @@
-//! Packings: how the colours of a few rows lie in a line buffer, as the memory of a display wants them. The table is [`Packing`]'s.
+//! Packings: how the colours of a few rows lie in a line buffer, as the memory of a display wants them. The
+//! table is [`Packing`]'s.
 
 use embedded_graphics_core::pixelcolor::raw::{RawData, ToBytes};
 use embedded_graphics_core::pixelcolor::{
@@ -78,8 +79,9 @@ impl<C: Copy> Packing<C> for Lines {
     }
 }
 
-/// Whole bytes, one row, as the bus of a display with 8 data bits takes them: 2 a pixel for Rgb565, the most significant first; 3 for Rgb888 and
-/// for Rgb666, whose channels each have a byte of their own, left-aligned; 1 for Gray8.
+/// Whole bytes, one row, as the bus of a display with 8 data bits takes them: 2 a pixel for Rgb565, the most
+/// significant first; 3 for Rgb888 and for Rgb666, whose channels each have a byte of their own,
+/// left-aligned; 1 for Gray8.
 ///
 /// ```
 /// use attractor::draw::{Picture, hex};

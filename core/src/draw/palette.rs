@@ -84,8 +84,8 @@ pub const fn hex(rgb: u32) -> Rgb888 {
 
 /// The course text's palette: dim blue near 0, through lilac to white; black inside the set.
 ///
-/// Red = green = `v^2`, blue = `v + 0.2` for `v = dwell / Num`, clamped to 1. Source: CS2401 Computer Graphics, unit V, 5.4.4, "Assigning
-/// colors according to the orbit's dwell".
+/// Red = green = `v^2`, blue = `v + 0.2` for `v = dwell / Num`, clamped to 1. Source: CS2401 Computer
+/// Graphics, unit V, 5.4.4, "Assigning colors according to the orbit's dwell".
 ///
 /// ```
 /// use attractor::draw::{CourseUnit, Palette, hex};
@@ -166,7 +166,8 @@ impl<V: Leveled, P: Palette<V>> Palette<V> for Inside<P> {
 
 /// Another palette at the square root of the level: spreads the low levels, where most of a dwell picture lies.
 ///
-/// Error: below one step of the level (`lifting_is_the_square_root_rounded_down`). Values inside the set stay black.
+/// Error: below one step of the level (`lifting_is_the_square_root_rounded_down`). Values inside the set stay
+/// black.
 ///
 /// ```
 /// use attractor::draw::{Grey, Level, Lifted, Palette, hex};

@@ -15,8 +15,9 @@ use crate::picture::{Step, Window};
 /// Lines run from pixel to pixel, so any coordinates of the plane are welcome; they are clipped to the window and to the target without
 /// moving a pixel. A point where two lines meet is drawn once, a line that ends in the pixel where it began draws nothing more; where a
 /// path crosses, touches or retraces itself, and where a closed path meets its start, pixels are drawn again. A `LineTo` without a step
-/// before it only moves there. The pixels of a line are the same in both directions: a path that is drawn again from its end leaves nothing
-/// under XOR. The iterator is cloned for each drawing, or used up by [`Stroke::draw_once`]; the output is the number of pixels drawn.
+/// before it only moves there. The pixels of a line are the same in both directions: a path that is drawn
+/// again from its end leaves nothing under XOR. The iterator is cloned for each drawing, or used up by
+/// [`Stroke::draw_once`]; the output is the number of pixels drawn.
 ///
 /// ```
 /// use attractor::draw::Stroke;
@@ -62,8 +63,9 @@ impl<I, C> Stroke<I, C> {
 }
 
 impl<I: Iterator<Item = Step>, C: PixelColor> Stroke<I, C> {
-    /// Draws the path and uses the iterator up: for one that cannot be cloned, or for a portion a tick. A portion that goes on from the one
-    /// before begins with a `MoveTo` its last point. Returns the number of pixels drawn.
+    /// Draws the path and uses the iterator up: for one that cannot be cloned, or for a portion a tick. A
+    /// portion that goes on from the one before begins with a `MoveTo` its last point. Returns the number of
+    /// pixels drawn.
     ///
     /// # Errors
     /// Those of the target.

@@ -13,9 +13,10 @@ use crate::picture::{Point2, Window};
 
 /// Draws an iterator of [`Point2`] in one colour, as seen through a [`Window`].
 ///
-/// The iterator sets the number of points (`take`); it is cloned for each drawing, so the same object shows the same picture again;
-/// [`Dots::draw_once`] uses it up instead. Points outside the window are left out, and pixels that have no coordinates in 32 bits; points that
-/// share a pixel draw it again. The output is the number of points inside the window.
+/// The iterator sets the number of points (`take`); it is cloned for each drawing, so the same object shows
+/// the same picture again; [`Dots::draw_once`] uses it up instead. Points outside the window are left out,
+/// and pixels that have no coordinates in 32 bits; points that share a pixel draw it again. The output is the
+/// number of points inside the window.
 ///
 /// ```
 /// use attractor::draw::Dots;
@@ -56,7 +57,8 @@ impl<I, C> Dots<I, C> {
 }
 
 impl<I: Iterator<Item = Point2>, C: PixelColor> Dots<I, C> {
-    /// Draws the points and uses the iterator up: a portion a tick of a game that goes on. Returns the number of points inside the window.
+    /// Draws the points and uses the iterator up: a portion a tick of a game that goes on. Returns the number
+    /// of points inside the window.
     ///
     /// ```
     /// use attractor::draw::Dots;

@@ -36,7 +36,8 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
         Strips::new(self, line)
     }
 
-    /// Rows of bytes, the most significant first: `2 * width` bytes for Rgb565, `3 * width` for Rgb666. See [`PixelBytes`].
+    /// Rows of bytes, the most significant first: `2 * width` bytes for Rgb565, `3 * width` for Rgb666. See
+    /// [`PixelBytes`].
     ///
     /// # Errors
     /// As [`Picture::lines`].
@@ -58,7 +59,8 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
         Strips::new(self, line)
     }
 
-    /// Rows of packed bits, the leftmost pixel in the most significant: `width / 8` bytes, rounded up, for BinaryColor. See [`MsbRows`].
+    /// Rows of packed bits, the leftmost pixel in the most significant: `width / 8` bytes, rounded up, for
+    /// BinaryColor. See [`MsbRows`].
     ///
     /// # Errors
     /// As [`Picture::lines`].
@@ -69,7 +71,8 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
         Strips::new(self, line)
     }
 
-    /// Pages of 8 rows, a byte a column with the top row in the least significant bit: `width` bytes. See [`LsbPages`].
+    /// Pages of 8 rows, a byte a column with the top row in the least significant bit: `width` bytes. See
+    /// [`LsbPages`].
     ///
     /// # Errors
     /// As [`Picture::lines`].
@@ -80,8 +83,9 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
         Strips::new(self, page)
     }
 
-    /// Packs the columns `x`, as far as they lie in the picture, of the strip that begins at row `y` into the front of `buffer` and returns that
-    /// part: for two buffers in turn, one being filled while DMA sends the other. Rows below the picture are left out.
+    /// Packs the columns `x`, as far as they lie in the picture, of the strip that begins at row `y` into the
+    /// front of `buffer` and returns that part: for two buffers in turn, one being filled while DMA sends the
+    /// other. Rows below the picture are left out.
     ///
     /// ```
     /// use attractor::draw::{Grey, MsbRows, Picture};
@@ -95,7 +99,8 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BufferLength`] for a buffer shorter than a strip, [`Error::TooFew`] when the picture has no row `y`.
+    /// [`Error::BufferLength`] for a buffer shorter than a strip, [`Error::TooFew`] when the picture has no
+    /// row `y`.
     pub fn pack<'b, K: Packing<C>>(
         &self,
         y: u32,
@@ -169,7 +174,8 @@ pub struct Strips<'a, F, P, C, K: Packing<C>> {
 }
 
 impl<'a, F: Field, P: Palette<F::Value>, C: Ink, K: Packing<C>> Strips<'a, F, P, C, K> {
-    /// Strips of the whole picture packed as `K` says in `buffer`; a longer buffer than needed is used at its front.
+    /// Strips of the whole picture packed as `K` says in `buffer`; a longer buffer than needed is used at its
+    /// front.
     ///
     /// # Errors
     /// [`Error::BufferLength`] for a buffer shorter than a strip.
@@ -177,7 +183,8 @@ impl<'a, F: Field, P: Palette<F::Value>, C: Ink, K: Packing<C>> Strips<'a, F, P,
         Self::of_part(picture, &Rectangle::new(Point::zero(), picture.field().size()), buffer)
     }
 
-    /// Strips of what lies of the picture in `area`: its first column comes first in each strip, its first row in the first.
+    /// Strips of what lies of the picture in `area`: its first column comes first in each strip, its first
+    /// row in the first.
     ///
     /// # Errors
     /// As [`Strips::new`].
@@ -211,8 +218,8 @@ impl<'a, F: Field, P: Palette<F::Value>, C: Ink, K: Packing<C>> Strips<'a, F, P,
         self.again = self.packed;
     }
 
-    /// Calls `sink` with every strip that is left and the number of its first row, until one call fails; that strip then comes again in the
-    /// next call of this or of [`Strips::next_strip`].
+    /// Calls `sink` with every strip that is left and the number of its first row, until one call fails; that
+    /// strip then comes again in the next call of this or of [`Strips::next_strip`].
     ///
     /// # Errors
     /// The first error of `sink`.

@@ -27,8 +27,10 @@ impl<const N: usize> Ifs<N> {
         self.chaos_game(Xoshiro128PlusPlus::seed_from_u64(seed))
     }
 
-    /// The state of a chaos game after its warm-up, without a reference to the system: a structure may hold both. [`Ifs::resume`] goes on.
-    // Out of line, and it keeps no reference: what the compiler knows of the system in the loop over the points it still knows.
+    /// The state of a chaos game after its warm-up, without a reference to the system: a structure may hold
+    /// both. [`Ifs::resume`] goes on.
+    // Out of line, and it keeps no reference: what the compiler knows of the system in the loop over the
+    // points it still knows.
     #[inline(never)]
     pub fn walk<R: Rng>(&self, rng: R) -> Walk<R> {
         let mut walk = Walk { rng, point: self.start(), map: 0 };
@@ -41,7 +43,8 @@ impl<const N: usize> Ifs<N> {
         self.walk(Xoshiro128PlusPlus::seed_from_u64(seed))
     }
 
-    /// The chaos game from where `walk` stands, and leaves it: the points of all portions together are those of one game.
+    /// The chaos game from where `walk` stands, and leaves it: the points of all portions together are those
+    /// of one game.
     ///
     /// A walk of another system, if it stands outside the disc of this one, starts anew.
     ///

@@ -7,7 +7,8 @@ use embedded_graphics_core::geometry::Size;
 
 use crate::picture::Field;
 
-/// The field whose pixel in column `x` and row `y` holds `value(x, y)`, for all `x < size.width` and `y < size.height`.
+/// The field whose pixel in column `x` and row `y` holds `value(x, y)`, for all `x < size.width` and `y <
+/// size.height`.
 ///
 /// Cost: one call for each pixel that is looked at; a skipped one takes none.
 ///
