@@ -2,7 +2,9 @@
 //!
 //! - *points*: an `Iterator<Item = Point2>` (chaos game, sampled attractors);
 //! - *path*: an `Iterator<Item = Step>` of move-to and line-to (graphs of functions, Koch curves);
-//! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster).
+//! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster); a closure becomes one with [`from_fn`].
+
+mod from_fn;
 
 use core::ops::Range;
 
@@ -10,6 +12,8 @@ use embedded_graphics_core::geometry::{Point, Size};
 
 use crate::Error;
 use crate::num::{Real, Wide, nth, product_u, ratio};
+
+pub use from_fn::{FromFn, FromFnRow, from_fn};
 
 /// A point of the plane; `y` points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

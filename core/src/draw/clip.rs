@@ -12,7 +12,7 @@ pub(super) type Spans = (Range<i64>, Range<i64>);
 pub(super) fn spans(area: &Rectangle) -> Spans {
     let span = |start: i32, length: u32| {
         let start = i64::from(start);
-        start..(start + i64::from(length)).min(i64::from(i32::MAX))
+        start..(start + i64::from(length)).min(1 << 31)
     };
     (span(area.top_left.x, area.size.width), span(area.top_left.y, area.size.height))
 }
@@ -29,12 +29,26 @@ pub(super) fn moved((x, y): Spans, offset: Point) -> Spans {
     (by(x, offset.x), by(y, offset.y))
 }
 
+/// The columns and rows of a picture of `size`, in its own coordinates.
+pub(super) type Part = (Range<u32>, Range<u32>);
+
 /// The part of a picture of `size` that shows when its `area` is drawn with the area's top left at the origin of a target whose
-/// bounding box is `target`. In the picture's own coordinates; either range may be empty.
-pub(super) fn visible(size: Size, area: &Rectangle, target: &Rectangle) -> (Range<u32>, Range<u32>) {
-    let picture = spans(&Rectangle::new(Point::zero(), size));
-    let (x, y) = common(&common(&picture, &spans(area)), &moved(spans(target), area.top_left));
-    // not negative and below 2^31: common with the picture's own spans
+/// bounding box is `target`; either range may be empty.
+pub(super) fn visible(size: Size, area: &Rectangle, target: &Rectangle) -> Part {
+    narrow(common(&inside(size, area), &moved(spans(target), area.top_left)))
+}
+
+/// The part of a picture of `size` in `area`; either range may be empty.
+pub(super) fn part(size: Size, area: &Rectangle) -> Part {
+    narrow(inside(size, area))
+}
+
+fn inside(size: Size, area: &Rectangle) -> Spans {
+    common(&spans(&Rectangle::new(Point::zero(), size)), &spans(area))
+}
+
+/// Of spans in common with a picture's own: not negative and at most 2^31.
+fn narrow((x, y): Spans) -> Part {
     let narrow = |span: Range<i64>| span.start.max(0) as u32..span.end.max(0) as u32;
     (narrow(x), narrow(y))
 }
@@ -42,6 +56,8 @@ pub(super) fn visible(size: Size, area: &Rectangle, target: &Rectangle) -> (Rang
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const LAST: i64 = i32::MAX as i64;
 
     fn rectangle(x: i32, y: i32, width: u32, height: u32) -> Rectangle {
         Rectangle::new(Point::new(x, y), Size::new(width, height))
@@ -68,5 +84,9 @@ mod tests {
             &rectangle(i32::MIN, -1, u32::MAX, u32::MAX),
         );
         assert_eq!((x, y), (0..9, 0..9));
+        // the last coordinate is one like the others
+        assert_eq!(spans(&rectangle(i32::MAX, i32::MAX - 1, 1, 9)), (LAST..LAST + 1, LAST - 1..LAST + 1));
+        let last = rectangle(i32::MAX, 0, 5, 1);
+        assert_eq!(visible(Size::new(u32::MAX, 1), &last, &rectangle(0, 0, 5, 1)).0, (1 << 31) - 1..1 << 31);
     }
 }

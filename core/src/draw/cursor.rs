@@ -1,28 +1,22 @@
 //! A cursor that remembers which row comes next: drawing in portions, one row a tick.
 
 use embedded_graphics_core::draw_target::DrawTarget;
+use embedded_graphics_core::geometry::Point;
 
 use crate::draw::{Ink, Palette, Picture};
 use crate::picture::Field;
 
-/// Draws a [`Picture`] from the top, one row a call, and can stop and go on at every row.
+/// Draws a [`Picture`] downwards, one row a call, and can stop and go on at every row.
 ///
-/// It holds only the number of the row: picture and target stay free between the calls.
+/// It holds only the number of the row: picture and target stay free between the calls. Rows that the target
+/// does not show take no call.
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture, RowCursor};
-/// # use attractor::picture::Field;
+/// use attractor::picture::from_fn;
 /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::Gray8, prelude::*};
-/// # struct Flat;
-/// # impl Field for Flat {
-/// #     type Value = u8;
-/// #     type Row<'a> = core::iter::Map<core::ops::Range<u32>, fn(u32) -> u8>;
-/// #     fn size(&self) -> Size { Size::new(4, 3) }
-/// #     fn row(&self, _y: u32, x: core::ops::Range<u32>) -> Self::Row<'_> { x.map(|_| 255) }
-/// # }
-/// # let field = Flat;
 ///
-/// let picture = Picture::new(field, Grey);
+/// let picture = Picture::new(from_fn(Size::new(4, 3), |x, y| (x * y) as u8), Grey);
 /// let mut display = MockDisplay::<Gray8>::new();
 /// let mut cursor = RowCursor::new();
 /// while cursor.draw_next(&picture, &mut display.translated(Point::new(2, 0)))? {
@@ -39,15 +33,21 @@ pub struct RowCursor {
 impl RowCursor {
     /// At the first row.
     pub const fn new() -> Self {
-        Self { next: 0 }
+        Self::starting_at(0)
     }
 
-    /// The row that comes next: how many are done.
+    /// At row `row`: what lies above stays as it is on the target.
+    pub const fn starting_at(row: u32) -> Self {
+        Self { next: row }
+    }
+
+    /// The row after the last one drawn; before the first call the row at which it starts.
     pub const fn row(&self) -> u32 {
         self.next
     }
 
-    /// Draws the next row with [`Picture::draw_row`]; `false` if none was left. After an error the same row comes again.
+    /// Draws the next row that the target shows of the picture at its origin; `false` if none was left. After
+    /// an error the same row comes again.
     ///
     /// # Errors
     /// Those of the target.
@@ -62,11 +62,13 @@ impl RowCursor {
         C: Ink,
         D: DrawTarget<Color = C>,
     {
-        if self.next >= picture.field().size().height {
+        let (columns, rows) = picture.shown_on(target);
+        let y = self.next.max(rows.start);
+        if columns.is_empty() || y >= rows.end {
             return Ok(false);
         }
-        picture.draw_row(target, self.next)?;
-        self.next += 1;
+        picture.fill_row(target, y, columns, Point::zero())?;
+        self.next = y + 1;
         Ok(true)
     }
 }

@@ -1,7 +1,4 @@
 //! A palette equalised by histogram: each colour covers the same share of the picture.
-//!
-//! The level of a value becomes the share of the outer pixels whose count is smaller: the cumulative histogram. Source: R. C. Gonzalez, R. E. Woods,
-//! "Digital Image Processing", section 3.3.1. The caller lends one 32-bit word for each count that occurs.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
@@ -10,6 +7,10 @@ use crate::draw::{Level, Leveled, Palette};
 use crate::picture::Field;
 
 /// Another palette at the equalised level of one picture; black inside the set.
+///
+/// The level of a value becomes the share of the outer pixels whose count is smaller: the cumulative
+/// histogram. Source: R. C. Gonzalez, R. E. Woods, "Digital Image Processing", section 3.3.1. The caller
+/// lends one 32-bit word for each count that occurs.
 ///
 /// ```
 /// use attractor::draw::{Equalised, Palette, gradients};

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 use embedded_graphics_core::draw_target::DrawTarget;
-use embedded_graphics_core::geometry::{OriginDimensions, Point, Size};
+use embedded_graphics_core::geometry::{Dimensions, OriginDimensions, Point, Size};
 use embedded_graphics_core::image::{GetPixel, ImageDrawable};
 use embedded_graphics_core::primitives::Rectangle;
 
@@ -18,29 +18,16 @@ use crate::picture::Field;
 ///
 /// It is an [`ImageDrawable`]: `Image::new(&picture, position)` puts it anywhere, `picture.sub_image(&area)` shows a part, both
 /// evaluate nothing but the pixels that the target can show, row by row with one `fill_contiguous` a row. Dithering follows the
-/// picture's own coordinates: a part shows the same pixels as the whole.
+/// picture's own coordinates: a part shows the same pixels as the whole. [`Picture::with_dither_origin`] lets
+/// it follow a pan instead.
 ///
 /// ```
 /// use attractor::draw::{Picture, hex};
-/// use attractor::picture::Field;
-/// use core::ops::Range;
+/// use attractor::picture::from_fn;
 /// use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::Rgb565, prelude::*};
 ///
-/// /// Every second pixel.
-/// struct Checkers;
-///
-/// impl Field for Checkers {
-///     type Value = bool;
-///     type Row<'a> = core::iter::Map<Range<u32>, Box<dyn Fn(u32) -> bool>>;
-///     fn size(&self) -> Size {
-///         Size::new(5, 2)
-///     }
-///     fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-///         x.map(Box::new(move |x| (x + y) % 2 == 0))
-///     }
-/// }
-///
-/// let picture = Picture::new(Checkers, |even: bool| if even { hex(0xff0000) } else { hex(0x0000ff) });
+/// let checkers = from_fn(Size::new(5, 2), |x, y| (x + y) % 2 == 0);
+/// let picture = Picture::new(checkers, |even: bool| if even { hex(0xff0000) } else { hex(0x0000ff) });
 /// let mut display = MockDisplay::<Rgb565>::new();
 /// Image::new(&picture, Point::new(1, 1)).draw(&mut display)?;
 /// display.assert_pattern(&["      ", " RBRBR", " BRBRB"]);
@@ -50,13 +37,42 @@ use crate::picture::Field;
 pub struct Picture<F, P, C> {
     field: F,
     palette: P,
+    dither_origin: Point,
     color: PhantomData<fn() -> C>,
 }
 
 impl<F, P, C> Picture<F, P, C> {
     /// Shows `field` in the colours of `palette`. Either may be a reference.
     pub const fn new(field: F, palette: P) -> Self {
-        Self { field, palette, color: PhantomData }
+        Self { field, palette, dither_origin: Point::zero(), color: PhantomData }
+    }
+
+    /// The same picture, dithered as if its pixel `origin` were the top left one. A view that pans keeps it
+    /// at the same place of the plane, so that a value shows the same dots wherever it moves to: `-(dx, dy)`
+    /// after [`View::pan`](crate::escape::View::pan)`(dx, dy)`, and so on with the sum of all pans. Without
+    /// it the dots stand still while the picture moves below them, and the display shimmers.
+    ///
+    /// ```
+    /// use attractor::draw::{Grey, Picture};
+    /// use attractor::picture::from_fn;
+    /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
+    ///
+    /// let flat = from_fn(Size::new(8, 1), |_, _| 96_u8);
+    /// let mut display = MockDisplay::<BinaryColor>::new();
+    /// let picture = Picture::new(flat, Grey);
+    /// picture.draw_row(&mut display, 0)?;
+    /// // one pixel to the right in the plane: everything moves one to the left
+    /// let panned = Picture::new(flat, Grey).with_dither_origin(Point::new(-1, 0));
+    /// panned.draw_row(&mut display.translated(Point::new(0, 1)), 0)?;
+    /// display.assert_pattern(&[
+    ///     "#.#.#.#.",
+    ///     ".#.#.#.#",
+    /// ]);
+    /// # Ok::<(), core::convert::Infallible>(())
+    /// ```
+    pub const fn with_dither_origin(mut self, origin: Point) -> Self {
+        self.dither_origin = origin;
+        self
     }
 
     /// The field.
@@ -71,19 +87,29 @@ impl<F, P, C> Picture<F, P, C> {
 }
 
 impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
-    /// The colours of row `y` in the columns `x`, as far as they lie inside the picture.
-    pub fn colors(&self, y: u32, x: Range<u32>) -> Colors<'_, F, P, C> {
+    /// The colours of row `y` in the columns `x`, as far as they lie inside the picture; none of a row
+    /// outside.
+    pub fn colors(&self, y: u32, x: Range<u32>) -> Option<Colors<'_, F, P, C>> {
         let size = self.field.size();
-        let end = if y < size.height { x.end.min(size.width) } else { 0 };
+        if y >= size.height {
+            return None;
+        }
+        let end = x.end.min(size.width);
         let start = x.start.min(end);
-        Colors {
-            // asked for an empty range, a field computes nothing
-            values: self.field.row(y.min(size.height.saturating_sub(1)), start..end),
+        let Point { x: left, y: top } = self.dither_origin;
+        Some(Colors {
+            values: self.field.row(y, start..end),
             remaining: end - start,
             palette: &self.palette,
-            at: Point::new(start as i32, y as i32),
+            at: Point::new((start as i32).wrapping_sub(left), (y as i32).wrapping_sub(top)),
             color: PhantomData,
-        }
+        })
+    }
+
+    /// The columns and the rows that a target shows of the picture at its origin; either may be empty.
+    pub(super) fn shown_on(&self, target: &impl Dimensions) -> (Range<u32>, Range<u32>) {
+        let size = self.field.size();
+        visible(size, &Rectangle::new(Point::zero(), size), &target.bounding_box())
     }
 
     /// Draws row `y` at its place, with the picture's origin at the target's: the smallest portion of work.
@@ -92,23 +118,29 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
     /// # Errors
     /// Those of the target.
     pub fn draw_row<D: DrawTarget<Color = C>>(&self, target: &mut D, y: u32) -> Result<(), D::Error> {
-        let area = Rectangle::new(Point::new(0, 0), self.field.size());
-        let (columns, rows) = visible(self.field.size(), &area, &target.bounding_box());
+        let (columns, rows) = self.shown_on(target);
         if rows.contains(&y) { self.fill_row(target, y, columns, Point::zero()) } else { Ok(()) }
     }
 
-    /// One row of one or more pixels, all visible; the pixel `origin` of the picture comes to lie on the target's `(0, 0)`.
-    fn fill_row<D>(&self, target: &mut D, y: u32, x: Range<u32>, origin: Point) -> Result<(), D::Error>
+    /// One row, all of it visible; the pixel `origin` of the picture comes to lie on the target's `(0, 0)`.
+    pub(super) fn fill_row<D>(
+        &self,
+        target: &mut D,
+        y: u32,
+        x: Range<u32>,
+        origin: Point,
+    ) -> Result<(), D::Error>
     where
         D: DrawTarget<Color = C>,
     {
         if x.is_empty() {
             return Ok(());
         }
+        let Some(colors) = self.colors(y, x.clone()) else { return Ok(()) };
         let left = (x.start as i32).wrapping_sub(origin.x);
         let top = (y as i32).wrapping_sub(origin.y);
         let area = Rectangle::new(Point::new(left, top), Size::new(x.end - x.start, 1));
-        target.fill_contiguous(&area, self.colors(y, x))
+        target.fill_contiguous(&area, colors)
     }
 }
 
@@ -144,13 +176,24 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> GetPixel for Picture<F, P, C> {
     /// Evaluates a row of one pixel; none outside the picture.
     fn pixel(&self, p: Point) -> Option<C> {
         let (x, y) = (u32::try_from(p.x).ok()?, u32::try_from(p.y).ok()?);
-        self.colors(y, x..x.saturating_add(1)).next()
+        self.colors(y, x..x.saturating_add(1))?.next()
     }
 }
 
 /// The colours of a row, from left to right. [`Picture::colors`] makes it.
 ///
 /// `nth` evaluates only the pixel it returns, as far as the field keeps that promise of [`Field::Row`].
+///
+/// ```
+/// use attractor::draw::{Grey, Picture};
+/// use attractor::picture::from_fn;
+/// use embedded_graphics::{pixelcolor::Gray8, prelude::*};
+///
+/// let picture = Picture::<_, _, Gray8>::new(from_fn(Size::new(9, 9), |x, y| (10 * y + x) as u8), Grey);
+/// let mut row = picture.colors(4, 3..99).expect("row 4 of 9");
+/// assert_eq!((row.next(), row.len(), row.nth(4)), (Some(Gray8::new(43)), 5, Some(Gray8::new(48))));
+/// assert!(picture.colors(9, 0..9).is_none());
+/// ```
 pub struct Colors<'a, F: Field + 'a, P, C> {
     values: F::Row<'a>,
     remaining: u32,
@@ -212,6 +255,7 @@ mod tests {
     use super::*;
     use crate::draw::testing::{Counted, Driver, Frame, Manner};
     use crate::draw::{Grey, RowCursor};
+    use crate::picture::from_fn;
     use embedded_graphics::Drawable;
     use embedded_graphics::draw_target::DrawTargetExt;
     use embedded_graphics::image::{Image, ImageDrawableExt};
@@ -322,7 +366,7 @@ mod tests {
             }
             for y in 0..30 {
                 let row = whole.pixels(&rectangle(0, y as i32, 40, 1));
-                assert!(picture.colors(y, 0..u32::MAX).eq(row.iter().copied()));
+                assert!(picture.colors(y, 0..u32::MAX).unwrap().eq(row.iter().copied()));
                 assert_eq!(picture.pixel(Point::new(7, y as i32)), row.get(7).copied());
             }
         }
@@ -335,19 +379,86 @@ mod tests {
     fn skipping_in_a_row_is_the_same_as_walking() {
         let field = Counted::new(23, 2);
         let picture = Picture::<_, _, BinaryColor>::new(&field, Grey);
-        let all: std::vec::Vec<_> = picture.colors(1, 0..23).collect();
+        let all: std::vec::Vec<_> = picture.colors(1, 0..23).unwrap().collect();
         for step in 1..30 {
-            let mut colors = picture.colors(1, 2..23);
+            let mut colors = picture.colors(1, 2..23).unwrap();
             for x in (2..23_usize).skip(step - 1).step_by(step) {
                 assert_eq!(colors.nth(step - 1), Some(all[x]), "{step} {x}");
                 assert_eq!(colors.len(), 22 - x);
             }
             assert_eq!((colors.nth(step - 1), colors.next(), colors.len()), (None, None, 0));
         }
-        assert_eq!(picture.colors(1, 0..23).nth(usize::MAX), None);
-        assert_eq!(picture.colors(2, 0..23).count() + picture.colors(0, 23..99).count(), 0);
+        assert_eq!(picture.colors(1, 0..23).unwrap().nth(usize::MAX), None);
+        assert!(picture.colors(2, 0..23).is_none());
+        assert_eq!(picture.colors(0, 23..99).unwrap().count(), 0);
         assert_eq!(picture.pixel(Point::new(-1, 0)), None);
         assert_eq!(picture.pixel(Point::new(23, 0)), None);
+    }
+
+    #[test]
+    fn an_empty_field_is_asked_for_nothing() {
+        for (width, height) in [(0, 0), (0, 3), (3, 0)] {
+            // refuses every row below its own and every column beyond
+            let field = Counted::new(width, height);
+            let picture = Picture::<_, _, Gray8>::new(&field, Grey);
+            for (x, y) in [(0, 0), (1, 0), (0, 2), (i32::MAX, i32::MAX), (-1, -1)] {
+                assert_eq!(picture.pixel(Point::new(x, y)), None);
+                picture.draw_row(&mut Driver::new(rectangle(0, 0, 9, 9), Manner::Strict), y as u32).unwrap();
+            }
+            assert_eq!(picture.colors(0, 0..5).is_some(), height > 0);
+            assert!(picture.colors(height, 0..5).is_none());
+            let mut driver = Driver::new(rectangle(0, 0, 9, 9), Manner::Strict);
+            Image::new(&picture, Point::zero()).draw(&mut driver).unwrap();
+            assert_eq!(RowCursor::new().draw_next(&picture, &mut driver), Ok(false));
+            assert!(driver.calls.is_empty() && field.evaluated.get() == 0);
+        }
+    }
+
+    #[test]
+    fn a_pan_moves_the_dots_with_the_picture() {
+        let size = Size::new(40, 30);
+        let plane = |dx: i32, dy: i32| {
+            from_fn(size, move |x, y| ((x as i32 + dx) * 5 + (y as i32 + dy) * 3).rem_euclid(256) as u8)
+        };
+        let shown = |dx: i32, dy: i32, origin: Point| {
+            let picture = Picture::new(plane(dx, dy), Grey).with_dither_origin(origin);
+            let mut frame = Frame::<BinaryColor>::new(size, BinaryColor::Off);
+            Image::new(&picture, Point::zero()).draw(&mut frame).unwrap();
+            frame
+        };
+        let before = shown(0, 0, Point::zero());
+        for (dx, dy) in [(1, 0), (0, 1), (-3, 2), (9, -7), (-17, -11)] {
+            let both = rectangle(0, 0, 40, 30).intersection(&rectangle(dx, dy, 40, 30));
+            let there = Rectangle::new(both.top_left - Point::new(dx, dy), both.size);
+            let after = shown(dx, dy, Point::new(-dx, -dy));
+            assert_eq!(after.pixels(&there), before.pixels(&both), "{dx} {dy}");
+            // with the matrix at rest the same values show other dots
+            let still = shown(dx, dy, Point::zero());
+            assert_ne!(still.pixels(&there), before.pixels(&both), "{dx} {dy}");
+        }
+    }
+
+    #[test]
+    fn a_cursor_draws_what_is_seen_and_no_tick_is_idle() {
+        let field = Counted::new(20, 240);
+        let picture = Picture::new(&field, Grey);
+        let mut driver = Driver::<Gray8>::new(rectangle(0, 100, 20, 16), Manner::Strict);
+        let mut cursor = RowCursor::new();
+        let mut ticks = 0;
+        while cursor.draw_next(&picture, &mut driver).unwrap() {
+            ticks += 1;
+            assert_eq!(cursor.row(), 100 + ticks);
+        }
+        assert_eq!((ticks, field.evaluated.get()), (16, 16 * 20));
+        // from a row on
+        driver.calls.clear();
+        let mut cursor = RowCursor::starting_at(113);
+        while cursor.draw_next(&picture, &mut driver).unwrap() {}
+        assert!(driver.calls.iter().map(|(area, _)| area.top_left.y).eq(113..116));
+        // beside the picture, and after its end
+        let mut beside = Driver::<Gray8>::new(rectangle(20, 0, 9, 9), Manner::Strict);
+        assert_eq!(RowCursor::new().draw_next(&picture, &mut beside), Ok(false));
+        assert_eq!(RowCursor::starting_at(u32::MAX).draw_next(&picture, &mut driver), Ok(false));
     }
 
     extern crate std;

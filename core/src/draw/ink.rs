@@ -1,10 +1,4 @@
 //! Ink: from a display-independent colour to what a display can show.
-//!
-//! Displays with 5 bits a channel or more get the nearest colour. Black-and-white and 4 or 16 greys get ordered dithering (B. E. Bayer, "An
-//! optimum method for two-level rendition of continuous-tone pictures", ICC 1973) with the 8 x 8 matrix. The decision depends on the
-//! colour and on the pixel's position in its picture alone, so that parts drawn at different times fit together.
-//!
-//! Grey is the luma of ITU-R BT.601, as in embedded-graphics.
 
 use embedded_graphics_core::geometry::Point;
 use embedded_graphics_core::pixelcolor::{
@@ -14,40 +8,86 @@ use embedded_graphics_core::pixelcolor::{
 
 /// A colour that a display can show.
 ///
-/// A three-colour e-paper, outside this crate:
+/// Displays with 5 bits a channel or more get the nearest colour. Black-and-white and 4 or 16 greys get
+/// ordered dithering (B. E. Bayer, "An optimum method for two-level rendition of continuous-tone pictures",
+/// ICC 1973) with an 8 x 8 matrix: [`dithered`]. Grey is the luma of ITU-R BT.601, as in embedded-graphics:
+/// [`luma`]; [`Luminance`](crate::draw::Luminance) makes one bit give off the right light. The decision
+/// depends on the colour and on the pixel's position in its picture alone, so that parts drawn at different
+/// times fit together.
+///
+/// # The colours of a driver
+///
+/// A colour of your own becomes usable with one `impl Ink`. The colour of another crate, as
+/// `epd_waveshare::color::TriColor`, takes a wrapper, since neither it nor `Ink` is yours, and
+/// `color_converted` of embedded-graphics, which takes the wrapper off:
 ///
 /// ```
-/// use attractor::draw::{Ink, dithered, luma};
-/// use embedded_graphics::{geometry::Point, pixelcolor::{PixelColor, Rgb888, RgbColor, raw::RawU2}};
+/// use attractor::draw::{Gradient, Ink, Picture, dithered, hex, luma};
+/// use attractor::picture::from_fn;
+/// use embedded_graphics::{image::Image, pixelcolor::{PixelColor, Rgb888, RgbColor}, prelude::*};
+/// # mod driver {
+/// #     use embedded_graphics::{pixelcolor::{PixelColor, raw::RawU2}, prelude::*};
+/// #     #[derive(Clone, Copy, PartialEq, Debug)]
+/// #     pub enum TriColor { Black, White, Chromatic }
+/// #     impl PixelColor for TriColor { type Raw = RawU2; }
+/// #     pub struct Display(pub Vec<TriColor>);
+/// #     impl OriginDimensions for Display { fn size(&self) -> Size { Size::new(8, 2) } }
+/// #     impl DrawTarget for Display {
+/// #         type Color = TriColor;
+/// #         type Error = core::convert::Infallible;
+/// #         fn draw_iter<I: IntoIterator<Item = Pixel<TriColor>>>(&mut self, pixels: I) -> Result<(), Self::Error> {
+/// #             pixels.into_iter().for_each(|Pixel(at, color)| self.0[(at.y * 8 + at.x) as usize] = color);
+/// #             Ok(())
+/// #         }
+/// #     }
+/// # }
+/// use driver::TriColor; // Black, White, Chromatic
+/// # use driver::Display;
 ///
 /// #[derive(Clone, Copy, PartialEq, Debug)]
-/// enum TriColor { White, Black, Red }
+/// struct Paper(TriColor);
 ///
-/// impl PixelColor for TriColor {
-///     type Raw = RawU2;
+/// impl PixelColor for Paper {
+///     type Raw = <TriColor as PixelColor>::Raw;
 /// }
 ///
-/// impl Ink for TriColor {
-///     fn ink(rgb: Rgb888, at: Point) -> Self {
-///         if rgb.r() > 128 && rgb.g() < 64 {
-///             Self::Red
-///         } else if dithered(luma(rgb), 1, at) == 0 {
-///             Self::Black
-///         } else {
-///             Self::White
-///         }
+/// impl From<Paper> for TriColor {
+///     fn from(Paper(color): Paper) -> Self {
+///         color
 ///     }
 /// }
 ///
-/// assert_eq!(TriColor::ink(Rgb888::RED, Point::zero()), TriColor::Red);
-/// assert_eq!(TriColor::ink(Rgb888::WHITE, Point::zero()), TriColor::White);
+/// impl Ink for Paper {
+///     fn ink(rgb: Rgb888, at: Point) -> Self {
+///         Self(if rgb.r() > 128 && rgb.g() < 64 {
+///             TriColor::Chromatic
+///         } else if dithered(luma(rgb), 1, at) == 0 {
+///             TriColor::Black
+///         } else {
+///             TriColor::White
+///         })
+///     }
+/// }
+///
+/// let wedge = from_fn(Size::new(8, 2), |x, _y| x as u8 * 36);
+/// let palette = Gradient::evenly([hex(0x000000), hex(0xff0000), hex(0xffffff)]);
+/// let picture = Picture::new(wedge, palette);
+/// # let mut display = Display(vec![TriColor::Black; 16]);
+/// Image::new(&picture, Point::zero()).draw(&mut display.color_converted::<Paper>())?;
+/// # let letters: String = display.0.iter().map(|color| match color {
+/// #     TriColor::Black => '.', TriColor::White => '#', TriColor::Chromatic => 'r',
+/// # }).collect();
+/// // . black, # white, r red
+/// assert_eq!(letters, "..rrr###..rrr#.#");
+/// # Ok::<(), core::convert::Infallible>(())
 /// ```
 pub trait Ink: PixelColor {
     /// The closest this colour comes to `rgb` at the position `at`, counted from the top left of the picture.
     fn ink(rgb: Rgb888, at: Point) -> Self;
 }
 
-/// The luma of ITU-R BT.601, `0.299 R + 0.587 G + 0.114 B`, in 8 bits.
+/// The luma of ITU-R BT.601, `0.299 R + 0.587 G + 0.114 B`, in 8 bits: how bright an encoded colour looks,
+/// not how much light it gives off.
 #[inline]
 pub fn luma(rgb: Rgb888) -> u8 {
     let sum = u32::from(rgb.r()) * 77 + u32::from(rgb.g()) * 150 + u32::from(rgb.b()) * 29;
@@ -191,6 +231,82 @@ mod tests {
         let rgb = Rgb888::new(1, 2, 3);
         assert_eq!(Rgb888::ink(rgb, Point::zero()), rgb);
         assert_eq!(Bgr888::ink(rgb, Point::zero()), Bgr888::new(1, 2, 3));
+    }
+
+    /// What a crate with a driver for seven-colour paper would define.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    enum Seven {
+        Black,
+        White,
+        Green,
+        Blue,
+        Red,
+        Yellow,
+        Orange,
+    }
+
+    impl PixelColor for Seven {
+        type Raw = ();
+    }
+
+    /// The wrapper: the nearest ink of the seven after moving each channel by the matrix.
+    #[derive(Clone, Copy, PartialEq, Debug)]
+    struct Nearest(Seven);
+
+    impl PixelColor for Nearest {
+        type Raw = ();
+    }
+
+    impl From<Nearest> for Seven {
+        fn from(Nearest(color): Nearest) -> Self {
+            color
+        }
+    }
+
+    impl Ink for Nearest {
+        fn ink(rgb: Rgb888, at: Point) -> Self {
+            const INKS: [(Seven, Rgb888); 7] = [
+                (Seven::Black, Rgb888::BLACK),
+                (Seven::White, Rgb888::WHITE),
+                (Seven::Green, Rgb888::GREEN),
+                (Seven::Blue, Rgb888::BLUE),
+                (Seven::Red, Rgb888::RED),
+                (Seven::Yellow, Rgb888::YELLOW),
+                (Seven::Orange, Rgb888::new(255, 128, 0)),
+            ];
+            let moved = |channel: u8| i32::from(channel) + 2 * i32::from(bayer(at)) - 63;
+            let away = |ink: Rgb888| {
+                let square = |a: u8, b: u8| (moved(a) - i32::from(b)).pow(2);
+                square(rgb.r(), ink.r()) + square(rgb.g(), ink.g()) + square(rgb.b(), ink.b())
+            };
+            let nearest = INKS.iter().min_by_key(|(_, ink)| away(*ink));
+            Self(nearest.map_or(Seven::White, |(color, _)| *color))
+        }
+    }
+
+    #[test]
+    fn the_colours_of_a_driver_are_wrapped_and_converted() {
+        use crate::draw::testing::Frame;
+        use crate::draw::{Picture, hex};
+        use crate::picture::from_fn;
+        use embedded_graphics::draw_target::DrawTargetExt;
+        use embedded_graphics_core::geometry::Size;
+        use embedded_graphics_core::image::ImageDrawable;
+
+        let inks = [0xff8000, 0xffff00, 0xff0000, 0x0000ff, 0x00ff00, 0xffffff, 0x000000, 0x808080];
+        let bands = from_fn(Size::new(8, 64), |_, y| inks[y as usize / 8]);
+        let mut paper = Frame::new(Size::new(8, 64), Seven::Black);
+        let picture = Picture::new(bands, hex);
+        picture.draw(&mut paper.color_converted::<Nearest>()).unwrap();
+        let pure =
+            [Seven::Orange, Seven::Yellow, Seven::Red, Seven::Blue, Seven::Green, Seven::White, Seven::Black];
+        for (band, color) in paper.colors.chunks(64).zip(pure) {
+            assert!(band.iter().filter(|ink| **ink == color).count() >= 60, "{color:?}");
+        }
+        // grey is black and white in equal parts, with a few coloured dots between
+        let grey = paper.colors.chunks(64).nth(7).unwrap();
+        let of = |color| grey.iter().filter(|ink| **ink == color).count();
+        assert!(of(Seven::Black) > 16 && of(Seven::White) > 16, "{grey:?}");
     }
 
     #[test]

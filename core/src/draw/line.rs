@@ -1,11 +1,16 @@
 //! A straight line of pixels (J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4, 1965), clipped
 //! without moving a pixel.
 //!
-//! Along the longer direction, `n` steps, pixel `k` lies `m(k) = floor((2 k d + n) / (2 n))` pixels aside, `d` steps in all. A box allows a
-//! range of `k` for each direction; `m` grows with `k`, so both are intervals:
+//! The pixels are a set that does not depend on the direction: each is the nearest to the line across its
+//! longer side, and of two equally near ones the lower or the right one, to which the edge between them
+//! belongs in a window too.
 //!
-//! - `m(k) >= a` where `k >= ceil((2 a - 1) n / (2 d))`,
-//! - `m(k) <= b` where `k < ceil((2 b + 1) n / (2 d))`.
+//! Along the longer direction, `n` steps, pixel `k` lies `m(k) = floor((2 k d + h) / (2 n))` pixels aside,
+//! `d` steps in all; `h` is `n` where the line goes down or right aside, else `n - 1`. A box allows a range
+//! of `k` for each direction; `m` grows with `k`, so both are intervals:
+//!
+//! - `m(k) >= a` where `k >= ceil((2 a n - h) / (2 d))`,
+//! - `m(k) <= b` where `k < ceil((2 (b + 1) n - h) / (2 d))`.
 //!
 //! The walk starts at the first `k` of the intersection with the remainder that Bresenham's loop would hold there. Coordinates may have 48
 //! bits; the products need 128, once for a line that the box cuts, never for one inside or beside it.
@@ -22,7 +27,7 @@ pub(super) struct Line {
     along: Point,
     aside: Point,
     left: u32,
-    /// `(2 k d + n) mod 2 n`.
+    /// `(2 k d + h) mod 2 n`.
     remainder: i64,
     twice_d: i64,
     twice_n: i64,
@@ -59,21 +64,22 @@ impl Line {
         let (low, high) = distances(box_aside, start_aside, d < 0);
         let (backwards, sideways) = (n < 0, d < 0);
         let (n, d) = (n.abs(), d.abs());
+        let half = n - i64::from(sideways);
 
         let (mut first, mut last) = (first.max(skip), last.min(n));
         if low > d || high < 0 || first > last {
             return Self::EMPTY;
         }
         if low > 0 {
-            first = first.max(crossing(low, n, d));
+            first = first.max(crossing(low, n, d, half));
         }
         if high < d {
-            last = last.min(crossing(high + 1, n, d) - 1);
+            last = last.min(crossing(high + 1, n, d, half) - 1);
         }
         if first > last {
             return Self::EMPTY;
         }
-        let (m, remainder) = beside(first, n, d);
+        let (m, remainder) = beside(first, n, d, half);
         let signed = |value: i64, negative: bool| if negative { -value } else { value };
         let (x, y) = turn((start_along + signed(first, backwards), start_aside + signed(m, sideways)));
         let (along, aside) = (signed(1, backwards) as i32, signed(1, sideways) as i32);
@@ -89,18 +95,18 @@ impl Line {
     }
 }
 
-/// The first `k` with `m(k) >= a`, for `1 <= a <= d <= n`: `ceil((2 a - 1) n / (2 d))`.
-fn crossing(a: i64, n: i64, d: i64) -> i64 {
-    let numerator = i128::from(2 * a - 1) * i128::from(n) + i128::from(2 * d) - 1;
+/// The first `k` with `m(k) >= a`, for `1 <= a <= d <= n`: `ceil((2 a n - h) / (2 d))`.
+fn crossing(a: i64, n: i64, d: i64, half: i64) -> i64 {
+    let numerator = i128::from(2 * a) * i128::from(n) - i128::from(half) + i128::from(2 * d) - 1;
     numerator.checked_div(i128::from(2 * d)).map_or(0, |k| k as i64)
 }
 
 /// `m(k)` and its remainder.
-fn beside(k: i64, n: i64, d: i64) -> (i64, i64) {
+fn beside(k: i64, n: i64, d: i64, half: i64) -> (i64, i64) {
     if k == 0 {
-        return (0, n); // n < 2 n, or the line is a single pixel
+        return (0, half); // below 2 n, or the line is a single pixel
     }
-    let numerator = i128::from(2 * k) * i128::from(d) + i128::from(n);
+    let numerator = i128::from(2 * k) * i128::from(d) + i128::from(half);
     match numerator.checked_div(i128::from(2 * n)) {
         Some(m) => (m as i64, (numerator - m * i128::from(2 * n)) as i64),
         None => (0, 0),
@@ -134,7 +140,7 @@ mod tests {
     extern crate std;
     use std::vec::Vec;
 
-    const ALL: Spans = (i32::MIN as i64..i32::MAX as i64, i32::MIN as i64..i32::MAX as i64);
+    const ALL: Spans = (i32::MIN as i64..1 << 31, i32::MIN as i64..1 << 31);
 
     fn inside(window: &Spans, p: &Point) -> bool {
         window.0.contains(&i64::from(p.x)) && window.1.contains(&i64::from(p.y))
@@ -160,17 +166,49 @@ mod tests {
         }
     }
 
+    /// From the definition: along the longer side one pixel a step, aside the nearest to the exact rational,
+    /// `floor(exact + 1/2)`.
+    fn nearest(from: (i64, i64), to: (i64, i64)) -> Vec<Point> {
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let steps = dx.abs().max(dy.abs());
+        let along = |start: i64, difference: i64, k: i64| {
+            // start + difference k / steps + 1/2, over 2 steps
+            let (numerator, whole) = (2 * (start * steps + difference * k) + steps, 2 * steps);
+            if whole == 0 { start } else { numerator.div_euclid(whole) }
+        };
+        (0..=steps).map(|k| Point::new(along(from.0, dx, k) as i32, along(from.1, dy, k) as i32)).collect()
+    }
+
     #[test]
     fn every_pixel_is_the_nearest_to_the_line() {
         let mut state = 7;
-        for _ in 0..500 {
-            let (x, y) = (random(&mut state) % 201 - 100, random(&mut state) % 201 - 100);
-            for p in Line::new((0, 0), (x, y), 0, &ALL) {
-                // distance along the shorter direction at most 1/2
-                let cross = (i64::from(p.x) * y - i64::from(p.y) * x).abs();
-                assert!(2 * cross <= x.abs().max(y.abs()), "{x} {y} {p:?}");
+        let mut point = || (random(&mut state) % 201 - 100, random(&mut state) % 201 - 100);
+        for _ in 0..2000 {
+            let (from, to) = (point(), point());
+            let line: Vec<_> = Line::new(from, to, 0, &ALL).collect();
+            assert_eq!(line, nearest(from, to), "{from:?} {to:?}");
+        }
+    }
+
+    #[test]
+    fn a_line_and_its_reverse_are_the_same_pixels() {
+        const SIDE: i64 = 12;
+        let points = || (0..SIDE * SIDE).map(|i| (i % SIDE, i / SIDE));
+        let mut ties = 0;
+        for from in points() {
+            for to in points() {
+                let line: Vec<_> = Line::new(from, to, 0, &ALL).collect();
+                assert_eq!(line, nearest(from, to), "{from:?} {to:?}");
+                let mut back: Vec<_> = Line::new(to, from, 0, &ALL).collect();
+                back.reverse();
+                assert_eq!(line, back, "{from:?} {to:?}");
+                let (n, d) = ((to.0 - from.0).abs(), (to.1 - from.1).abs());
+                let (n, d) = (n.max(d), n.min(d));
+                ties += u32::from((0..n).any(|k| (2 * k * d) % (2 * n) == n));
             }
         }
+        // a third of the lines has two nearest pixels somewhere
+        assert!(ties > 5_000, "{ties}");
     }
 
     #[test]

@@ -2,10 +2,10 @@
 //!
 //! | picture | drawn by | how |
 //! | --- | --- | --- |
-//! | points | [`Dots`], [`ColoredDots`] | `draw_iter` |
+//! | points | [`Dots`], [`ColoredDots`] | `draw_iter`; a portion a tick by [`Dots::draw_once`] |
 //! | path | [`Stroke`] | clipped, then `draw_iter` |
-//! | field | [`Picture`] | one `fill_contiguous` a row, no buffer |
-//! | field, for a driver of one's own | [`Strips`] | a lent line buffer: colours, big-endian bytes, packed bits |
+//! | field | [`Picture`] | one `fill_contiguous` a row, no buffer; a row a tick by [`RowCursor`] |
+//! | field, for a driver of one's own | [`Strips`] | a lent line buffer: colours, bytes, words, packed bits |
 //!
 //! Colour has two halves. A [`Palette`] turns a value into a display-independent colour, [`Ink`] turns that colour into what one display
 //! can show at one position: the nearest colour, or ordered dithering where there are few levels. Both are open: a closure is a
@@ -13,25 +13,13 @@
 //!
 //! ```
 //! use attractor::draw::{Grey, Picture};
-//! use attractor::picture::Field;
+//! use attractor::picture::from_fn;
 //! use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
 //!
-//! /// Dark on the left, bright on the right.
-//! struct Wedge;
-//!
-//! impl Field for Wedge {
-//!     type Value = u8;
-//!     type Row<'a> = core::iter::Map<core::ops::Range<u32>, fn(u32) -> u8>;
-//!     fn size(&self) -> Size {
-//!         Size::new(8, 4)
-//!     }
-//!     fn row(&self, _y: u32, x: core::ops::Range<u32>) -> Self::Row<'_> {
-//!         x.map(|x| (x * 36) as u8)
-//!     }
-//! }
-//!
+//! // dark on the left, bright on the right
+//! let wedge = from_fn(Size::new(8, 4), |x, _y| (x * 36) as u8);
 //! let mut display = MockDisplay::<BinaryColor>::new();
-//! let picture = Picture::new(Wedge, Grey);
+//! let picture = Picture::new(wedge, Grey);
 //! Image::new(&picture, Point::zero()).draw(&mut display)?;
 //! display.assert_pattern(&[
 //!     "..#.####",
@@ -41,6 +29,17 @@
 //! ]);
 //! # Ok::<(), core::convert::Infallible>(())
 //! ```
+//!
+//! # On a display
+//!
+//! | display | colour | palette and packing |
+//! | --- | --- | --- |
+//! | st7789, ili9341, gc9a01, ssd1351 | `Rgb565`, `Rgb666` | any palette; [`PixelBytes`], [`PixelWords`] |
+//! | ssd1306, sh1106 (one bit) | `BinaryColor` | [`Luminance`] for the right brightness; [`LsbPages`] |
+//! | Sharp memory LCD (one bit) | `BinaryColor` | [`Luminance`]; [`MsbRows`] |
+//! | e-paper whose `On` is black | `BinaryColor` | [`Inverted`]`(`[`Luminance`]`(..))`; [`MsbRows`] |
+//! | e-paper with a driver's own colours | a newtype | [`Ink`] says how |
+//! | ssd1322, e-paper with 4 greys | `Gray4`, `Gray2` | any palette; [`MsbRows`] |
 
 mod clip;
 mod cursor;
@@ -52,6 +51,7 @@ mod image;
 mod ink;
 mod level;
 mod line;
+mod mono;
 mod packing;
 mod palette;
 mod path;
@@ -59,6 +59,8 @@ mod points;
 mod rows;
 #[cfg(test)]
 mod testing;
+#[cfg(any(test, feature = "embedded-graphics"))]
+mod transform;
 
 pub use cursor::RowCursor;
 pub use cycle::{Cycled, Ramp};
@@ -67,7 +69,8 @@ pub use gradient::Gradient;
 pub use image::{Colors, Picture};
 pub use ink::{Ink, bayer, dithered, luma};
 pub use level::{Level, Leveled};
-pub use packing::{BigEndian, Lines, LsbPages, MsbRows, Packing};
+pub use mono::{Inverted, Luminance};
+pub use packing::{Lines, LsbPages, MsbRows, Packing, PixelBytes, PixelWords};
 pub use palette::{CourseUnit, Grey, Inside, Lifted, Palette, hex};
 pub use path::Stroke;
 pub use points::{ColoredDots, Dots};

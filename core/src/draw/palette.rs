@@ -1,11 +1,8 @@
 //! Palettes: from a value to a colour that knows no display.
-//!
-//! [`CourseUnit`] is the colouring of the course text (CS2401 Computer Graphics, unit V, 5.4.4, "Assigning colors according to the orbit's dwell"):
-//! red = green = `v^2`, blue = `v + 0.2` for `v = dwell / Num`, clamped to 1; points of the set are black.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
-use crate::draw::{Cycled, Equalised, Gradient, Level, Leveled, Ramp};
+use crate::draw::{Cycled, Equalised, Gradient, Inverted, Level, Leveled, Luminance, Ramp};
 
 /// Turns a value into a display-independent colour.
 ///
@@ -72,6 +69,8 @@ by_reference! {
     [V] Grey, V;
     [V, P] Inside<P>, V;
     [V, P] Lifted<P>, V;
+    [V, P] Luminance<P>, V;
+    [V, P] Inverted<P>, V;
     ['a, V, P] Equalised<'a, P>, V;
     [V, P] Cycled<P>, V;
     [V, const N: usize] Gradient<N>, V;
@@ -84,6 +83,17 @@ pub const fn hex(rgb: u32) -> Rgb888 {
 }
 
 /// The course text's palette: dim blue near 0, through lilac to white; black inside the set.
+///
+/// Red = green = `v^2`, blue = `v + 0.2` for `v = dwell / Num`, clamped to 1. Source: CS2401 Computer
+/// Graphics, unit V, 5.4.4, "Assigning colors according to the orbit's dwell".
+///
+/// ```
+/// use attractor::draw::{CourseUnit, Palette, hex};
+/// use attractor::escape::Dwell;
+///
+/// assert_eq!(CourseUnit.rgb(Dwell { count: 50, max: 100 }), hex(0x4040b3));
+/// assert_eq!(CourseUnit.rgb(Dwell { count: 100, max: 100 }), hex(0x000000));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct CourseUnit;
 
@@ -103,6 +113,13 @@ impl<V: Leveled> Palette<V> for CourseUnit {
 }
 
 /// Black to white; black inside the set.
+///
+/// ```
+/// use attractor::draw::{Grey, Palette, hex};
+///
+/// assert_eq!(Grey.rgb(0x40_u8), hex(0x404040));
+/// assert_eq!(Grey.rgb(true), hex(0xffffff));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Grey;
 
@@ -119,6 +136,14 @@ impl<V: Leveled> Palette<V> for Grey {
 }
 
 /// Another palette, with a colour of one's own for the inside of the set.
+///
+/// ```
+/// use attractor::draw::{Grey, Inside, Palette, hex};
+///
+/// let palette = Inside::new(Grey, hex(0x2d1e4f));
+/// assert_eq!(palette.rgb(None::<u8>), hex(0x2d1e4f));
+/// assert_eq!(palette.rgb(Some(0x40_u8)), hex(0x404040));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inside<P> {
     palette: P,
@@ -141,7 +166,14 @@ impl<V: Leveled, P: Palette<V>> Palette<V> for Inside<P> {
 
 /// Another palette at the square root of the level: spreads the low levels, where most of a dwell picture lies.
 ///
-/// Error: below one step of the level. Values inside the set stay black.
+/// Error: below one step of the level (`lifting_is_the_square_root_rounded_down`). Values inside the set stay
+/// black.
+///
+/// ```
+/// use attractor::draw::{Grey, Level, Lifted, Palette, hex};
+///
+/// assert_eq!(Lifted(Grey).rgb(Level::ratio(1, 4)), hex(0x7f7f7f));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lifted<P>(pub P);
 
@@ -194,8 +226,14 @@ mod tests {
     }
 
     #[test]
-    fn lifting_keeps_the_ends_and_halves_a_quarter() {
+    fn lifting_is_the_square_root_rounded_down() {
         let lifted = Lifted(|level: Level| hex(u32::from(level.0)));
+        for level in 0..=u16::MAX {
+            let root = lifted.rgb(Level(level));
+            let root = u64::from(root.g()) << 8 | u64::from(root.b());
+            let square = u64::from(level) * 65535;
+            assert!(root * root <= square && square < (root + 1) * (root + 1), "{level}");
+        }
         assert_eq!(lifted.rgb(Level::ZERO), hex(0));
         assert_eq!(lifted.rgb(Level::FULL), hex(65535));
         assert_eq!(lifted.rgb(Level(1 << 14)), hex((1 << 15) - 1));

@@ -15,7 +15,9 @@ use crate::picture::{Step, Window};
 /// Lines run from pixel to pixel, so any coordinates of the plane are welcome; they are clipped to the window and to the target without
 /// moving a pixel. A point where two lines meet is drawn once, a line that ends in the pixel where it began draws nothing more; where a
 /// path crosses, touches or retraces itself, and where a closed path meets its start, pixels are drawn again. A `LineTo` without a step
-/// before it only moves there. The iterator is cloned for each drawing; the output is the number of pixels drawn.
+/// before it only moves there. The pixels of a line are the same in both directions: a path that is drawn
+/// again from its end leaves nothing under XOR. The iterator is cloned for each drawing, or used up by
+/// [`Stroke::draw_once`]; the output is the number of pixels drawn.
 ///
 /// ```
 /// use attractor::draw::Stroke;
@@ -44,7 +46,7 @@ pub struct Stroke<I, C> {
     steps: I,
     window: Window,
     color: C,
-    top_left: Point,
+    pub(super) top_left: Point,
 }
 
 impl<I, C> Stroke<I, C> {
@@ -57,6 +59,34 @@ impl<I, C> Stroke<I, C> {
     pub const fn at(mut self, top_left: Point) -> Self {
         self.top_left = top_left;
         self
+    }
+}
+
+impl<I: Iterator<Item = Step>, C: PixelColor> Stroke<I, C> {
+    /// Draws the path and uses the iterator up: for one that cannot be cloned, or for a portion a tick. A
+    /// portion that goes on from the one before begins with a `MoveTo` its last point. Returns the number of
+    /// pixels drawn.
+    ///
+    /// # Errors
+    /// Those of the target.
+    pub fn draw_once<D: DrawTarget<Color = C>>(self, target: &mut D) -> Result<u32, D::Error> {
+        let visible = common(&spans(&self.bounding_box()), &spans(&target.bounding_box()));
+        let mut drawn = 0_u32;
+        let pixels = Pixels {
+            steps: self.steps,
+            window: self.window,
+            offset: (i64::from(self.top_left.x), i64::from(self.top_left.y)),
+            visible,
+            pen: None,
+            fresh: true,
+            line: Line::EMPTY,
+        };
+        let count = |point| {
+            drawn = drawn.saturating_add(1);
+            Pixel(point, self.color)
+        };
+        target.draw_iter(pixels.map(count))?;
+        Ok(drawn)
     }
 }
 
@@ -73,23 +103,8 @@ impl<I: Iterator<Item = Step> + Clone, C: PixelColor> Drawable for Stroke<I, C> 
     type Output = u32;
 
     fn draw<D: DrawTarget<Color = C>>(&self, target: &mut D) -> Result<u32, D::Error> {
-        let visible = common(&spans(&self.bounding_box()), &spans(&target.bounding_box()));
-        let mut drawn = 0_u32;
-        let pixels = Pixels {
-            steps: self.steps.clone(),
-            window: self.window,
-            offset: (i64::from(self.top_left.x), i64::from(self.top_left.y)),
-            visible,
-            pen: None,
-            fresh: true,
-            line: Line::EMPTY,
-        };
-        let count = |point| {
-            drawn = drawn.saturating_add(1);
-            Pixel(point, self.color)
-        };
-        target.draw_iter(pixels.map(count))?;
-        Ok(drawn)
+        let stroke = Stroke { steps: self.steps.clone(), ..*self };
+        stroke.draw_once(target)
     }
 }
 
@@ -186,6 +201,56 @@ mod tests {
         assert_eq!(stroke.draw(&mut display), Ok(6));
         display.assert_pattern(&["            ", "   ### #  ##"]);
         assert_eq!(stroke.bounding_box(), Rectangle::new(Point::new(2, 0), Size::new(10, 10)));
+    }
+
+    #[test]
+    fn a_path_drawn_again_from_its_end_leaves_nothing_under_xor() {
+        let mut state = 3_u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 26) as i32 - 12
+        };
+        let mut pixels = 0;
+        for count in 1..120 {
+            let corners: Vec<Point2> = (0..count % 9 + 1).map(|_| point(next(), next())).collect();
+            let mut display = Xor { set: [false; SIDE * SIDE] };
+            let there = corners.iter().copied().map(Step::LineTo);
+            let drawn = Stroke::new(there, window(SIDE as i32), BinaryColor::On).draw(&mut display);
+            pixels += drawn.unwrap();
+            let back = corners.iter().rev().copied().map(Step::LineTo);
+            let erased = Stroke::new(back, window(SIDE as i32), BinaryColor::On).draw(&mut display);
+            assert_eq!(erased, drawn);
+            assert!(display.set.iter().all(|set| !set), "{corners:?}");
+        }
+        assert!(pixels > 8000, "{pixels}");
+    }
+
+    const SIDE: usize = 40;
+
+    /// Turns a pixel on or off each time it is drawn.
+    struct Xor {
+        set: [bool; SIDE * SIDE],
+    }
+
+    impl Dimensions for Xor {
+        fn bounding_box(&self) -> Rectangle {
+            Rectangle::new(Point::zero(), Size::new(SIDE as u32, SIDE as u32))
+        }
+    }
+
+    impl DrawTarget for Xor {
+        type Color = BinaryColor;
+        type Error = core::convert::Infallible;
+
+        fn draw_iter<I: IntoIterator<Item = Pixel<BinaryColor>>>(
+            &mut self,
+            pixels: I,
+        ) -> Result<(), Self::Error> {
+            for Pixel(at, _) in pixels {
+                self.set[at.y as usize * SIDE + at.x as usize] ^= true;
+            }
+            Ok(())
+        }
     }
 
     #[test]

@@ -46,7 +46,10 @@ impl Field for Counted {
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> CountedRow<'_> {
-        assert!(x.is_empty() || (y < self.size.height && x.end <= self.size.width), "asked beyond the field");
+        assert!(
+            y < self.size.height && x.start <= x.end && x.end <= self.size.width,
+            "asked beyond the field"
+        );
         CountedRow { field: self, y, x }
     }
 }

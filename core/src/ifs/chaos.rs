@@ -3,6 +3,9 @@
 //! `p_{k+1} = w_i(p_k)`, `i` drawn with its probability by the alias method. Source: M. F. Barnsley, "Fractals Everywhere", 1988, section 3.8
 //! ("random iteration algorithm"). One 32-bit word a point; state: one point, one index and the generator.
 
+use core::borrow::BorrowMut;
+use core::marker::PhantomData;
+
 use rand_xoshiro::Xoshiro128PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -16,64 +19,107 @@ impl<const N: usize> Ifs<N> {
     /// (`a_million_points_lie_inside_the_bounds_and_reach_them`). Cost of a point: 4 multiplications and a draw; 51 Cortex-M4 instructions
     /// for the fern with xoshiro128++, in a loop that adds the coordinates up.
     pub fn chaos_game<R: Rng>(&self, rng: R) -> ChaosGame<'_, R, N> {
-        let (rng, point, map) = self.warmed_up(rng);
-        ChaosGame { ifs: self, rng, point, map }
-    }
-
-    /// Generator, point and map after the warm-up. Out of line, and it keeps no reference: what the compiler knows of the system in the loop over the
-    /// points it still knows.
-    #[inline(never)]
-    fn warmed_up<R: Rng>(&self, rng: R) -> (R, Point2, u32) {
-        let mut game = ChaosGame { ifs: self, rng, point: self.start(), map: 0 };
-        for _ in 0..self.warm_up() {
-            game.step();
-        }
-        (game.rng, game.point, game.map)
+        ChaosGame { ifs: self, walk: self.walk(rng), rng: PhantomData }
     }
 
     /// [`Ifs::chaos_game`] with a generator of its own, xoshiro128++: the same seed gives the same points on every machine.
     pub fn seeded_chaos_game(&self, seed: u64) -> ChaosGame<'_, Xoshiro128PlusPlus, N> {
         self.chaos_game(Xoshiro128PlusPlus::seed_from_u64(seed))
     }
+
+    /// The state of a chaos game after its warm-up, without a reference to the system: a structure may hold
+    /// both. [`Ifs::resume`] goes on.
+    // Out of line, and it keeps no reference: what the compiler knows of the system in the loop over the
+    // points it still knows.
+    #[inline(never)]
+    pub fn walk<R: Rng>(&self, rng: R) -> Walk<R> {
+        let mut walk = Walk { rng, point: self.start(), map: 0 };
+        walk.warm_up(self);
+        walk
+    }
+
+    /// [`Ifs::walk`] of [`Ifs::seeded_chaos_game`].
+    pub fn seeded_walk(&self, seed: u64) -> Walk<Xoshiro128PlusPlus> {
+        self.walk(Xoshiro128PlusPlus::seed_from_u64(seed))
+    }
+
+    /// The chaos game from where `walk` stands, and leaves it: the points of all portions together are those
+    /// of one game.
+    ///
+    /// A walk of another system, if it stands outside the disc of this one, starts anew.
+    ///
+    /// ```
+    /// use attractor::ifs::catalogue::BARNSLEY_FERN;
+    /// let fern = BARNSLEY_FERN.ifs::<4>()?;
+    /// let mut walk = fern.seeded_walk(7);
+    /// let first = fern.resume(&mut walk).take(10).last();
+    /// let second = fern.resume(&mut walk).next();
+    /// assert_eq!((first, second), (fern.seeded_chaos_game(7).nth(9), fern.seeded_chaos_game(7).nth(10)));
+    /// # Ok::<(), attractor::Error>(())
+    /// ```
+    pub fn resume<'a, R: Rng>(&'a self, walk: &'a mut Walk<R>) -> ChaosGame<'a, R, N, &'a mut Walk<R>> {
+        // what the maps do not leave is theirs: see `Ifs`
+        if !self.invariant_disc().holds(walk.point) {
+            walk.point = self.start();
+            walk.warm_up(self);
+        }
+        ChaosGame { ifs: self, walk, rng: PhantomData }
+    }
 }
 
-/// The points of a chaos game, without end.
-#[derive(Debug, Clone)]
-pub struct ChaosGame<'a, R, const N: usize> {
-    ifs: &'a Ifs<N>,
+/// Where a chaos game stands: a point, the map that made it, the generator. See [`Ifs::walk`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Walk<R> {
     rng: R,
     point: Point2,
     map: u32,
 }
 
-impl<'a, R: Rng, const N: usize> ChaosGame<'a, R, N> {
-    /// The index of the map that made the last point: each colours its own image of the attractor.
-    pub const fn last_map(&self) -> usize {
-        self.map as usize
-    }
-
-    /// The same points, each with the index of the map that made it.
-    pub const fn with_maps(self) -> WithMaps<'a, R, N> {
-        WithMaps(self)
-    }
-
+impl<R: Rng> Walk<R> {
     #[inline]
-    fn step(&mut self) -> Point2 {
-        let index = self.ifs.choice().pick(self.rng.next_u32());
-        if let Some(map) = self.ifs.map(index) {
+    fn step<const N: usize>(&mut self, ifs: &Ifs<N>) -> Point2 {
+        let index = ifs.choice().pick(self.rng.next_u32());
+        if let Some(map) = ifs.map(index) {
             self.point = map.step(self.point);
         }
         self.map = index as u32;
         self.point
     }
+
+    fn warm_up<const N: usize>(&mut self, ifs: &Ifs<N>) {
+        for _ in 0..ifs.warm_up() {
+            self.step(ifs);
+        }
+    }
 }
 
-impl<R: Rng, const N: usize> Iterator for ChaosGame<'_, R, N> {
+/// The points of a chaos game, without end. `W` is its [`Walk`], or a reference to one.
+#[derive(Debug, Clone)]
+pub struct ChaosGame<'a, R, const N: usize, W = Walk<R>> {
+    ifs: &'a Ifs<N>,
+    walk: W,
+    rng: PhantomData<fn() -> R>,
+}
+
+impl<'a, R: Rng, const N: usize, W: BorrowMut<Walk<R>>> ChaosGame<'a, R, N, W> {
+    /// The index of the map that made the last point: each colours its own image of the attractor.
+    pub fn last_map(&self) -> u8 {
+        self.walk.borrow().map as u8
+    }
+
+    /// The same points, each with the index of the map that made it: for [`Density`](crate::ifs::Density) and
+    /// [`ColoredDots`](crate::draw::ColoredDots).
+    pub const fn with_maps(self) -> WithMaps<'a, R, N, W> {
+        WithMaps(self)
+    }
+}
+
+impl<R: Rng, const N: usize, W: BorrowMut<Walk<R>>> Iterator for ChaosGame<'_, R, N, W> {
     type Item = Point2;
 
     #[inline]
     fn next(&mut self) -> Option<Point2> {
-        Some(self.step())
+        Some(self.walk.borrow_mut().step(self.ifs))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -83,15 +129,17 @@ impl<R: Rng, const N: usize> Iterator for ChaosGame<'_, R, N> {
 
 /// The points of a chaos game with their maps, without end: see [`ChaosGame::with_maps`].
 #[derive(Debug, Clone)]
-pub struct WithMaps<'a, R, const N: usize>(ChaosGame<'a, R, N>);
+pub struct WithMaps<'a, R, const N: usize, W = Walk<R>>(ChaosGame<'a, R, N, W>);
 
-impl<R: Rng, const N: usize> Iterator for WithMaps<'_, R, N> {
-    type Item = (usize, Point2);
+impl<R: Rng, const N: usize, W: BorrowMut<Walk<R>>> Iterator for WithMaps<'_, R, N, W> {
+    type Item = (Point2, u8);
 
     #[inline]
-    fn next(&mut self) -> Option<(usize, Point2)> {
-        let point = self.0.step();
-        Some((self.0.last_map(), point))
+    fn next(&mut self) -> Option<(Point2, u8)> {
+        let walk = self.0.walk.borrow_mut();
+        let point = walk.step(self.0.ifs);
+        // a system has at most 256 maps
+        Some((point, walk.map as u8))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -139,8 +187,8 @@ mod tests {
         let mut count = [0_u32; 4];
         for _ in 0..100_000 {
             let point = game.next().unwrap();
-            assert_eq!(point, fern.maps()[game.last_map()].apply(before));
-            count[game.last_map()] += 1;
+            assert_eq!(point, fern.maps()[usize::from(game.last_map())].apply(before));
+            count[usize::from(game.last_map())] += 1;
             before = point;
         }
         for (count, p) in count.iter().zip(fern.probabilities()) {
@@ -149,7 +197,57 @@ mod tests {
             assert!((got - want).abs() < 4.0 * (want * (1.0 - want) / 1e5).sqrt(), "{got} against {want}");
         }
         let pairs = fern.seeded_chaos_game(4).with_maps().take(1000);
-        assert!(pairs.map(|(_, p)| p).eq(fern.seeded_chaos_game(4).take(1000)));
+        assert!(pairs.map(|(p, _)| p).eq(fern.seeded_chaos_game(4).take(1000)));
+    }
+
+    #[test]
+    fn a_walk_goes_on_where_it_stands() {
+        /// What a structure of firmware holds.
+        struct Game {
+            ifs: Ifs<4>,
+            walk: Walk<Xoshiro128PlusPlus>,
+        }
+        let ifs = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();
+        let walk = ifs.seeded_walk(9);
+        let mut game = Game { ifs, walk };
+        let whole = game.ifs.seeded_chaos_game(9).with_maps().take(700).collect::<std::vec::Vec<_>>();
+        let mut parts = std::vec::Vec::new();
+        for tick in 0..7 {
+            let Game { ifs, walk } = &mut game;
+            if tick % 2 == 0 {
+                parts.extend(ifs.resume(walk).with_maps().take(100));
+            } else {
+                let mut points = ifs.resume(walk);
+                parts.extend((0..100).map(|_| (points.next().unwrap(), points.last_map())));
+            }
+        }
+        assert_eq!(parts, whole);
+    }
+
+    #[test]
+    fn a_walk_of_another_system_starts_anew() {
+        // an attractor about (60, 60), and the fern
+        let far = Affine::from_thousandths([500, 0, 0, 500, 30_000, 30_000]);
+        let far = Ifs::<1>::new(&[far], &[Unit::ONE]).unwrap();
+        let fern = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();
+        let mut walk = far.seeded_walk(1);
+        assert_eq!(far.resume(&mut walk).next(), Some(Point2::new(Real::from_num(60), Real::from_num(60))));
+        let bounds = fern.bounds();
+        for point in fern.resume(&mut walk).take(1000) {
+            assert!(point.x >= bounds.min.x && point.x <= bounds.max.x, "{point:?}");
+            assert!(point.y >= bounds.min.y && point.y <= bounds.max.y, "{point:?}");
+        }
+        // each system of the catalogue keeps its own walks
+        for entry in catalogue::ALL {
+            let ifs = entry.ifs::<LARGEST>().unwrap();
+            let mut walk = ifs.seeded_walk(5);
+            for count in 0..2000 {
+                let before = walk.clone();
+                ifs.resume(&mut walk);
+                assert_eq!(walk, before, "{count}");
+                ifs.resume(&mut walk).next();
+            }
+        }
     }
 
     /// Mean and second moments of the invariant measure: `m = sum p_i (L_i m + t_i)`, and the same for the products.

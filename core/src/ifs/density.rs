@@ -113,20 +113,20 @@ impl<'a, C: Counter> Density<'a, C> {
     pub fn record(&mut self, point: Point2) {
         match self.counts.get_mut(self.index(point)) {
             Some(counter) => counter.hit(),
-            None => self.record_slowly(0, point),
+            None => self.record_slowly(point, 0),
         }
     }
 
     /// Counts a point, and remembers the map that made it.
     #[inline]
-    pub fn record_from(&mut self, map: usize, point: Point2) {
+    pub fn record_from(&mut self, point: Point2, map: u8) {
         let index = self.index(point);
         match (self.counts.get_mut(index), self.maps.get_mut(index)) {
             (Some(counter), Some(last)) => {
                 counter.hit();
-                *last = map as u8;
+                *last = map;
             }
-            _ => self.record_slowly(map, point),
+            _ => self.record_slowly(point, map),
         }
     }
 
@@ -147,14 +147,14 @@ impl<'a, C: Counter> Density<'a, C> {
 
     #[cold]
     #[inline(never)]
-    fn record_slowly(&mut self, map: usize, p: Point2) {
+    fn record_slowly(&mut self, p: Point2, map: u8) {
         let Some(pixel) = self.window.pixel(p) else { return };
         let index = (pixel.y as u32).wrapping_mul(self.width).wrapping_add(pixel.x as u32) as usize;
         if let Some(counter) = self.counts.get_mut(index) {
             counter.hit();
         }
         if let Some(last) = self.maps.get_mut(index) {
-            *last = map as u8;
+            *last = map;
         }
     }
 
@@ -228,10 +228,10 @@ impl<C: Counter> Extend<Point2> for Density<'_, C> {
 }
 
 /// Counts every point with its map: `density.extend(game.with_maps().take(100_000))`.
-impl<C: Counter> Extend<(usize, Point2)> for Density<'_, C> {
+impl<C: Counter> Extend<(Point2, u8)> for Density<'_, C> {
     #[inline]
-    fn extend<I: IntoIterator<Item = (usize, Point2)>>(&mut self, points: I) {
-        points.into_iter().for_each(|(map, point)| self.record_from(map, point));
+    fn extend<I: IntoIterator<Item = (Point2, u8)>>(&mut self, points: I) {
+        points.into_iter().for_each(|(point, map)| self.record_from(point, map));
     }
 }
 
@@ -488,12 +488,12 @@ mod tests {
         density.extend(gasket.seeded_chaos_game(1).with_maps().take(20_000));
         let toned = density.linear(255);
         let mut seen = [0_u32; 3];
-        for (map, point) in gasket.seeded_chaos_game(1).with_maps().take(20_000) {
+        for (point, map) in gasket.seeded_chaos_game(1).with_maps().take(20_000) {
             let pixel = window.pixel(point).unwrap();
             let hits = toned.row(pixel.y as u32, 0..64).nth(pixel.x as usize).unwrap();
             assert!(hits.count > 0 && hits.map < 3);
             // images meet in corners only
-            seen[map] += u32::from(usize::from(hits.map) == map);
+            seen[usize::from(map)] += u32::from(hits.map == map);
         }
         assert!(seen.iter().sum::<u32>() > 19_000 && seen.iter().all(|n| *n > 6000), "{seen:?}");
         let hit = |hits: &Hits| hits.count > 0;

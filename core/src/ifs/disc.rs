@@ -36,6 +36,14 @@ impl Disc {
         [self.centre.x, self.centre.y]
             .map(|z| i64::from(z.to_bits()).abs() + i64::from(self.radius.to_bits()))
     }
+
+    /// Whether `p` lies in the disc, widened by 256 units, which its maps keep as well: no rounding counts.
+    pub(super) fn holds(&self, p: Point2) -> bool {
+        let square = |a: i64| a.unsigned_abs().saturating_mul(a.unsigned_abs());
+        let away = |z: Real, p: Real| square(i64::from(p.to_bits()) - i64::from(z.to_bits()));
+        let distance = away(self.centre.x, p.x).saturating_add(away(self.centre.y, p.y));
+        distance <= square(i64::from(self.radius.to_bits()) + 256)
+    }
 }
 
 /// Contractions, and a bound of the contraction factor of each.

@@ -35,7 +35,7 @@ mod moments;
 mod system;
 
 pub use affine::Affine;
-pub use chaos::{ChaosGame, WithMaps};
+pub use chaos::{ChaosGame, Walk, WithMaps};
 pub use copier::{CopiedPath, CopiedPoints, Copier};
 pub use density::{Counter, Density, Hits, Toned, TonedRow};
 pub use disc::Disc;

@@ -68,9 +68,9 @@ impl<const N: usize> IfsPicture<'_, N> {
         }
         paper(size, target);
         let colors: [D::Color; N] = core::array::from_fn(|map| solid(self.palette.at(self.level(map))));
-        let mut dots = game.with_maps().map(|(map, point)| {
+        let mut dots = game.with_maps().map(|(point, map)| {
             let pixel = room.top_left + window.pixel(point)?;
-            Some(Pixel(pixel, *colors.get(map)?))
+            Some(Pixel(pixel, *colors.get(usize::from(map))?))
         });
         let portions = points.div_ceil(PORTION);
         for portion in 0..portions {

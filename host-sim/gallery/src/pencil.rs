@@ -1,12 +1,8 @@
 //! A path on paper: the ground of a closed path, a line whose colour changes along it.
 
-use core::cell::{Cell, RefCell};
-use core::iter::Peekable;
-
 use attractor::draw::{Level, Stroke};
-use attractor::picture::{Point2, Step, Window};
+use attractor::picture::{Step, Window};
 use embedded_graphics::geometry::Point;
-use embedded_graphics::prelude::Drawable;
 
 use crate::area::Area;
 use crate::ink::{ground, solid};
@@ -25,31 +21,6 @@ pub struct Pencil {
     pub closed: bool,
 }
 
-/// So many steps of a path that all portions draw from, after the point where the one before ended.
-#[derive(Clone)]
-struct Portion<'a, I: Iterator> {
-    steps: &'a RefCell<Peekable<I>>,
-    last: &'a Cell<Option<Point2>>,
-    pen: Option<Point2>,
-    left: u32,
-}
-
-impl<I: Iterator<Item = Step>> Iterator for Portion<'_, I> {
-    type Item = Step;
-
-    fn next(&mut self) -> Option<Step> {
-        if let Some(pen) = self.pen.take() {
-            return Some(Step::MoveTo(pen));
-        }
-        self.left = self.left.checked_sub(1)?;
-        // nobody else draws meanwhile
-        let step = self.steps.try_borrow_mut().ok()?.next()?;
-        let (Step::MoveTo(p) | Step::LineTo(p)) = step;
-        self.last.set(Some(p));
-        Some(step)
-    }
-}
-
 impl Pencil {
     /// Paper, with what the path encloses in the dark colours of the palette.
     pub(crate) fn area<D: Display>(&self, area: &Area<'_>, target: &mut D, watch: Watch<'_, D>) -> bool {
@@ -62,23 +33,29 @@ impl Pencil {
     /// The line of a path of so many points, in one pass; whether it was finished.
     pub(crate) fn line<D: Display>(
         &self,
-        steps: impl Iterator<Item = Step> + Clone,
+        steps: impl Iterator<Item = Step>,
         points: u32,
         (window, corner): (Window, Point),
         target: &mut D,
         watch: Watch<'_, D>,
     ) -> bool {
         let portion = points.div_ceil(HUES).max(1);
-        let steps = RefCell::new(steps.peekable());
-        let last = Cell::new(None);
+        let mut steps = steps.peekable();
+        let mut last = None;
         for hue in 0..HUES {
-            let part = Portion { steps: &steps, last: &last, pen: last.get(), left: portion };
+            // each portion goes on where the one before ended
+            let pen = last.map(Step::MoveTo);
+            let part = steps.by_ref().take(portion as usize).inspect(|step| {
+                let (Step::MoveTo(p) | Step::LineTo(p)) = step;
+                last = Some(*p);
+            });
             let color = solid::<D::Color>(self.palette.at(self.hue(hue)));
-            let Ok(_) = Stroke::new(part, window, color).at(corner).draw(target);
+            let stroke = Stroke::new(pen.into_iter().chain(part), window, color).at(corner);
+            let Ok(_) = stroke.draw_once(target);
             if !watch(target, hue + 1, HUES) {
                 return false;
             }
-            if steps.borrow_mut().peek().is_none() {
+            if steps.peek().is_none() {
                 break;
             }
         }

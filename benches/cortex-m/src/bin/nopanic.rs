@@ -79,6 +79,8 @@ fn systems() -> Result<(), Error> {
     bb((ifs.maps(), ifs.probabilities()));
     bb(ifs.seeded_chaos_game(bb(1)).take(bb(10)).last());
     bb(ifs.chaos_game(rng()).with_maps().take(bb(10)).last());
+    let mut walk = ifs.seeded_walk(bb(1));
+    bb(ifs.resume(bb(&mut walk)).with_maps().take(bb(10)).last());
     let (Some(a), Some(b)) = (attractor.maps.first(), attractor.maps.last()) else { return Ok(()) };
     let (a, b) = (bb(*a), bb(*b));
     bb((
@@ -170,7 +172,7 @@ fn copies() -> Result<(), Error> {
     density.extend(game.clone().with_maps().take(bb(10)));
     density.extend(game.take(bb(10)));
     density.record(point(0));
-    density.record_from(bb(1), point(0));
+    density.record_from(point(0), bb(1));
     bb((density.counts().last(), density.window(), density.peak(), density.quantile(bb(50))));
     bb(density.linear(bb(3)).row(bb(1), bb(0)..bb(8)).last());
     bb(density.logarithmic(bb(3)).row(bb(1), bb(0)..bb(8)).nth(bb(3)));

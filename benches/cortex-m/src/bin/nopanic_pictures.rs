@@ -5,8 +5,8 @@
 use core::hint::black_box as bb;
 
 use attractor::draw::{
-    BigEndian, ColoredDots, CourseUnit, Cycled, Dots, Grey, LsbPages, Packing, Picture, RowCursor, Stroke,
-    gradients,
+    ColoredDots, CourseUnit, Cycled, Dots, Grey, Inverted, LsbPages, Luminance, MsbRows, Packing, Picture,
+    PixelBytes, RowCursor, Strips, Stroke, gradients,
 };
 use attractor::escape::{
     Arithmetic, Canvas, Complex, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
@@ -14,7 +14,7 @@ use attractor::escape::{
 };
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
-use attractor::picture::{Bounds2, Field, Point2, Window};
+use attractor::picture::{Bounds2, Field, Point2, Window, from_fn};
 use attractor::trace::{
     Camera, Environment, Filter, HeightField, Light, Material, Ray, RayCaster, Sampling, Statistics,
 };
@@ -23,6 +23,7 @@ use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::image::{GetPixel, Image};
 use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565};
 use embedded_graphics::prelude::*;
+use embedded_graphics::primitives::Rectangle;
 
 attractor_cortex_m::never_panics!();
 
@@ -132,7 +133,16 @@ fn drawing() -> Result<(), Error> {
     if let Some((_, strip)) = picture.msb_rows(&mut buffer)?.next_strip() {
         bb(strip);
     }
-    bb(picture.pack::<LsbPages>(bb(0), &mut buffer))?;
+    bb(picture.pack::<LsbPages>(bb(0), bb(0)..bb(10), &mut buffer))?;
+    let picture = Picture::<_, _, BinaryColor>::new(
+        from_fn(bb(Size::new(30, 20)), |x, y| bb((x ^ y) as u8)),
+        Inverted(Luminance(gradients::FIRE)),
+    )
+    .with_dither_origin(bb(Point::new(3, -2)));
+    let area = Rectangle::new(bb(Point::new(5, 7)), bb(Size::new(99, 3)));
+    let mut strips = Strips::<_, _, _, MsbRows>::of_part(&picture, &area, bb(&mut buffer[..]))?;
+    strips.repeat();
+    bb(strips.for_each(|y, strip| if bb(y) == bb(8) { Err(strip.len()) } else { Ok(()) }).is_ok());
     let picture =
         Picture::<_, _, Rgb565>::new(Mandelbrot::new(view, bb(10))?, Cycled::new(gradients::FIRE, bb(16)));
     bb(draw::Ramp::of_periods(bb(Grey)));
@@ -140,8 +150,11 @@ fn drawing() -> Result<(), Error> {
     if let Some((_, strip)) = picture.big_endian(&mut buffer)?.next_strip() {
         bb(strip);
     }
-    bb(picture.pack::<BigEndian>(bb(0), &mut buffer))?;
-    bb(<BigEndian as Packing<Rgb565>>::length(bb(10)));
+    bb(picture.pack::<PixelBytes>(bb(0), bb(0)..bb(10), &mut buffer))?;
+    bb(<PixelBytes as Packing<Rgb565>>::length(bb(10)));
+    if let Some((_, strip)) = picture.words(&mut [0; 240])?.next_strip() {
+        bb(strip);
+    }
     Ok(())
 }
 
@@ -153,7 +166,7 @@ fn on<C: draw::Ink + From<BinaryColor>>() -> Result<(), Error> {
     let Ok(()) = Image::new(&picture, bb(Point::zero())).draw(&mut display);
     let Ok(()) = picture.draw_row(&mut display, bb(3));
     bb(picture.pixel(bb(Point::zero())));
-    let mut cursor = RowCursor::new();
+    let mut cursor = RowCursor::starting_at(bb(1));
     let Ok(more) = cursor.draw_next(&picture, &mut display);
     bb((more, cursor.row()));
     let bounds = Bounds2 { min: point(0), max: point(1 << 24) };
@@ -162,7 +175,9 @@ fn on<C: draw::Ink + From<BinaryColor>>() -> Result<(), Error> {
     let points = (0..bb(10)).map(point);
     let Ok(_) = Dots::new(points.clone(), window, white).at(bb(Point::zero())).draw(&mut display);
     let coloured = points.clone().map(|p| (p, bb(1_u32)));
-    let Ok(_) = ColoredDots::<_, _, C>::new(coloured, window, gradients::DUSK).draw(&mut display);
+    let Ok(_) = ColoredDots::<_, _, C>::new(coloured.clone(), window, gradients::DUSK).draw(&mut display);
+    let moved = ColoredDots::<_, _, C>::new(coloured, window, gradients::DUSK).at(bb(Point::zero()));
+    let Ok(_) = moved.with_dither_origin(bb(Point::zero())).draw_once(&mut display);
     let path = points.map(attractor::picture::Step::LineTo);
     let Ok(_) = Stroke::new(path, window, white).at(bb(Point::zero())).draw(&mut display);
     Ok(())
