@@ -81,7 +81,7 @@ impl LineToLine {
 impl Displacement for LineToLine {
     fn check(&self, knots: &[Point2]) -> Result<(), Error> {
         match knots.iter().zip(knots.iter().skip(1)).position(|(a, b)| a.x >= b.x) {
-            Some(index) => Err(Error::KnotsNotIncreasing { index: index + 1 }),
+            Some(index) => Err(Error::NotIncreasing { what: "knot", index: index + 1 }),
             None => Ok(()),
         }
     }

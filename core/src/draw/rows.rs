@@ -81,7 +81,11 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
         let size = self.field().size();
         let needed = K::length(size.width);
         let given = buffer.len();
-        let strip = buffer.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+        let strip = buffer.get_mut(..needed).ok_or(Error::BufferLength {
+            what: "units of a strip",
+            given,
+            needed,
+        })?;
         for row in 0..K::ROWS {
             let y = y.saturating_add(row);
             if y >= size.height {
@@ -112,7 +116,7 @@ impl<'a, F: Field, P: Palette<F::Value>, C: Ink, K: Packing<C>> Strips<'a, F, P,
     pub fn new(picture: &'a Picture<F, P, C>, buffer: &'a mut [K::Unit]) -> Result<Self, Error> {
         let (given, needed) = (buffer.len(), K::length(picture.field().size().width));
         if given < needed {
-            return Err(Error::BufferLength { given, needed });
+            return Err(Error::BufferLength { what: "units of a strip", given, needed });
         }
         Ok(Self { picture, buffer, next: 0, packing: PhantomData })
     }
@@ -247,12 +251,13 @@ mod tests {
     fn a_short_buffer_is_refused_before_anything_is_computed() {
         let field = Counted::new(20, 8);
         let picture = Picture::<_, _, Rgb565>::new(&field, Grey);
-        let error = Error::BufferLength { given: 39, needed: 40 };
+        let error = Error::BufferLength { what: "units of a strip", given: 39, needed: 40 };
         assert_eq!(picture.big_endian(&mut [0; 39]).err(), Some(error));
         assert_eq!(picture.pack::<BigEndian>(0, &mut [0; 39]), Err(error));
         let picture = Picture::<_, _, BinaryColor>::new(&field, Grey);
-        assert_eq!(picture.msb_rows(&mut [0; 2]).err(), Some(Error::BufferLength { given: 2, needed: 3 }));
-        assert_eq!(picture.lsb_pages(&mut []).err(), Some(Error::BufferLength { given: 0, needed: 20 }));
+        let short = |given, needed| Some(Error::BufferLength { what: "units of a strip", given, needed });
+        assert_eq!(picture.msb_rows(&mut [0; 2]).err(), short(2, 3));
+        assert_eq!(picture.lsb_pages(&mut []).err(), short(0, 20));
         assert_eq!(field.evaluated.get(), 0);
     }
 

@@ -59,7 +59,7 @@ impl JuliaSet {
             }
         }
         if hits.len() != needed {
-            return Err(Error::BufferLength { given: hits.len(), needed });
+            return Err(Error::BufferLength { what: "cells", given: hits.len(), needed });
         }
         hits.fill(0);
         let mut iteration =
@@ -312,7 +312,7 @@ mod tests {
     fn a_grid_of_the_wrong_size_names_the_right_one() {
         let set = set(0.0, 1.0);
         let error = set.pruned_iteration(8, 1, &mut [0; 63]).err();
-        assert_eq!(error, Some(Error::BufferLength { given: 63, needed: 64 }));
+        assert_eq!(error, Some(Error::BufferLength { what: "cells", given: 63, needed: 64 }));
         assert!(matches!(set.pruned_iteration(0, 1, &mut []), Err(Error::TooFew { .. })));
         assert!(matches!(set.pruned_iteration(1, 0, &mut [0]), Err(Error::TooFew { .. })));
         assert!(core::mem::size_of::<PrunedIteration<'_>>() <= 600);
