@@ -8,6 +8,7 @@ use crate::num::Wide;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Error {
     /// Fewer items than the object needs.
     TooFew {

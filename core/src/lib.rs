@@ -17,6 +17,18 @@
 //!
 //! Imports point downwards in this table's order: a kernel returns values and knows no colour.
 //!
+//! # Features
+//!
+//! | feature | what it adds |
+//! | --- | --- |
+//! | `defmt` | `defmt::Format` for values, descriptions and set-ups that borrow nothing; numbers of `fixed` are printed by their `Debug` |
+//! | `serde` | `Serialize` and `Deserialize` for values and descriptions; a type whose constructor checks something is read back through it, so that none is invalid |
+//! | `micromath` | a camera from f32 angles |
+//!
+//! Read back through their constructors: [`picture::Window`], [`escape::View`], [`escape::DeepView`], [`escape::Mandelbrot`], [`escape::Julia`], [`escape::JuliaSet`],
+//! [`ifs::Ifs`]. Not read back, as they keep only what they computed: [`fif::Fif`], [`curve::Generator`], [`trace::Camera`], [`trace::Light`] and the laws of random
+//! curves; store the knots, points and vectors they are made from. Written only: [`Error`], [`trace::Hit`] and the entries of the catalogues, which borrow their names.
+//!
 //! The types of the [`fixed`] crate are part of the public interface; it is re-exported. Version 1.29 is required: later ones conflict
 //! with `embedded-graphics` 0.8.2 over the crate `az`.
 #![no_std]
@@ -41,9 +53,15 @@ pub mod draw;
 mod error;
 pub mod escape;
 pub mod fif;
+#[cfg(feature = "defmt")]
+mod format;
 pub mod ifs;
 pub mod num;
 pub mod picture;
+#[cfg(test)]
+mod promised;
+#[cfg(feature = "serde")]
+mod serial;
 pub mod trace;
 
 pub use error::Error;

@@ -30,6 +30,7 @@ impl Point2 {
 
 /// One step of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Step {
     /// Lift the pen and start here.
     MoveTo(Point2),
@@ -103,6 +104,11 @@ pub fn checked_size(size: Size) -> Result<Size, Error> {
 
 /// A rectangle of the plane and the pixels that show it (seeds' world window and viewport).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::serial::WindowNumbers", into = "crate::serial::WindowNumbers")
+)]
 pub struct Window {
     bounds: Bounds2,
     size: Size,

@@ -3,7 +3,6 @@
 /// `re + i im`; `im` points upwards on a display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Complex<T> {
     /// Real part.
     pub re: T,

@@ -22,6 +22,7 @@ use crate::picture::Field;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Arithmetic {
     /// Q4.60: the default for a pitch of at least `2^-44` and at most 1024 iterations.
     Word64,

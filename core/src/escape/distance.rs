@@ -15,6 +15,7 @@ use crate::picture::Field;
 
 /// The estimated distance at every pixel, in pixels: none inside. As a level, 1 is a pixel and more: thin parts of the set stay visible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Distance<P>(
     /// The picture.
     pub P,

@@ -18,6 +18,7 @@ use crate::num::{
 
 /// A function above one of its cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cell {
     /// No value is below.
     pub min: Real,

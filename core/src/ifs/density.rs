@@ -248,6 +248,7 @@ fn check_length(what: &'static str, window: &Window, given: usize) -> Result<(),
 /// What a pixel of a [`Density`] shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hits {
     /// How often it was hit; where that is 0 it is no part of the attractor, and the palettes paint it as the inside of a set.
     pub count: u16,
