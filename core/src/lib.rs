@@ -1,5 +1,7 @@
 //! Fractals for small displays, in fixed point.
 //!
+#![doc = include_str!("../docs/trace.md")]
+//!
 //! `attractor` is a `no_std` kernel without allocation, without `unsafe`, without a panicking path and without floating
 //! point: it gives the same bits on a Cortex-M4, a Cortex-M0, RISC-V and the desktop. Everything it computes is one of three kinds of
 //! [picture]: points, a path, or a field of values; [draw] puts any of them on any `embedded-graphics` display.
@@ -16,6 +18,8 @@
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!
 //! Imports point downwards in this table's order: a kernel returns values and knows no colour.
+//!
+//! Numbers are explained in [num], the kernels' methods and sources in [methods].
 //!
 //! # Features
 //!
@@ -56,6 +60,8 @@ pub mod fif;
 #[cfg(feature = "defmt")]
 mod format;
 pub mod ifs;
+#[cfg(any(doc, test))]
+pub mod methods;
 pub mod num;
 pub mod picture;
 #[cfg(test)]
@@ -69,7 +75,7 @@ pub use fixed;
 pub use rand_core;
 pub use rand_xoshiro;
 
-/// The README's snippet is a test.
+/// The README's snippets are tests.
 #[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;

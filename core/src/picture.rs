@@ -3,6 +3,13 @@
 //! - *points*: an `Iterator<Item = Point2>` (chaos game, sampled attractors);
 //! - *path*: an `Iterator<Item = Step>` of move-to and line-to (graphs of functions, Koch curves);
 //! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster).
+//!
+//! A path:
+//!
+#![doc = include_str!("../docs/curve.md")]
+//! A field:
+//!
+#![doc = include_str!("../docs/escape.md")]
 
 use core::ops::Range;
 
@@ -25,6 +32,14 @@ impl Point2 {
     /// The point `(x, y)`.
     pub const fn new(x: Real, y: Real) -> Self {
         Self { x, y }
+    }
+
+    /// The point `(x, y)` from decimal literals, for constants: `const TIP: Point2 = Point2::lit("0.5", "0.866")`.
+    ///
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
+    /// [Numbers](crate::num#numbers).
+    pub const fn lit(x: &str, y: &str) -> Self {
+        Self::new(Real::lit(x), Real::lit(y))
     }
 }
 

@@ -21,6 +21,14 @@ impl Knot {
     pub const fn new(x: Wide, y: Wide) -> Self {
         Self { x, y }
     }
+
+    /// The knot `(x, y)` from decimal literals, for constants: `const TOP: Knot = Knot::lit("0.5", "1")`.
+    ///
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
+    /// [Numbers](crate::num#numbers).
+    pub const fn lit(x: &str, y: &str) -> Self {
+        Self::new(Wide::lit(x), Wide::lit(y))
+    }
 }
 
 /// One map in the unit abscissa: `f(start + width u) = scaling f(u) + q(u)`.
