@@ -88,6 +88,18 @@ fn shown((x, y): Word) -> Point2 {
 }
 
 /// A random walk on `J_c`, without end: see [`JuliaSet::backward_iteration`].
+///
+/// ```
+/// use attractor::escape::{Complex, JuliaSet};
+/// use attractor::num::Real;
+///
+/// // c = 0: the unit circle
+/// let circle = JuliaSet::new(const { Complex::lit("0", "0") })?;
+/// let square = |x: Real| x.to_num::<f64>().powi(2);
+/// let points = circle.seeded_backward_iteration(7).take(1000);
+/// assert!(points.into_iter().all(|p| (square(p.x) + square(p.y) - 1.0).abs() < 1e-6));
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct BackwardIteration<R> {
     c: Word,
