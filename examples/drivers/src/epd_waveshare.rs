@@ -15,7 +15,7 @@ use embedded_hal::spi::SpiDevice;
 use epd_waveshare::epd2in9_v2::{Display2in9, Epd2in9};
 use epd_waveshare::prelude::WaveshareDisplay;
 
-use crate::Failure;
+use crate::{Failure, Outcome};
 
 /// The more ink the higher the dwell, most in the set: what is to be dark is drawn light, as `On` is black.
 fn ink(dwell: Dwell) -> Rgb888 {
@@ -26,7 +26,7 @@ fn ink(dwell: Dwell) -> Rgb888 {
 ///
 /// # Errors
 /// The display's.
-pub fn draw<D: DrawTarget<Color = BinaryColor>>(display: &mut D) -> Result<(), Failure<D::Error>> {
+pub fn draw<D: DrawTarget<Color = BinaryColor>>(display: &mut D) -> Outcome<D::Error> {
     const CENTRE: Complex<Wide> = Complex::new(Wide::ZERO, Wide::ZERO);
     const WIDTH: Wide = Wide::lit("3.2");
     const RABBIT: Complex<Wide> = Complex::new(Wide::lit("-0.123"), Wide::lit("0.745"));
@@ -45,7 +45,7 @@ pub fn show<SPI: SpiDevice>(
     dc: impl OutputPin,
     reset: impl OutputPin,
     delay: &mut impl DelayNs,
-) -> Result<(), Failure<SPI::Error>> {
+) -> Outcome<SPI::Error> {
     let mut paper = Epd2in9::new(spi, busy, dc, reset, delay, None).map_err(Failure::Display)?;
     let mut display = Display2in9::default();
     draw(&mut display.color_converted()).map_err(|failure| match failure {

@@ -31,3 +31,6 @@ impl<E> From<attractor::Error> for Failure<E> {
         Self::Picture(error)
     }
 }
+
+/// All went well, or what went wrong.
+pub type Outcome<E> = Result<(), Failure<E>>;

@@ -15,13 +15,13 @@ use mipidsi::Builder;
 use mipidsi::interface::{SpiError, SpiInterface};
 use mipidsi::models::ST7789;
 
-use crate::Failure;
+use crate::{Failure, Outcome};
 
 /// The whole set.
 ///
 /// # Errors
 /// The display's.
-pub fn draw<D: DrawTarget<Color = Rgb565>>(display: &mut D) -> Result<(), Failure<D::Error>> {
+pub fn draw<D: DrawTarget<Color = Rgb565>>(display: &mut D) -> Outcome<D::Error> {
     let view = View::home(display.bounding_box().size)?;
     let picture = Picture::new(Mandelbrot::new(view, 100)?, gradients::FIRE);
     Image::new(&picture, Point::zero()).draw(display).map_err(Failure::Display)
@@ -45,7 +45,7 @@ pub fn show<SPI: SpiDevice, PIN: OutputPin>(
     dc: PIN,
     reset: PIN,
     delay: &mut impl DelayNs,
-) -> Result<(), Failure<Trouble<SPI::Error, PIN::Error>>> {
+) -> Outcome<Trouble<SPI::Error, PIN::Error>> {
     let mut buffer = [0; 480];
     let interface = SpiInterface::new(spi, dc, &mut buffer);
     let mut display = Builder::new(ST7789, interface)

@@ -13,13 +13,13 @@ use embedded_hal::i2c::I2c;
 use ssd1306::prelude::*;
 use ssd1306::{I2CDisplayInterface, Ssd1306};
 
-use crate::Failure;
+use crate::{Failure, Outcome};
 
 /// The fern, as large as it fits.
 ///
 /// # Errors
 /// The display's.
-pub fn draw<D: DrawTarget<Color = BinaryColor>>(display: &mut D) -> Result<(), Failure<D::Error>> {
+pub fn draw<D: DrawTarget<Color = BinaryColor>>(display: &mut D) -> Outcome<D::Error> {
     let fern = catalogue::BARNSLEY_FERN.ifs::<4>()?;
     let window = Window::fit(fern.bounds(), display.bounding_box().size)?;
     let points = fern.seeded_chaos_game(7).take(4_000);
@@ -31,7 +31,7 @@ pub fn draw<D: DrawTarget<Color = BinaryColor>>(display: &mut D) -> Result<(), F
 ///
 /// # Errors
 /// The display's.
-pub fn show(i2c: impl I2c) -> Result<(), Failure<DisplayError>> {
+pub fn show(i2c: impl I2c) -> Outcome<DisplayError> {
     let interface = I2CDisplayInterface::new(i2c);
     let display = Ssd1306::new(interface, DisplaySize128x64, DisplayRotation::Rotate0);
     let mut display = display.into_buffered_graphics_mode();
