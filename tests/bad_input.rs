@@ -40,14 +40,14 @@ fn tent() -> Fif<3, 2> {
 #[test]
 fn knots_must_increase() {
     let unsorted = through(&[(0.0, 0.0), (2.0, 1.0), (1.0, 0.0)], &[0.5, 0.5]);
-    assert_eq!(unsorted, Err(Error::KnotsNotIncreasing { index: 2 }));
+    assert_eq!(unsorted, Err(Error::NotIncreasing { what: "knot", index: 2 }));
     assert_eq!(text(unsorted), "knot 2 is not to the right of knot 1");
     let repeated = through(&[(1.0, 0.0), (1.0, 1.0), (2.0, 0.0)], &[0.5, 0.5]);
     assert_eq!(text(repeated), "knot 1 is not to the right of knot 0");
     let places = [wide(0.0), wide(0.0)];
     let polynomials: [&[Wide]; 1] = [&[Wide::ZERO]];
     let equal = Fif::<1, 1>::with_polynomials(&places, &[Scaling::ZERO], &polynomials);
-    assert_eq!(equal, Err(Error::KnotsNotIncreasing { index: 1 }));
+    assert_eq!(equal, Err(Error::NotIncreasing { what: "knot", index: 1 }));
 }
 
 #[test]
@@ -69,10 +69,10 @@ fn knots_scalings_and_polynomials_belong_together() {
     assert_eq!(none, Err(Error::TooFew { what: "knots", given: 0, at_least: 2 }));
     let square: [&[Wide]; 1] = [&[Wide::ZERO, Wide::ZERO, Wide::ONE]];
     let steep = Fif::<2, 1>::with_polynomials(&places, &[Scaling::ZERO], &square);
-    assert_eq!(text(steep), "3 coefficients needed, there is room for 2");
+    assert_eq!(text(steep), "2 powers of x needed, there is room for 1");
     let knots = places.map(|x| Knot::new(x, x));
     let constant = Fif::<2, 0>::interpolating(&knots, &[Scaling::ZERO]);
-    assert_eq!(text(constant), "2 coefficients needed, there is room for 1");
+    assert_eq!(text(constant), "1 powers of x needed, there is room for 0");
 }
 
 #[test]
@@ -123,13 +123,13 @@ fn maps_that_disagree_or_are_too_steep_have_no_calculus() {
         "map 0 has a vertical scaling no smaller than its horizontal one: no derivative exists"
     );
     assert!(matches!(Factor::<3, 3>::new(&tent()), Err(Error::NotDifferentiable { map: 0 })));
-    assert_eq!(text(tent().integral::<1>(Wide::ZERO)), "3 coefficients needed, there is room for 2");
+    assert_eq!(text(tent().integral::<1>(Wide::ZERO)), "2 powers of x needed, there is room for 1");
 }
 
 #[test]
 fn a_pyramid_needs_its_memory_and_a_walk_its_stack() {
     let (f, mut memory) = (tent(), [Cell::ZERO; 31]);
-    assert_eq!(text(Pyramid::new(&f, 5, &mut memory)), "the buffer has 31 elements, 63 are needed");
+    assert_eq!(text(Pyramid::new(&f, 5, &mut memory)), "a buffer of 31 cells of the pyramid lent, 63 needed");
     let deep = Pyramid::new(&f, 17, &mut memory);
     assert_eq!(text(deep), "17 levels needed, there is room for 16");
     let pyramid = Pyramid::new(&f, 4, &mut memory).expect("31 cells");

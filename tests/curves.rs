@@ -516,7 +516,7 @@ fn bad_laws_and_limits_are_refused() {
     let graph = LineToLine::new(Unit::ONE, 1).unwrap();
     let back = [point(0.0, 0.0), point(1.0, 0.0), point(1.0, 1.0)];
     let error = Subdivision::<_, 10>::new(&graph, &back, Stop::Norm(Real::ONE)).unwrap_err();
-    assert_eq!(error, Error::KnotsNotIncreasing { index: 2 });
+    assert_eq!(error, Error::NotIncreasing { what: "knot", index: 2 });
     // points beyond the ends of the format saturate
     let wild = TwoVariable::new(Unit::MAX, 3).unwrap();
     let ends = [Point2::new(Real::MIN, Real::MAX), point(-1.0, 1.0)];

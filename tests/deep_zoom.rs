@@ -349,7 +349,7 @@ fn bad_coordinates_are_told_from_good_ones() {
     for (max, needed) in [(700, 700), (5000, 10_000)] {
         assert_eq!(DeepMandelbrot::orbit_points(&view, max), needed);
         let error = DeepMandelbrot::new(view, max, &mut vec![OrbitPoint::default(); needed - 1]).unwrap_err();
-        assert_eq!(error, Error::BufferLength { given: needed - 1, needed });
+        assert_eq!(error, Error::BufferLength { what: "points of the orbit", given: needed - 1, needed });
         assert!(error.to_string().contains(&needed.to_string()));
     }
 }

@@ -2,3 +2,8 @@
 
 pub mod accuracy;
 pub mod exhaust;
+
+/// The README's snippet is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

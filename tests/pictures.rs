@@ -369,7 +369,7 @@ fn a_surface_that_does_not_fit_its_stack_or_its_format_is_refused() {
     let refused = HeightField::<5>::new(&pyramid, &pyramid).unwrap_err();
     assert_eq!(refused.to_string(), "6 frames on the stack needed, there is room for 5");
     let short = Pyramid::new(&fixed, 6, &mut [Cell::ZERO; 126]).unwrap_err();
-    assert_eq!(short.to_string(), "the buffer has 126 elements, 127 are needed");
+    assert_eq!(short.to_string(), "a buffer of 126 cells of the pyramid lent, 127 needed");
     let years = example("years").fixed();
     let mut memory = vec![Cell::ZERO; Pyramid::cells(3, 2)];
     let pyramid = Pyramid::new(&years, 2, &mut memory).unwrap();

@@ -8,6 +8,7 @@ use crate::num::Wide;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Error {
     /// Fewer items than the object needs.
     TooFew {
@@ -38,14 +39,18 @@ pub enum Error {
     },
     /// A buffer lent by the caller has the wrong length.
     BufferLength {
+        /// What it holds.
+        what: &'static str,
         /// Its length.
         given: usize,
         /// The length it must have at least.
         needed: usize,
     },
-    /// The knots do not increase.
-    KnotsNotIncreasing {
-        /// Index of the first knot that is not to the right of its predecessor.
+    /// What must increase does not: knots, stops of a gradient.
+    NotIncreasing {
+        /// What one of them is.
+        what: &'static str,
+        /// Index of the first that is not to the right of its predecessor.
         index: usize,
     },
     /// A value outside the range that its format or its meaning allows.
@@ -124,11 +129,11 @@ impl fmt::Display for Error {
             Self::LengthMismatch { what, given, expected } => {
                 write!(f, "{given} {what} given, {expected} expected")
             }
-            Self::BufferLength { given, needed } => {
-                write!(f, "the buffer has {given} elements, {needed} are needed")
+            Self::BufferLength { what, given, needed } => {
+                write!(f, "a buffer of {given} {what} lent, {needed} needed")
             }
-            Self::KnotsNotIncreasing { index } => {
-                write!(f, "knot {index} is not to the right of knot {}", index.saturating_sub(1))
+            Self::NotIncreasing { what, index } => {
+                write!(f, "{what} {index} is not to the right of {what} {}", index.saturating_sub(1))
             }
             Self::OutOfRange { what, index, value, min, max } => {
                 match index {
@@ -166,3 +171,50 @@ impl fmt::Display for Error {
 }
 
 impl core::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use std::string::ToString;
+
+    use super::Error;
+    use crate::num::Wide;
+
+    #[test]
+    fn each_message_says_of_what() {
+        let value = |v: f32| Wide::from_num(v);
+        let out = |index, v| Error::OutOfRange {
+            what: "reach",
+            index,
+            value: v,
+            min: value(-0.5),
+            max: value(2.0),
+        };
+        let cases = [
+            (Error::TooFew { what: "knots", given: 1, at_least: 2 }, "1 knots given, at least 2 needed"),
+            (
+                Error::Capacity { what: "powers of x", needed: 3, capacity: 2 },
+                "3 powers of x needed, there is room for 2",
+            ),
+            (
+                Error::LengthMismatch { what: "polynomials", given: 2, expected: 1 },
+                "2 polynomials given, 1 expected",
+            ),
+            (
+                Error::BufferLength { what: "cells", given: 63, needed: 64 },
+                "a buffer of 63 cells lent, 64 needed",
+            ),
+            (Error::NotIncreasing { what: "stop", index: 2 }, "stop 2 is not to the right of stop 1"),
+            (out(Some(3), value(2.5)), "reach [3] is 2.5, it must lie between -0.5 and 2"),
+            (out(None, Wide::MAX), "reach is 32768 or more, it must lie between -0.5 and 2"),
+            (out(None, Wide::MIN), "reach is -32768 or less, it must lie between -0.5 and 2"),
+            (Error::NotContractive { map: 1 }, "map 1 is not a contraction"),
+            (Error::Probabilities { sum: value(1.5) }, "the probabilities add up to 1.5, not to 1"),
+            (Error::NotJoined { knot: 1 }, "the maps on both sides of knot 1 disagree there"),
+            (Error::Malformed { what: "number", position: 4 }, "this is no number: look at byte 4"),
+            (Error::Degenerate { what: "direction of the light" }, "direction of the light is zero"),
+        ];
+        for (error, text) in cases {
+            assert_eq!(error.to_string(), text);
+        }
+    }
+}

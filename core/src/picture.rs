@@ -4,6 +4,14 @@
 //! - *path*: an `Iterator<Item = Step>` of move-to and line-to (graphs of functions, Koch curves);
 //! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster); a closure becomes one with [`from_fn`].
 
+//!
+//! A path:
+//!
+#![doc = include_str!("../docs/curve.md")]
+//! A field:
+//!
+#![doc = include_str!("../docs/escape.md")]
+
 mod from_fn;
 
 use core::ops::Range;
@@ -30,10 +38,19 @@ impl Point2 {
     pub const fn new(x: Real, y: Real) -> Self {
         Self { x, y }
     }
+
+    /// The point `(x, y)` from decimal literals, for constants: `const TIP: Point2 = Point2::lit("0.5", "0.866")`.
+    ///
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
+    /// [Numbers](crate::num#numbers).
+    pub const fn lit(x: &str, y: &str) -> Self {
+        Self::new(Real::lit(x), Real::lit(y))
+    }
 }
 
 /// One step of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Step {
     /// Lift the pen and start here.
     MoveTo(Point2),
@@ -111,6 +128,11 @@ pub fn checked_size(size: Size) -> Result<Size, Error> {
 /// left and its upper edge, and the last column and row own the window's right and lower edge too
 /// (`every_point_is_in_the_pixel_of_the_exact_quotient`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::serial::WindowNumbers", into = "crate::serial::WindowNumbers")
+)]
 pub struct Window {
     bounds: Bounds2,
     size: Size,

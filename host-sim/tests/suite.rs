@@ -7,4 +7,5 @@ mod common;
 mod export;
 mod measure;
 mod pictures;
+mod rooms;
 mod samples;

@@ -1,6 +1,7 @@
 //! `cargo xtask target`: builds the images of `benches/cortex-m`, runs them in QEMU, compares every checksum with the host's, and holds
 //! counts and sizes against the committed tables. See `benches/cortex-m/README.md`. `cargo xtask exhaust`: every input of the elementary functions.
 
+mod drivers;
 mod elf;
 mod emulator;
 mod exhaust;
@@ -36,6 +37,8 @@ enum Task {
     Target(Options),
     /// Try every input of the elementary functions
     Exhaust(exhaust::Options),
+    /// Compile the examples of display drivers for a Cortex-M4
+    Drivers,
 }
 
 /// What `cargo xtask target` is asked.
@@ -91,6 +94,7 @@ fn main() -> ExitCode {
             None => target(&options),
         },
         Task::Exhaust(options) => exhaust::run(&options),
+        Task::Drivers => drivers::run(),
     };
     match done {
         Ok(true) => ExitCode::SUCCESS,

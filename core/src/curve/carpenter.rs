@@ -19,6 +19,19 @@ use crate::num::{self, Real, Unit, sqrt};
 use crate::picture::Point2;
 
 /// The graph of a function `h(t)`: `x` of a point is `t`, `y` is `h`. Size: 136 bytes.
+///
+/// ```
+/// use attractor::curve::{LineToLine, Stop, Subdivision};
+/// use attractor::num::{Real, Unit};
+/// use attractor::picture::{Point2, Step};
+///
+/// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
+/// let law = LineToLine::new(const { Unit::lit("0.25") }, 7)?;
+/// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
+/// let steps: Vec<Step> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LineToLine {
     random: RandomFunction,
@@ -81,7 +94,7 @@ impl LineToLine {
 impl Displacement for LineToLine {
     fn check(&self, knots: &[Point2]) -> Result<(), Error> {
         match knots.iter().zip(knots.iter().skip(1)).position(|(a, b)| a.x >= b.x) {
-            Some(index) => Err(Error::KnotsNotIncreasing { index: index + 1 }),
+            Some(index) => Err(Error::NotIncreasing { what: "knot", index: index + 1 }),
             None => Ok(()),
         }
     }
@@ -96,6 +109,19 @@ impl Displacement for LineToLine {
 }
 
 /// A curve in the plane whose midpoints lie on the perpendicular bisectors. Size: 12 bytes.
+///
+/// ```
+/// use attractor::curve::{OneVariable, Stop, Subdivision};
+/// use attractor::num::{Real, Unit};
+/// use attractor::picture::{Point2, Step};
+///
+/// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
+/// let law = OneVariable::new(const { Unit::lit("0.25") }, 7)?;
+/// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
+/// let steps: Vec<Step> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OneVariable {
     random: RandomFunction,
@@ -171,6 +197,19 @@ impl Displacement for OneVariable {
 }
 
 /// A curve in the plane whose midpoints are displaced in both directions. Size: 12 bytes.
+///
+/// ```
+/// use attractor::curve::{TwoVariable, Stop, Subdivision};
+/// use attractor::num::{Real, Unit};
+/// use attractor::picture::{Point2, Step};
+///
+/// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
+/// let law = TwoVariable::new(const { Unit::lit("0.25") }, 7)?;
+/// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
+/// let steps: Vec<Step> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TwoVariable {
     random: RandomFunction,

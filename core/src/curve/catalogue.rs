@@ -9,6 +9,7 @@ use crate::num::{Angle, Unit};
 
 /// A named generator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Curve {
     /// Lower case, words joined by hyphens: what [`find`] looks for.
     pub name: &'static str,

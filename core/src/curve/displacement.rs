@@ -13,6 +13,7 @@ pub(super) const LEVELS: usize = 32;
 
 /// A part of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Part {
     /// Its first point.
     pub from: Point2,

@@ -18,6 +18,20 @@ use crate::num::{Real, Unit, sqrt};
 use crate::picture::Point2;
 
 /// The law of the random elbow. Size: 136 bytes.
+///
+/// ```
+/// use attractor::curve::{Elbow, Stop, Subdivision};
+/// use attractor::num::{Real, Unit};
+/// use attractor::picture::{Point2, Step};
+///
+/// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
+/// // Brownian motion has a spectrum of 1/f^2
+/// let law = Elbow::new(const { Unit::lit("0.25") }, const { Real::lit("2") }, 7)?;
+/// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
+/// let steps: Vec<Step> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Elbow {
     random: RandomFunction,

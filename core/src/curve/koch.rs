@@ -44,6 +44,7 @@ pub fn triangle(centre: Point2, radius: Real) -> [Point2; 4] {
 /// A fraction, not necessarily in lowest terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fraction {
     /// Above the line.
     pub numerator: u64,

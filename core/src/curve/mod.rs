@@ -1,5 +1,7 @@
 //! Curves by refinement: the Koch curve and its relatives from generators, random curves from laws of displacement.
 //!
+#![doc = include_str!("../../docs/curve.md")]
+//!
 //! A [`Generator`] says by which polyline each segment is replaced; [`Refined`] walks the result, order by order or down to the length of a pixel, with a stack of
 //! fixed capacity and no recursion. A law ([`OneVariable`], [`TwoVariable`], [`LineToLine`], [`Elbow`], or one of your own) says where the midpoint of a part
 //! lies; [`Subdivision`] walks the curve through given knots, all of it or a piece. An [`LSystem`] rewrites words that a turtle draws, plants with branches among them. All are paths: iterators of [`crate::picture::Step`].

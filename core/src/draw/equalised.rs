@@ -59,7 +59,7 @@ impl<'a, P> Equalised<'a, P> {
             }
         }
         if needed > counts.len() {
-            return Err(Error::BufferLength { given: counts.len(), needed });
+            return Err(Error::BufferLength { what: "counts", given: counts.len(), needed });
         }
         let mut below = 0_u32;
         for bin in counts.iter_mut() {
@@ -114,7 +114,8 @@ mod tests {
     #[test]
     fn a_short_buffer_names_the_length_it_needs() {
         let picture = Mandelbrot::new(View::home(Size::new(60, 50)).unwrap(), 50).unwrap();
-        let Err(Error::BufferLength { given: 7, needed }) = Equalised::new(&picture, &mut [0; 7], Grey)
+        let Err(Error::BufferLength { what: "counts", given: 7, needed }) =
+            Equalised::new(&picture, &mut [0; 7], Grey)
         else {
             panic!("accepted")
         };

@@ -46,7 +46,7 @@ impl<const N: usize> Gradient<N> {
     /// Through colours at strictly increasing levels.
     ///
     /// # Errors
-    /// [`Error::TooFew`] without a stop, [`Error::KnotsNotIncreasing`] where a level is not above the one before it.
+    /// [`Error::TooFew`] without a stop, [`Error::NotIncreasing`] where a level is not above the one before it.
     pub const fn new(colors: [(Level, Rgb888); N]) -> Result<Self, Error> {
         if N == 0 {
             return Err(Error::TooFew { what: "stops of a gradient", given: 0, at_least: 1 });
@@ -59,7 +59,7 @@ impl<const N: usize> Gradient<N> {
             if i + 1 < N {
                 let next = colors[i + 1].0.0;
                 if next <= at {
-                    return Err(Error::KnotsNotIncreasing { index: i + 1 });
+                    return Err(Error::NotIncreasing { what: "stop", index: i + 1 });
                 }
                 distance = (next - at) as u32;
             }
@@ -201,7 +201,9 @@ mod tests {
     #[test]
     fn stops_must_increase() {
         let stop = |at| (Level(at), Rgb888::BLACK);
-        assert_eq!(Gradient::new([stop(1), stop(5), stop(5)]), Err(Error::KnotsNotIncreasing { index: 2 }));
+        let error = Gradient::new([stop(1), stop(5), stop(5)]).unwrap_err();
+        assert_eq!(error, Error::NotIncreasing { what: "stop", index: 2 });
+        assert_eq!(std::format!("{error}"), "stop 2 is not to the right of stop 1");
         assert!(matches!(Gradient::<0>::new([]), Err(Error::TooFew { .. })));
     }
 

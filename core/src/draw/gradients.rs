@@ -6,6 +6,9 @@
 use crate::draw::{Gradient, hex};
 
 /// Night indigo through plum and rose to a pale evening sky: for mirrors and shaded surfaces.
+///
+/// <div style="height:1.5em;background:linear-gradient(90deg,#05041a,#1b1343,#37236f,#743083,#b43f7f,
+/// #e1696b,#fb9d62,#fccb91,#fff3d2)"></div>
 pub const DUSK: Gradient<9> = Gradient::evenly([
     hex(0x05041a),
     hex(0x1b1343),
@@ -19,6 +22,9 @@ pub const DUSK: Gradient<9> = Gradient::evenly([
 ]);
 
 /// Black through ember red and orange to white heat.
+///
+/// <div style="height:1.5em;background:linear-gradient(90deg,#010000,#290103,#65000a,#9b110f,#d32704,
+/// #ea7104,#fea92f,#fcd77f,#fffdd4)"></div>
 pub const FIRE: Gradient<9> = Gradient::evenly([
     hex(0x010000),
     hex(0x290103),
@@ -32,6 +38,9 @@ pub const FIRE: Gradient<9> = Gradient::evenly([
 ]);
 
 /// Midnight blue through teal to foam.
+///
+/// <div style="height:1.5em;background:linear-gradient(90deg,#020417,#07173f,#052f6c,#015188,#0076a1,
+/// #079eba,#53c6cb,#9fe6de,#ebfdf9)"></div>
 pub const OCEAN: Gradient<9> = Gradient::evenly([
     hex(0x020417),
     hex(0x07173f),
@@ -45,6 +54,9 @@ pub const OCEAN: Gradient<9> = Gradient::evenly([
 ]);
 
 /// Deep green to lit leaves: for ferns and hills.
+///
+/// <div style="height:1.5em;background:linear-gradient(90deg,#000603,#011d10,#0a381e,#1e562a,#3a782e,
+/// #629a2e,#9bbd42,#d1dd79,#fafbcc)"></div>
 pub const MOSS: Gradient<9> = Gradient::evenly([
     hex(0x000603),
     hex(0x011d10),
@@ -58,6 +70,9 @@ pub const MOSS: Gradient<9> = Gradient::evenly([
 ]);
 
 /// Violet, blue, green, yellow in perceptually even steps: equal differences of level look equal, and lightness alone tells them apart.
+///
+/// <div style="height:1.5em;background:linear-gradient(90deg,#120027,#200946,#2b1d64,#23377d,#04528e,
+/// #036b8e,#018490,#009d8e,#13b384,#5cc56e,#97d457,#c8e45b,#f6f367)"></div>
 pub const EVEN: Gradient<13> = Gradient::evenly([
     hex(0x120027),
     hex(0x200946),
@@ -75,6 +90,9 @@ pub const EVEN: Gradient<13> = Gradient::evenly([
 ]);
 
 /// Cobalt, white, amber and back to cobalt: its ends meet, made for [`Cycled`](crate::draw::Cycled).
+///
+/// <div style="height:1.5em;background:linear-gradient(90deg,#061457,#0f2e7d,#1c49a6,#3b77c4,#63a7df,
+/// #aad1eb,#faf7ee,#f3d49f,#e1aa59,#ba753a,#8e472b,#49364a,#061457)"></div>
 pub const PORCELAIN: Gradient<13> = Gradient::evenly([
     hex(0x061457),
     hex(0x0f2e7d),
@@ -108,6 +126,22 @@ mod tests {
     #[test]
     fn the_gradients_rise_in_lightness() {
         assert!(rises(DUSK) && rises(FIRE) && rises(OCEAN) && rises(MOSS) && rises(EVEN));
+    }
+
+    #[test]
+    fn the_documentation_shows_each_gradients_own_colours() {
+        let colors = |text: &str, mark: &str| -> Vec<std::string::String> {
+            text.split(mark).skip(1).map(|rest| rest[..6].into()).collect()
+        };
+        let gradients = include_str!("gradients.rs").split("\n/// <div style=").skip(1);
+        let mut count = 0;
+        for gradient in gradients {
+            let (shown, after) = gradient.split_once("</div>").unwrap();
+            let own = after.split_once("]);").unwrap().0;
+            assert_eq!(colors(shown, "#"), colors(own, "hex(0x"));
+            count += 1;
+        }
+        assert_eq!(count, include_str!("gradients.rs").matches("\npub const ").count());
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! From values to pixels: points, paths and fields on any `embedded-graphics` display.
 //!
+#![doc = include_str!("../../docs/draw.md")]
+//!
 //! | picture | drawn by | how |
 //! | --- | --- | --- |
 //! | points | [`Dots`], [`ColoredDots`] | `draw_iter`; a portion a tick by [`Dots::draw_once`] |

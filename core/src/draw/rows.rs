@@ -134,7 +134,7 @@ fn front<'b, C, K: Packing<C>>(
     buffer: &'b mut [K::Unit],
 ) -> Result<&'b mut [K::Unit], Error> {
     let (given, needed) = (buffer.len(), K::length(x.end.saturating_sub(x.start)));
-    buffer.get_mut(..needed).ok_or(Error::BufferLength { given, needed })
+    buffer.get_mut(..needed).ok_or(Error::BufferLength { what: "units of a strip", given, needed })
 }
 
 /// The strips of a picture or of a part of it from the top down, each in the same lent buffer.
@@ -347,12 +347,13 @@ mod tests {
     fn a_short_buffer_is_refused_before_anything_is_computed() {
         let field = Counted::new(20, 8);
         let picture = Picture::<_, _, Rgb565>::new(&field, Grey);
-        let error = Error::BufferLength { given: 39, needed: 40 };
+        let error = Error::BufferLength { what: "units of a strip", given: 39, needed: 40 };
         assert_eq!(picture.big_endian(&mut [0; 39]).err(), Some(error));
         assert_eq!(picture.pack::<PixelBytes>(0, 0..20, &mut [0; 39]), Err(error));
         let picture = Picture::<_, _, BinaryColor>::new(&field, Grey);
-        assert_eq!(picture.msb_rows(&mut [0; 2]).err(), Some(Error::BufferLength { given: 2, needed: 3 }));
-        assert_eq!(picture.lsb_pages(&mut []).err(), Some(Error::BufferLength { given: 0, needed: 20 }));
+        let short = |given, needed| Some(Error::BufferLength { what: "units of a strip", given, needed });
+        assert_eq!(picture.msb_rows(&mut [0; 2]).err(), short(2, 3));
+        assert_eq!(picture.lsb_pages(&mut []).err(), short(0, 20));
         assert_eq!(field.evaluated.get(), 0);
     }
 

@@ -59,7 +59,7 @@ impl JuliaSet {
             }
         }
         if hits.len() != needed {
-            return Err(Error::BufferLength { given: hits.len(), needed });
+            return Err(Error::BufferLength { what: "cells", given: hits.len(), needed });
         }
         hits.fill(0);
         let mut iteration =
@@ -88,6 +88,18 @@ fn shown((x, y): Word) -> Point2 {
 }
 
 /// A random walk on `J_c`, without end: see [`JuliaSet::backward_iteration`].
+///
+/// ```
+/// use attractor::escape::{Complex, JuliaSet};
+/// use attractor::num::Real;
+///
+/// // c = 0: the unit circle
+/// let circle = JuliaSet::new(const { Complex::lit("0", "0") })?;
+/// let square = |x: Real| x.to_num::<f64>().powi(2);
+/// let points = circle.seeded_backward_iteration(7).take(1000);
+/// assert!(points.into_iter().all(|p| (square(p.x) + square(p.y) - 1.0).abs() < 1e-6));
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct BackwardIteration<R> {
     c: Word,
@@ -312,7 +324,7 @@ mod tests {
     fn a_grid_of_the_wrong_size_names_the_right_one() {
         let set = set(0.0, 1.0);
         let error = set.pruned_iteration(8, 1, &mut [0; 63]).err();
-        assert_eq!(error, Some(Error::BufferLength { given: 63, needed: 64 }));
+        assert_eq!(error, Some(Error::BufferLength { what: "cells", given: 63, needed: 64 }));
         assert!(matches!(set.pruned_iteration(0, 1, &mut []), Err(Error::TooFew { .. })));
         assert!(matches!(set.pruned_iteration(1, 0, &mut [0]), Err(Error::TooFew { .. })));
         assert!(core::mem::size_of::<PrunedIteration<'_>>() <= 600);

@@ -40,7 +40,7 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
         let size = picture.size();
         let needed = size.width as usize * size.height as usize;
         if counts.len() != needed {
-            return Err(Error::BufferLength { given: counts.len(), needed });
+            return Err(Error::BufferLength { what: "counts", given: counts.len(), needed });
         }
         let (most, max) = (usize::from(u16::MAX), picture.max_dwell() as usize);
         if max > most {
@@ -233,7 +233,7 @@ mod tests {
     fn a_buffer_of_another_length_names_the_right_one() {
         let picture = Mandelbrot::new(View::home(Size::new(9, 7)).unwrap(), 70_000).unwrap();
         let error = Canvas::new(picture, &mut [0; 62]).err();
-        assert_eq!(error, Some(Error::BufferLength { given: 62, needed: 63 }));
+        assert_eq!(error, Some(Error::BufferLength { what: "counts", given: 62, needed: 63 }));
         assert!(matches!(Canvas::new(picture, &mut [0; 63]), Err(Error::Capacity { needed: 70_000, .. })));
     }
 }

@@ -22,6 +22,7 @@ use crate::picture::Field;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Arithmetic {
     /// Q4.60: the default for a pitch of at least `2^-44` and at most 1024 iterations.
     Word64,
@@ -440,7 +441,8 @@ mod tests {
         let view = DeepView::<12>::parse("-0.75", "0.1", "1e-50", Size::new(8, 8)).unwrap();
         let mut orbit = [OrbitPoint::default(); 99];
         let error = DeepMandelbrot::new(view, 100, &mut orbit).unwrap_err();
-        assert_eq!(error, Error::BufferLength { given: 99, needed: 100 });
+        let what = "points of the orbit";
+        assert_eq!(error, Error::BufferLength { what, given: 99, needed: 100 });
         assert!(DeepMandelbrot::new(view, 99, &mut orbit).is_ok());
         assert!(DeepMandelbrot::new(view, 0, &mut orbit).is_err());
     }

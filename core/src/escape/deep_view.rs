@@ -19,6 +19,14 @@ const GUARD: u32 = 8;
 
 /// A rectangle of the complex plane and the square pixels that show it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "crate::serial::DeepViewNumbers<LIMBS>",
+        into = "crate::serial::DeepViewNumbers<LIMBS>"
+    )
+)]
 pub struct DeepView<const LIMBS: usize> {
     centre: Complex<Limbs<LIMBS>>,
     width: Limbs<LIMBS>,
@@ -108,6 +116,11 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     /// Width and height in pixels.
     pub const fn size(&self) -> Size {
         self.size
+    }
+
+    /// By how many pixels it was panned since it was made, to the right and up.
+    pub const fn panned(&self) -> (i32, i32) {
+        self.panned
     }
 
     /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.

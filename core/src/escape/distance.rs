@@ -14,7 +14,25 @@ use crate::num::{Real, log2, sqrt};
 use crate::picture::Field;
 
 /// The estimated distance at every pixel, in pixels: none inside. As a level, 1 is a pixel and more: thin parts of the set stay visible.
+///
+/// ```
+/// use attractor::draw::{Grey, Picture};
+/// use attractor::escape::{Complex, Distance, Mandelbrot, View};
+/// use embedded_graphics::pixelcolor::Gray8;
+/// use embedded_graphics::{image::Image, mock_display::MockDisplay, prelude::*};
+///
+/// let distance = Distance(Mandelbrot::new(View::home(Size::new(64, 54))?, 200)?);
+/// // inside; beside the needle, which is thinner than a pixel; far away
+/// let at = |c| distance.value_at(c);
+/// assert_eq!(at(const { Complex::lit("-1", "0") }), None);
+/// assert!(at(const { Complex::lit("-1.7", "0.001") }).is_some_and(|d| d < 0.1));
+/// assert!(at(const { Complex::lit("1", "1") }).is_some_and(|d| d > 5));
+/// let mut display = MockDisplay::<Gray8>::new();
+/// Image::new(&Picture::new(distance, Grey), Point::zero()).draw(&mut display).ok();
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Distance<P>(
     /// The picture.
     pub P,

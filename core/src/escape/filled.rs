@@ -87,7 +87,7 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     pub fn new(picture: P, bits: &'a mut [u8]) -> Result<Self, Error> {
         let needed = Self::bytes(picture.size());
         if bits.len() != needed {
-            return Err(Error::BufferLength { given: bits.len(), needed });
+            return Err(Error::BufferLength { what: "bytes of known pixels", given: bits.len(), needed });
         }
         bits.fill(0);
         let inner = Cell::new(Dwell { count: 0, max: 0 });
@@ -515,7 +515,8 @@ mod tests {
             assert_eq!(inside.count(), plain.count());
             bits.push(0);
             let error = Filled::new(picture, &mut bits).err();
-            assert_eq!(error, Some(Error::BufferLength { given: bits.len(), needed: bits.len() - 1 }));
+            let (what, given) = ("bytes of known pixels", bits.len());
+            assert_eq!(error, Some(Error::BufferLength { what, given, needed: given - 1 }));
         }
     }
 }

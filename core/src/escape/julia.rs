@@ -30,6 +30,11 @@ use crate::picture::Field;
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::serial::JuliaNumbers", into = "crate::serial::JuliaNumbers")
+)]
 pub struct Julia {
     view: View,
     c: Complex<Wide>,

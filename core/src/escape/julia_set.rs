@@ -24,12 +24,18 @@ use crate::num::{Wide, sqrt};
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::serial::JuliaSetNumbers", into = "crate::serial::JuliaSetNumbers")
+)]
 pub struct JuliaSet {
     c: Word,
 }
 
 /// A fixed point of `z^2 + c`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FixedPoint {
     /// Where it is, within 2 units of `2^-29`.
     pub point: Complex<I3F29>,
@@ -39,6 +45,8 @@ pub struct FixedPoint {
 
 /// What a fixed point `p` does to orbits that start near it. Decided by exact arithmetic on the stored `c`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stability {
     /// `|2 p| < 1`: it draws them in.
     Attracting,
@@ -50,6 +58,8 @@ pub enum Stability {
 
 /// Whether `K_c` is connected, and how far that is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Connectedness {
     /// Connected, proved: `c` lies in the main cardioid or in the disc of period 2, or is -2.
     Connected,
@@ -61,6 +71,8 @@ pub enum Connectedness {
 
 /// The two Julia sets that have a name in elementary geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SimpleCase {
     /// `c = 0`: the circle of radius 1 around 0; `K_c` is its disc.
     UnitCircle,

@@ -29,6 +29,11 @@ use crate::picture::Field;
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::serial::MandelbrotNumbers", into = "crate::serial::MandelbrotNumbers")
+)]
 pub struct Mandelbrot {
     view: View,
     max: u32,

@@ -15,6 +15,8 @@ pub const MAX_PERIOD: u32 = 256;
 
 /// The length of the cycle that an orbit is drawn to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Period(
     /// 1 for a fixed point; 0 when the orbit escapes, or no cycle of at most [`MAX_PERIOD`] points shows.
     pub u32,
@@ -32,6 +34,7 @@ pub struct Period(
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Interior<P>(
     /// The picture. Its greatest dwell is the number of steps before a cycle is looked for.
     pub P,

@@ -101,7 +101,7 @@ impl<'a, N: Stored> Reference<'a, N> {
     ) -> Result<Self, Error> {
         let needed = Self::points(max);
         if buffer.len() < needed {
-            return Err(Error::BufferLength { given: buffer.len(), needed });
+            return Err(Error::BufferLength { what: "points of the orbit", given: buffer.len(), needed });
         }
         let mut length = 0;
         let mut builder = Builder::new(reach);

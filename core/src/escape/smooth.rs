@@ -15,6 +15,7 @@ use crate::picture::Field;
 
 /// A dwell with a fraction, and the limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FractionalDwell {
     /// The limit `n + 1 - log2(log2 |z_n|)`, at least 0; `max` inside.
     pub dwell: U21F11,
@@ -44,6 +45,7 @@ impl FractionalDwell {
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Smooth<P>(
     /// The picture.
     pub P,

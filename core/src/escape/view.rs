@@ -25,6 +25,11 @@ pub const MAX_PAN: u32 = (1 << 15) - 1;
 
 /// A rectangle of the complex plane and the square pixels that show it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::serial::ViewNumbers", into = "crate::serial::ViewNumbers")
+)]
 pub struct View {
     centre: Complex<Wide>,
     width: Wide,
@@ -109,6 +114,11 @@ impl View {
     /// Width and height in pixels.
     pub const fn size(&self) -> Size {
         self.size
+    }
+
+    /// By how many pixels it was panned since it was made, to the right and up.
+    pub const fn panned(&self) -> (i32, i32) {
+        self.panned
     }
 
     /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.

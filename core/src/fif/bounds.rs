@@ -96,7 +96,7 @@ impl Bounds {
 
 /// What is wrong with coefficients that leave the format.
 pub(super) fn too_large(index: usize) -> Error {
-    limit("coefficients of map", Some(index), COEFFICIENTS, COEFFICIENTS)
+    limit("sum of the coefficients of map", Some(index), COEFFICIENTS, COEFFICIENTS)
 }
 
 #[cold]

@@ -9,7 +9,7 @@
 use heapless::Vec;
 
 use super::Fif;
-use super::function::{Map, in_range, value};
+use super::function::{Map, POWERS, in_range, value};
 use crate::Error;
 use crate::num::{ONE, Polynomial, Wide, mul_high_u, nth, quotient, times, twice_high};
 
@@ -23,7 +23,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     pub fn integral<const E: usize>(&self, initial: Wide) -> Result<Fif<N, E>, Error> {
         let degree = self.degree() + 1;
         if degree > E {
-            return Err(Error::Capacity { what: "coefficients", needed: degree + 1, capacity: E + 1 });
+            return Err(Error::Capacity { what: POWERS, needed: degree, capacity: E });
         }
         in_range("initial value", None, initial)?;
         let start = value(initial);
@@ -55,7 +55,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     pub fn derivative<const E: usize>(&self) -> Result<Fif<N, E>, Error> {
         let degree = self.degree().saturating_sub(1);
         if degree > E {
-            return Err(Error::Capacity { what: "coefficients", needed: degree + 1, capacity: E + 1 });
+            return Err(Error::Capacity { what: POWERS, needed: degree, capacity: E });
         }
         let mut maps = Vec::new();
         for (index, map) in self.maps.iter().enumerate() {

@@ -21,6 +21,14 @@ impl Knot {
     pub const fn new(x: Wide, y: Wide) -> Self {
         Self { x, y }
     }
+
+    /// The knot `(x, y)` from decimal literals, for constants: `const TOP: Knot = Knot::lit("0.5", "1")`.
+    ///
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
+    /// [Numbers](crate::num#numbers).
+    pub const fn lit(x: &str, y: &str) -> Self {
+        Self::new(Wide::lit(x), Wide::lit(y))
+    }
 }
 
 /// One map in the unit abscissa: `f(start + width u) = scaling f(u) + q(u)`.
@@ -68,6 +76,9 @@ pub struct Fif<const N: usize, const D: usize = 1> {
     pub(crate) levels: u32,
 }
 
+/// What a degree counts.
+pub(crate) const POWERS: &str = "powers of x";
+
 /// How far neighbouring maps may disagree at a knot: `2^-22`.
 const JOIN_TOLERANCE: i64 = 1 << (FRACTION - 22);
 
@@ -76,10 +87,10 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     ///
     /// # Errors
     /// [`Error::TooFew`] knots (2 at least), [`Error::Capacity`] for more than `N + 1` knots or `D` = 0, [`Error::LengthMismatch`] of the scalings,
-    /// [`Error::KnotsNotIncreasing`], [`Error::OutOfRange`] for a scaling of -1, a value or a range of the function of 128 or more.
+    /// [`Error::NotIncreasing`], [`Error::OutOfRange`] for a scaling of -1, a value or a range of the function of 128 or more.
     pub fn interpolating(knots: &[Knot], vertical_scaling: &[Scaling]) -> Result<Self, Error> {
         if D == 0 {
-            return Err(Error::Capacity { what: "coefficients", needed: 2, capacity: 1 });
+            return Err(Error::Capacity { what: POWERS, needed: 1, capacity: 0 });
         }
         for (index, knot) in knots.iter().enumerate() {
             in_range("y of knot", Some(index), knot.y)?;
@@ -158,7 +169,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         }
         for (index, (a, b)) in knots_x.clone().zip(knots_x.clone().skip(1)).enumerate() {
             if b <= a {
-                return Err(Error::KnotsNotIncreasing { index: index + 1 });
+                return Err(Error::NotIncreasing { what: "knot", index: index + 1 });
             }
         }
         let bits = |x: Wide| x.to_bits();
@@ -322,7 +333,7 @@ fn on_unit_interval<const D: usize>(
     width: i128,
 ) -> Result<Polynomial<D>, Error> {
     if q.len() > D + 1 {
-        return Err(Error::Capacity { what: "coefficients", needed: q.len(), capacity: D + 1 });
+        return Err(Error::Capacity { what: POWERS, needed: q.len() - 1, capacity: D });
     }
     let too_large = || too_large(index);
     // Horner with 55 fractional bits: p <- p (x_0 + width u) + c

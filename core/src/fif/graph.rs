@@ -7,6 +7,24 @@ use crate::num::Real;
 use crate::picture::{Point2, Step};
 
 /// A path through equally spaced points of the graph; `x` is the unit abscissa in `[0, 1]`.
+///
+/// ```
+/// use attractor::draw::Stroke;
+/// use attractor::fif::{Fif, Knot};
+/// use attractor::num::Scaling;
+/// use attractor::picture::{Bounds2, Point2, Window};
+/// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
+///
+/// const KNOTS: [Knot; 3] = [Knot::lit("0", "0"), Knot::lit("1", "1"), Knot::lit("2", "0")];
+/// let tent = Fif::<2, 1>::interpolating(&KNOTS, &[Scaling::ZERO; 2])?;
+/// let bounds = Bounds2 { min: Point2::lit("0", "0"), max: Point2::lit("1", "1") };
+/// let window = Window::stretch(bounds, Size::new(7, 4))?;
+/// let mut display = MockDisplay::new();
+/// display.set_allow_overdraw(true);
+/// let _ = Stroke::new(tent.graph(2), window, BinaryColor::On).draw(&mut display);
+/// assert_eq!(display.affected_area().size, window.size());
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Graph<'a, const N: usize, const D: usize> {
     fif: &'a Fif<N, D>,

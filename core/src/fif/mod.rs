@@ -1,5 +1,7 @@
 //! Fractal interpolation functions: graphs through given knots that are their own shrunken, sheared copies.
 //!
+#![doc = include_str!("../../docs/fif.md")]
+//!
 //! `f(L_j(x)) = alpha_j f(x) + q_j(x)`, `L_j` the affine map of the whole domain onto the interval between knots `j - 1` and `j`.
 //!
 //! Source: W. O. Cochran, R. R. Lewis, J. C. Hart, "The Normal of a Fractal Surface", 2000, sections 2 and 3; M. F. Barnsley, "Fractal

@@ -18,6 +18,7 @@ use crate::num::{
 
 /// A function above one of its cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cell {
     /// No value is below.
     pub min: Real,
@@ -89,7 +90,8 @@ impl<'a> Pyramid<'a> {
         }
         let given = memory.len();
         let needed = Pyramid::cells(fif.maps.len(), depth);
-        let Some(cells) = memory.get_mut(..needed) else { return Err(Error::BufferLength { given, needed }) };
+        let what = "cells of the pyramid";
+        let cells = memory.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         if let Some(root) = cells.first_mut() {
             let rise = fif.last.saturating_sub(fif.first);
             let slope = quotient(rise, 48 + 24 - FRACTION, fif.width);

@@ -15,25 +15,18 @@ const SQUARE: u64 = 1 << 60;
 /// An affine map of the plane: the linear part in [`Unit`], the translation in [`Real`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Affine {
     /// `x` to `x'`.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub a: Unit,
     /// `y` to `x'`.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub b: Unit,
     /// `x` to `y'`.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub c: Unit,
     /// `y` to `y'`.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub d: Unit,
     /// Translation to the right.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub e: Real,
     /// Translation upwards.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub f: Real,
 }
 

@@ -88,7 +88,7 @@ impl<'a, C: Counter> Density<'a, C> {
     /// # Errors
     /// [`Error::BufferLength`] with the length needed unless there is exactly one counter for each pixel.
     pub fn new(window: Window, counts: &'a mut [C]) -> Result<Self, Error> {
-        check_length(&window, counts.len())?;
+        check_length("counts", &window, counts.len())?;
         let Bounds2 { min, max } = window.bounds();
         let (fractions, extent) =
             window.fractions().map_or(([[0; 2]; 2], 0), |fractions| (fractions, from(min.x, max.x)));
@@ -101,7 +101,7 @@ impl<'a, C: Counter> Density<'a, C> {
     /// # Errors
     /// [`Error::BufferLength`] with the length needed unless there is exactly one byte for each pixel.
     pub fn with_maps(self, maps: &'a mut [u8]) -> Result<Self, Error> {
-        check_length(&self.window, maps.len())?;
+        check_length("maps", &self.window, maps.len())?;
         maps.fill(0);
         Ok(Self { maps, ..self })
     }
@@ -235,16 +235,17 @@ impl<C: Counter> Extend<(Point2, u8)> for Density<'_, C> {
     }
 }
 
-fn check_length(window: &Window, given: usize) -> Result<(), Error> {
+fn check_length(what: &'static str, window: &Window, given: usize) -> Result<(), Error> {
     let Size { width, height } = window.size();
     // at most 2^28
     let needed = (width * height) as usize;
-    if given == needed { Ok(()) } else { Err(Error::BufferLength { given, needed }) }
+    if given == needed { Ok(()) } else { Err(Error::BufferLength { what, given, needed }) }
 }
 
 /// What a pixel of a [`Density`] shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hits {
     /// How often it was hit; where that is 0 it is no part of the attractor, and the palettes paint it as the inside of a set.
     pub count: u16,
@@ -407,13 +408,13 @@ mod tests {
     fn a_wrong_buffer_names_the_length_it_needs() {
         for length in [0, 1199, 1201] {
             let error = Density::new(window(40, 30), &mut vec![0_u8; length]).unwrap_err();
-            assert_eq!(error, Error::BufferLength { given: length, needed: 1200 });
+            assert_eq!(error, Error::BufferLength { what: "counts", given: length, needed: 1200 });
         }
         let (mut counts, mut maps) = (vec![9_u16; 1200], vec![0; 7]);
         let density = Density::new(window(40, 30), &mut counts).unwrap();
         assert_eq!(density.peak(), 1, "the buffer is cleared");
         let error = density.with_maps(&mut maps).unwrap_err();
-        assert_eq!(error, Error::BufferLength { given: 7, needed: 1200 });
+        assert_eq!(error, Error::BufferLength { what: "maps", given: 7, needed: 1200 });
     }
 
     #[test]

@@ -20,13 +20,10 @@ const STEPS: u32 = 32;
 /// A disc of the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disc {
     /// Its centre.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub centre: Point2,
     /// Its radius.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     pub radius: Real,
 }
 

@@ -22,6 +22,11 @@ const TOLERANCE: i64 = 1074;
 
 /// An iterated function system of at most `N <= 256` maps. Size on a 32-bit machine: 33 bytes a map, and 36.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::serial::IfsNumbers<N>", into = "crate::serial::IfsNumbers<N>")
+)]
 pub struct Ifs<const N: usize> {
     maps: [Affine; N],
     len: usize,

@@ -9,6 +9,47 @@
 //! | [`Limbs`] | 4 bits and as many 32-bit limbs as it takes | 2^-(32 n - 4) | coordinates of deep zooms |
 //!
 //! Ranges are checked in constructors; after that no operation of a kernel can wrap visibly.
+//!
+//! # Numbers
+//!
+//! All formats but [`Limbs`] are types of the crate [`fixed`], which is re-exported: `attractor::fixed`. There are four ways to a number.
+//!
+//! **A constant: `lit`.** The decimal is read at compile time and rounded to nearest; one that is no number, or does not fit, does not compile.
+//!
+//! ```
+//! use attractor::escape::Complex;
+//! use attractor::fif::Knot;
+//! use attractor::num::{Real, Scaling, Vec3, Wide};
+//! use attractor::picture::Point2;
+//!
+//! const WIDTH: Wide = Wide::lit("0.0065");
+//! const SLOPE: Scaling = Scaling::lit("-0.85");
+//! const SEAHORSE: Complex<Wide> = Complex::lit("-0.7453", "0.1127");
+//! const KNOTS: [Knot; 3] = [Knot::lit("0", "0"), Knot::lit("0.5", "1"), Knot::lit("1", "0")];
+//! const EYE: Vec3 = Vec3::lit("-4", "-3", "5");
+//! const TIP: Point2 = Point2::lit("0.5", "0.8660254");
+//! // in the middle of an expression: a block that is evaluated at compile time
+//! let quarter = const { Real::lit("0.25") };
+//! assert_eq!((quarter * 4, SEAHORSE.re < WIDTH, KNOTS[1].y, EYE.z), (Real::ONE, true, Wide::ONE, Real::lit("5")));
+//! # let _ = (SLOPE, TIP);
+//! ```
+//!
+//! ```compile_fail,E0080
+//! # use attractor::num::Real;
+//! const TOO_LARGE: Real = Real::lit("128");
+//! # let _ = TOO_LARGE;
+//! ```
+//!
+//! Outside a `const` the same call reads its text at run time: it may panic, and one such call costs 6 KB of flash on a Cortex-M4, 11 KB with a panic handler that
+//! prints (`opt-level = 3`, fat LTO). The other three ways need no text.
+//!
+//! **A whole number or a ratio:** `Real::from_num(3)`, `Real::from_num(1) / 3`; coefficients by [`Affine::from_thousandths`](crate::ifs::Affine::from_thousandths).
+//! `from_num` panics for a number that does not fit; `saturating_from_num` and `checked_from_num` do not.
+//!
+//! **Bits:** `Unit::from_bits(1 << 29)` is a half. What `attractor export` writes, and what a file or a link carries.
+//!
+//! **A float:** `Real::from_num(x)` for `x: f32` works, and on a processor without an FPU costs what converting takes. On the host it is convenient; the examples
+//! in this documentation use it where the number does not matter.
 
 mod decimal;
 mod exponential;

@@ -22,6 +22,14 @@ impl<T> Vec3<T> {
 }
 
 impl Vec3<Real> {
+    /// The vector `(x, y, z)` from decimal literals, for constants: `const EYE: Vec3 = Vec3::lit("-4", "-3", "5")`.
+    ///
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
+    /// [Numbers](crate::num#numbers).
+    pub const fn lit(x: &str, y: &str, z: &str) -> Self {
+        Self::new(Real::lit(x), Real::lit(y), Real::lit(z))
+    }
+
     /// The difference `self - other`, saturated.
     pub fn minus(self, other: Self) -> Self {
         Self::new(

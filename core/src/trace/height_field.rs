@@ -40,6 +40,7 @@ pub(super) struct Side<'a> {
 
 /// The leaf that a ray meets first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Hit {
     /// Level of the leaf.
     pub level: u32,

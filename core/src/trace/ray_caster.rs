@@ -26,6 +26,7 @@ const HALF: i64 = 1 << 31;
 /// Brightness of a pixel: 0 is black, 65535 white.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tone(pub u16);
 
 /// A height field seen by a camera: a [`Field`] of [`Tone`]s.

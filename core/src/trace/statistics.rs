@@ -2,6 +2,8 @@
 
 /// What intersections have cost, added up: more than any picture takes fits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Statistics {
     /// Rays cast.
     pub rays: u64,

@@ -31,8 +31,9 @@ impl<'a> Area<'a> {
         turns: &'a mut [u32],
     ) -> Result<Self, Error> {
         let inner = window.size();
-        if turns.len() < ground_words(inner) {
-            return Err(Error::BufferLength { given: turns.len(), needed: ground_words(inner) });
+        let (given, needed) = (turns.len(), ground_words(inner));
+        if given < needed {
+            return Err(Error::BufferLength { what: "words of the area", given, needed });
         }
         turns.fill(0);
         let mut area = Self { size, corner, turns, inner };

@@ -165,7 +165,8 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
 fn range<const N: usize, const D: usize>(fif: &Fif<N, D>, cells: &mut [Cell]) -> Result<(Real, Real), Error> {
     let depth = depth_for(fif.maps(), CELLS_ACROSS);
     let (given, needed) = (cells.len(), Pyramid::cells(fif.maps(), depth));
-    let cells = cells.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+    let cells =
+        cells.get_mut(..needed).ok_or(Error::BufferLength { what: "cells of the pyramid", given, needed })?;
     let root = Pyramid::new(fif, depth, cells)?.root();
     let (mut min, mut max) = (root.min, root.max);
     let quarter = Real::from_bits(((i64::from(max.to_bits()) - i64::from(min.to_bits())) / 4) as i32);
@@ -214,7 +215,8 @@ impl<'a, const N: usize, const D: usize> Ground<'a, N, D> {
     fn of(chart: &'a Chart<'_, N, D>, rows: &'a mut [i32]) -> Result<Self, Error> {
         let columns = chart.window.size().width;
         let (given, needed) = (rows.len(), columns as usize);
-        let curve = rows.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+        let curve =
+            rows.get_mut(..needed).ok_or(Error::BufferLength { what: "rows of the curve", given, needed })?;
         for (column, row) in (0..columns).zip(curve.iter_mut()) {
             let u = Real::from_bits(((u64::from(2 * column + 1) << 24) / u64::from(2 * columns)) as i32);
             *row = chart.pixel(Point2::new(u, chart.value(u))).y;

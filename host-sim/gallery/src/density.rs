@@ -56,7 +56,7 @@ pub(crate) fn counted<R>(
     show: impl FnOnce(Framed<'_>) -> R,
 ) -> Result<R, Error> {
     let (given, needed) = (counts.len(), (window.size().width * window.size().height) as usize);
-    let counts = counts.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+    let counts = counts.get_mut(..needed).ok_or(Error::BufferLength { what: "counts", given, needed })?;
     let mut hits = Density::new(window, counts)?;
     hits.extend(points);
     // the scale ends where fewer than one hit pixel in 50 lie above

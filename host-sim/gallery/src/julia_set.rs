@@ -83,7 +83,8 @@ impl JuliaSetPicture {
             Method::Pruned => {
                 let side = self.grid(window);
                 let (given, needed) = (hits.len(), side * side);
-                let hits = hits.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
+                let hits =
+                    hits.get_mut(..needed).ok_or(Error::BufferLength { what: "cells", given, needed })?;
                 Ok(use_them(&mut self.set.pruned_iteration(side, HITS, hits)?.take(most)))
             }
         }

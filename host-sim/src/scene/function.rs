@@ -161,7 +161,7 @@ impl Description {
     fn explain(&self, source: &Source, prefix: &str, error: Error) -> Fail {
         let knot = |index: usize| self.knots.get_ref().get(index).map_or(self.knots.span(), Spanned::span);
         match error {
-            Error::KnotsNotIncreasing { index } => {
+            Error::NotIncreasing { index, .. } => {
                 let reason =
                     format!("its abscissa is not to the right of that of knot {}", index.saturating_sub(1));
                 source.fail(knot(index), &format!("{prefix}knots[{index}]"), reason)

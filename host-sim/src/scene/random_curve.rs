@@ -101,7 +101,7 @@ impl RandomCurve {
             (Error::OutOfRange { .. } | Error::Capacity { .. }, Some((key, number))) => {
                 source.fail(number.span(), key, error)
             }
-            (Error::KnotsNotIncreasing { index }, _) => {
+            (Error::NotIncreasing { index, .. }, _) => {
                 let span = file.knots.as_ref().and_then(|list| list.get_ref().get(index));
                 source.fail(span.map_or(0..0, Spanned::span), &format!("knots[{index}]"), error)
             }

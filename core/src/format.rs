@@ -1,0 +1,61 @@
+//! `defmt::Format` for types that hold numbers of `fixed`, which has none: what `Debug` says, formatted on the target.
+
+use core::fmt::Debug;
+
+use defmt::{Debug2Format, Format, Formatter};
+
+use crate::{curve, escape, fif, ifs, num, picture, trace};
+
+macro_rules! as_debug {
+    ($([$($generics:tt)*] $type:ty;)*) => {$(
+        impl<$($generics)*> Format for $type {
+            fn format(&self, f: Formatter<'_>) {
+                Debug2Format(self).format(f);
+            }
+        }
+    )*};
+}
+
+as_debug! {
+    [T: Debug] num::Vec3<T>;
+    [const LIMBS: usize] num::Limbs<LIMBS>;
+    [] num::Reciprocal;
+    [] picture::Point2;
+    [] picture::Step;
+    [] picture::Bounds2;
+    [] picture::Window;
+    [] fif::Knot;
+    [] fif::Cell;
+    [const N: usize, const D: usize] fif::Fif<N, D>;
+    [] ifs::Affine;
+    [] ifs::Disc;
+    [] ifs::Moments;
+    [const N: usize] ifs::Ifs<N>;
+    [const S: usize] curve::Generator<S>;
+    [] curve::catalogue::Curve;
+    [] curve::Part;
+    [] curve::Stop;
+    [] curve::Elbow;
+    [] curve::LineToLine;
+    [] curve::OneVariable;
+    [] curve::TwoVariable;
+    [T: Debug] escape::Complex<T>;
+    [] escape::View;
+    [const LIMBS: usize] escape::DeepView<LIMBS>;
+    [] escape::Mandelbrot;
+    [] escape::Julia;
+    [] escape::JuliaSet;
+    [] escape::FixedPoint;
+    [] escape::FractionalDwell;
+    [P: Debug] escape::Smooth<P>;
+    [P: Debug] escape::Interior<P>;
+    [P: Debug] escape::Distance<P>;
+    [] trace::Camera;
+    [] trace::Environment;
+    [] trace::Light;
+    [] trace::Material;
+    [] trace::Sampling;
+    [] trace::Filter;
+    [] trace::Hit;
+    [] trace::Ray;
+}
