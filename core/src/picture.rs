@@ -3,7 +3,6 @@
 //! - *points*: an `Iterator<Item = Point2>` (chaos game, sampled attractors);
 //! - *path*: an `Iterator<Item = Step>` of move-to and line-to (graphs of functions, Koch curves);
 //! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster); a closure becomes one with [`from_fn`].
-
 //!
 //! A path:
 //!

@@ -81,7 +81,7 @@ fn densities_of_any_points() {
             assert!(total == seen || density.peak() == 255, "{total} of {seen}");
         }
         let mut density = density.with_maps(&mut maps).expect("one map a pixel");
-        density.record_from(usize::MAX, Point2::new(b.x, a.y));
+        density.record_from(Point2::new(b.x, a.y), u8::MAX);
         for one_in in [0, 1, at[0], u32::MAX] {
             let full = density.quantile(one_in);
             part_of_a_row(&density.linear(full), at[0] % height, at[1], 3);
