@@ -66,7 +66,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// through the composite.
     ///
     /// Result: the value at some abscissa within `epsilon (x_N - x_0)` of `x` (at least `2^-40` of the domain). Error there: below [`Fif::error_bound`]
-    /// for degree 1. Cost: `D^2` products of 64 bits a level.
+    /// for degree 1. Cost: `D^2` products of 64 bits a level, at most 32,768 levels: where a map takes more than 0.9995 of the
+    /// domain, they may end at an interval wider than `epsilon`.
     pub fn at_by_composition(&self, x: Wide, epsilon: Real) -> Real {
         let epsilon = (epsilon.to_bits().max(0) as u64).saturating_mul(1 << 39).clamp(1 << 23, ONE);
         let mut u = self.unit(x);
