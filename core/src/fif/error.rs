@@ -24,7 +24,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// A bound on the error of [`Fif::at`] at the abscissa that it has evaluated: `2^-32 max|f| / (1 - max|alpha|)` for scalings rounded to 31 bits, and
     /// `2^-25` for the result's rounding, with all smaller terms and what a walk of 32,768 maps leaves out, rounded up.
     ///
-    /// That abscissa is `x` on a dyadic partition of a domain as wide as a power of two, elsewhere one within `2^-45` of the domain from `x`:
+    /// That abscissa is `x` on a dyadic partition of a domain as wide as a power of two, elsewhere one within `2^-40` of the domain from `x`:
     /// for the value at `x` there is [`Fif::error_bound_at_x`].
     pub fn error_bound(&self) -> Real {
         let steepest = self.steepest();

@@ -18,7 +18,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.
     ///
     /// Domain: abscissae outside count as the nearer end. Error: at most [`Fif::error_bound_at_x`]; at most
-    /// [`Fif::error_bound`] on a dyadic partition, elsewhere at an abscissa no further than `2^-45` of the domain from `x` (tests/laws.rs).
+    /// [`Fif::error_bound`] on a dyadic partition, elsewhere at an abscissa no further than `2^-40` of the domain from `x` (tests/laws.rs).
     /// Cost: some 180 Cortex-M4 instructions a level; at most 63 levels for two equal maps, as many as it takes until the
     /// product of the widths is below `2^-63` or that of the scalings below `2^-40` elsewhere, and
     /// never more than 32,768;
