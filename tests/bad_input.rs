@@ -147,15 +147,9 @@ fn a_surface_lies_inside_64() {
         HeightField::new(&high, &high),
         Err(Error::OutOfRange { what: "height", index: None, value, .. }) if value >= 100
     ));
-    assert_eq!(
-        text(HeightField::new(&far, &far)),
-        "domain along x is -70, it must lie between -64 and 64"
-    );
+    assert_eq!(text(HeightField::new(&far, &far)), "domain along x is -70, it must lie between -64 and 64");
     // 128 is wider than the format of a width
-    assert_eq!(
-        text(HeightField::new(&far, &whole)),
-        "domain along x is -70, it must lie between -64 and 64"
-    );
+    assert_eq!(text(HeightField::new(&far, &whole)), "domain along x is -70, it must lie between -64 and 64");
     assert_eq!(
         text(HeightField::new(&whole, &whole)),
         "domain along x is 64, it must lie between -64 and 64"

@@ -364,7 +364,6 @@ fn a_mirror_picture_takes_at_most_24_kib() {
 #[test]
 fn a_surface_that_does_not_fit_its_memory_or_its_format_is_refused() {
     let fixed = example("integral of g").fixed();
-    let mut memory = vec![Cell::ZERO; Pyramid::cells(2, 6)];
     let short = Pyramid::new(&fixed, 6, &mut [Cell::ZERO; 126]).unwrap_err();
     assert_eq!(short.to_string(), "the buffer has 126 elements, 127 are needed");
     let years = example("years").fixed();

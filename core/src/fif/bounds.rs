@@ -168,7 +168,9 @@ mod tests {
             let (min, max) = (-(i * i * 977 % (1 << 23)), i * 7919 % (1 << 23));
             let (min, max) = if i % 3 == 0 { (-max, -min) } else { (min, max) };
             let (min, max) = (min.min(max), min.max(max));
-            for (constant, power) in [(0, 0), (i << 39, -(i << 40)), (i * 0x1234_5678_9abc, 1 - i), (-i << 39, 1 << 39)] {
+            for (constant, power) in
+                [(0, 0), (i << 39, -(i << 40)), (i * 0x1234_5678_9abc, 1 - i), (-i << 39, 1 << 39)]
+            {
                 let image = image(scaling, constant, power);
                 let scaled = [min, max].map(|y| i128::from(y) * i128::from(image.scaling));
                 let ends = [constant, constant + power].map(|q| i128::from(q) << 24);
@@ -203,7 +205,8 @@ mod tests {
         for (width, scaling) in [(0.5, 0.9), (0.9, 0.5), (0.99, 0.99), (0.3, 0.999)] {
             let bits = |v: f64| (v * ONE as f64) as u64;
             let levels = f64::from(levels(bits(width), bits(scaling)));
-            let settled = |levels: f64| levels * -f64::log2(width) >= 63.0 || levels * -f64::log2(scaling) >= 40.0;
+            let settled =
+                |levels: f64| levels * -f64::log2(width) >= 63.0 || levels * -f64::log2(scaling) >= 40.0;
             assert!(settled(levels) && levels * (1.0 - f64::max(width, scaling)) < 46.0, "{width} {scaling}");
         }
         assert_eq!(levels(ONE - 1, ONE - 1), LEVELS);

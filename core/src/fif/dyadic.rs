@@ -186,8 +186,10 @@ mod tests {
     #[test]
     fn the_digits_a_step_do_not_change_the_function() {
         let knots = [(0, 1), (1, 3), (2, -2)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
-        let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.75), Scaling::from_num(-0.5)]).unwrap();
-        let (one, three, four) = (f.dyadic::<2>().unwrap(), f.dyadic::<8>().unwrap(), f.dyadic::<16>().unwrap());
+        let f =
+            Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.75), Scaling::from_num(-0.5)]).unwrap();
+        let (one, three, four) =
+            (f.dyadic::<2>().unwrap(), f.dyadic::<8>().unwrap(), f.dyadic::<16>().unwrap());
         assert_eq!([one.bits.get(), three.bits.get(), four.bits.get()], [1, 3, 4]);
         for i in 0..2000_u32 {
             let u = i.wrapping_mul(0x9e37_79b9) >> (i % 32) << (i % 32);

@@ -115,7 +115,8 @@ fn power(halvings: u32, k: u32) -> (u32, u32) {
     const LN_2: u64 = 0xb172_17f7;
     let product = u64::from(halvings) * u64::from(k);
     let exponential = |halvings: u64, up: u64| {
-        let part = ((halvings % u64::from(HALVING)) * (LN_2 + up)).wrapping_add(up * u64::from(u32::MAX)) >> 32;
+        let part =
+            ((halvings % u64::from(HALVING)) * (LN_2 + up)).wrapping_add(up * u64::from(u32::MAX)) >> 32;
         (exp_minus(Real::from_bits(part as i32)).to_bits().unsigned_abs(), (halvings >> 24) as u32)
     };
     let (low, shift) = exponential(product.div_ceil(64), 1);
@@ -137,7 +138,8 @@ mod tests {
     use crate::num::{Scaling, Wide};
 
     fn tent(height: i32, scaling: Scaling) -> Fif<2, 1> {
-        let knots = [(0, 0), (1, height), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let knots =
+            [(0, 0), (1, height), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
         Fif::interpolating(&knots, &[scaling; 2]).unwrap()
     }
 
@@ -170,9 +172,12 @@ mod tests {
 
     #[test]
     fn powers_are_bounded_from_both_sides() {
-        for halvings in [0, 1, 12_345, HALVING / 3, HALVING, 2 * HALVING + 7, 11 * HALVING, 29 * HALVING + 999] {
+        for halvings in
+            [0, 1, 12_345, HALVING / 3, HALVING, 2 * HALVING + 7, 11 * HALVING, 29 * HALVING + 999]
+        {
             for k in [1, 17, 32, 63, 64] {
-                let exact = (-f64::from(halvings) * f64::from(k) / f64::from(64 * HALVING)).exp2() * 2_f64.powi(30);
+                let exact =
+                    (-f64::from(halvings) * f64::from(k) / f64::from(64 * HALVING)).exp2() * 2_f64.powi(30);
                 let (below, above) = power(halvings, k);
                 assert!(f64::from(below) <= exact && exact <= f64::from(above), "{halvings} {k}");
                 assert!(above - below < 160, "{halvings} {k}: {below} {above}");
@@ -213,7 +218,8 @@ mod tests {
         let dyadic = tent(1, Scaling::from_num(0.9));
         assert_eq!(dyadic.error_bound_at_x(), dyadic.error_bound());
         // thirds of the same, and the same over a domain that is three wide
-        let knots = [(0, 0), (1, 1), (2, 1), (3, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let knots =
+            [(0, 0), (1, 1), (2, 1), (3, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
         let thirds = Fif::<3, 1>::interpolating(&knots, &[Scaling::from_num(0.9); 3]).unwrap();
         assert!(thirds.error_bound_at_x() > thirds.error_bound() * 1000);
         let wide = [(0, 0), (3, 2), (6, 0)].map(|(x, y)| Knot::new(Wide::from_num(x) / 2, Wide::from_num(y)));

@@ -105,7 +105,11 @@ mod tests {
                 for inner in [1, outer / 2, outer - 1] {
                     let Some(f) = two(inner, outer, [scaling, -scaling]) else { continue };
                     (longest, steepest) = (f.levels.max(longest), k);
-                    assert!(f.levels >= 28 && f.levels <= LEVELS, "{scaling} {inner} / {outer}: {}", f.levels);
+                    assert!(
+                        f.levels >= 28 && f.levels <= LEVELS,
+                        "{scaling} {inner} / {outer}: {}",
+                        f.levels
+                    );
                     let (low, high) = f.range();
                     for x in [inner - 1, inner + 1, outer - 1, outer / 3] {
                         let y = f.at(Wide::from_bits(x));

@@ -373,7 +373,8 @@ mod tests {
             let y = (y & i32::MAX) >> (i & 1);
             for sign in [1, -1] {
                 let (a, b) = (sign * y, sign * (y / 3));
-                let parent = Cell { min: Real::from_bits(a.min(b)), max: Real::from_bits(a.max(b)), ..Cell::ZERO };
+                let parent =
+                    Cell { min: Real::from_bits(a.min(b)), max: Real::from_bits(a.max(b)), ..Cell::ZERO };
                 for (constant, power) in [(0, 0), (1 << 31, -(1 << 31)), (i64::from(i) << 31, 0), (-1, 2)] {
                     let map = map(scaling, constant, power);
                     let (low, high) = range(&map, &map.q, &parent);
@@ -393,8 +394,10 @@ mod tests {
     /// The range of a parent that becomes the hull of its parts, and the places of cells.
     #[test]
     fn parents_become_the_hulls_of_their_parts() {
-        let cell = |min: i32, max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
-        let mut cells = [cell(-9, 9), cell(-8, 3), cell(0, 7), cell(-5, 2), cell(-7, 1), cell(1, 6), cell(2, 9)];
+        let cell =
+            |min: i32, max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
+        let mut cells =
+            [cell(-9, 9), cell(-8, 3), cell(0, 7), cell(-5, 2), cell(-7, 1), cell(1, 6), cell(2, 9)];
         tighten(&mut cells, 2, 2);
         assert_eq!(cells[..3], [cell(-7, 7), cell(-7, 2), cell(1, 7)]);
         assert_eq!(cells[3..], [cell(-5, 2), cell(-7, 1), cell(1, 6), cell(2, 9)]);
@@ -403,7 +406,10 @@ mod tests {
     #[test]
     fn levels_lie_one_behind_the_other() {
         assert_eq!([0, 1, 2, 3].map(|level| level_at(3, level)), [(0, 1), (1, 3), (4, 9), (13, 27)]);
-        assert_eq!((Pyramid::cells(3, 2), Pyramid::cells(1, 5), Pyramid::cells(2, 16)), (13, 6, (1 << 17) - 1));
+        assert_eq!(
+            (Pyramid::cells(3, 2), Pyramid::cells(1, 5), Pyramid::cells(2, 16)),
+            (13, 6, (1 << 17) - 1)
+        );
         assert_eq!(Pyramid::cells(usize::MAX, 16), usize::MAX);
     }
 }

@@ -64,7 +64,8 @@ mod tests {
     fn cells() -> impl Iterator<Item = Cell> + Clone {
         let ends = [-(3 << 24) - 1, -(1 << 24), -12_345_677, -1, 0, 1, 4_097, (1 << 24) - 1, (2 << 24) + 3];
         ends.into_iter().enumerate().flat_map(move |(i, min)| {
-            let cell = move |max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
+            let cell =
+                move |max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
             ends.into_iter().skip(i).map(cell)
         })
     }
@@ -83,7 +84,10 @@ mod tests {
             for g in cells() {
                 let (low, high) = range(&f, &g);
                 let (exact_low, exact_high) = exact(&f, &g);
-                assert!(i64::from(low) << 24 <= exact_low && exact_high <= i64::from(high) << 24, "{f:?} {g:?}");
+                assert!(
+                    i64::from(low) << 24 <= exact_low && exact_high <= i64::from(high) << 24,
+                    "{f:?} {g:?}"
+                );
                 assert!(exact_low - (i64::from(low) << 24) < 1 << 24);
                 assert!((i64::from(high) << 24) - exact_high <= 1 << 24);
                 between += usize::from(exact_high & 0xff_ffff != 0);

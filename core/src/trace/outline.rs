@@ -150,7 +150,8 @@ mod tests {
                 let row = f64::from(y) + 0.5;
                 for x in 0..COLS {
                     let column = f64::from(x) + 0.5;
-                    let near = corners.iter().any(|c| (c.0 - column).abs() <= 2.0 && (c.1 - row).abs() <= 2.0);
+                    let near =
+                        corners.iter().any(|c| (c.0 - column).abs() <= 2.0 && (c.1 - row).abs() <= 2.0);
                     assert!(!near || columns.contains(&x), "{x} {y} of {i}: {columns:?} {corners:?}");
                     inside += usize::from(near);
                     if columns.contains(&x) {
@@ -159,7 +160,8 @@ mod tests {
                     }
                     // each margin decides somewhere
                     if near {
-                        let sides = [left - column > 1.0, column - right > 1.0, top - row > 1.0, row - bottom > 1.0];
+                        let sides =
+                            [left - column > 1.0, column - right > 1.0, top - row > 1.0, row - bottom > 1.0];
                         for (count, side) in tight.iter_mut().zip(sides) {
                             *count += usize::from(side);
                         }

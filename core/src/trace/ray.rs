@@ -151,7 +151,10 @@ mod tests {
                     let exact = (i128::from(plane) - i128::from(origin)) * (1 << 28) / i128::from(direction);
                     let got = i128::from(Axis::new(origin, direction).crossing(plane));
                     if exact.abs() < (1 << 31) - 64 {
-                        assert!((got - exact).abs() <= 2 + (exact.abs() >> 26), "{origin} {plane} {direction}");
+                        assert!(
+                            (got - exact).abs() <= 2 + (exact.abs() >> 26),
+                            "{origin} {plane} {direction}"
+                        );
                         close += 1;
                     } else if exact.abs() > (1 << 31) + 64 {
                         let limit = if exact < 0 { i32::MIN } else { i32::MAX };
@@ -195,6 +198,9 @@ mod tests {
         let far = Vec3::new(Real::MAX, Real::MIN, Real::ONE);
         let ray = Ray::new(far, far);
         assert_eq!(ray.origin, [64 << 24, 1 - (64 << 24), 1 << 24]);
-        assert_eq!(ray.direction, [(4 << 24) * 16 - if 4 << 28 == 1 << 30 { 0 } else { 1 }, -(1 << 30), 1 << 28]);
+        assert_eq!(
+            ray.direction,
+            [(4 << 24) * 16 - if 4 << 28 == 1 << 30 { 0 } else { 1 }, -(1 << 30), 1 << 28]
+        );
     }
 }

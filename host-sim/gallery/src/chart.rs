@@ -139,7 +139,8 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
             let composite = self.fif.composite_at(x, cell, LONGEST);
             let (left, right) = composite.interval();
             // an address too long to be followed: intervals hardly narrower than the domain
-            let extremes = self.extremes.map(|p| if right - left <= cell { composite.image(p) } else { point });
+            let extremes =
+                self.extremes.map(|p| if right - left <= cell { composite.image(p) } else { point });
             let first = if i == 0 { Step::MoveTo(point) } else { Step::LineTo(point) };
             [first, Step::LineTo(extremes[0]), Step::LineTo(extremes[1])]
         })
