@@ -17,7 +17,7 @@ use crate::num::{FRACTION, ONE, Real, exp_minus, log2, mul_high_u, ratio};
 
 /// One halving, as logarithms are written.
 const HALVING: u32 = 1 << 24;
-/// An exponential is known so well: `2^-27`, and a unit.
+/// An exponential is known at least so well, 30 fractional bits.
 const EXPONENTIAL: u32 = 9;
 
 impl<const N: usize, const D: usize> Fif<N, D> {
@@ -105,8 +105,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 
 /// At most so many halvings lead from 1 to a width with 63 fractional bits, 24 fractional bits.
 fn halvings_to(width: u64) -> u32 {
-    // a width is off by less than a unit, and none is below half of one
-    if width < 2 { 64 * HALVING } else { 63 * HALVING - log2(width - 1) }
+    // a width is off by less than a unit, and none is below half of one; a logarithm by less than one of its own
+    if width < 2 { 64 * HALVING } else { 63 * HALVING + 1 - log2(width - 1) }
 }
 
 /// `2^(-halvings k / 64)` from below and from above, 30 fractional bits.

@@ -73,7 +73,7 @@ impl Reciprocal {
         let d = d.max(1);
         let shift = d.leading_zeros();
         // 2^63 / m, m = d 2^shift / 2^63 in [1, 2): in (2^62, 2^63]
-        // a logarithm is low by less than two units
+        // a logarithm is off by less than a unit
         let halvings = (63_u32 << 24).saturating_sub(log2(d)).saturating_sub(2);
         Self { mantissa: ratio(1 << 63, 63, d << shift), shift, halvings }
     }
