@@ -217,8 +217,8 @@ fn exact(knots: &[(Wide, Wide)], scaling: &[Scaling], x: Wide) -> f64 {
         let end = |y: Wide, outer: Wide| (whole(y) << 31) - &alpha * whole(outer);
         let t = (&place >> (PLACE - VALUE)) / &width;
         let (left, right) = (end(knots[j].1, first.1), end(knots[j + 1].1, last.1));
-        sum += (&left * ((BigInt::from(1) << VALUE) - &t) + right * t) * &product >> VALUE;
-        product = product * alpha >> 31;
+        sum += ((&left * ((BigInt::from(1) << VALUE) - &t) + right * t) * &product) >> VALUE;
+        product = (product * alpha) >> 31;
         levels += 1;
         assert!(levels < 60_000 && lost < (PLACE - 200) as f64, "{levels} {lost}");
     }
@@ -260,11 +260,9 @@ fn a_long_address_gives_the_exact_value() {
     let knots = [(0.0, 0.0), (10.0, 0.1), (10.001, 0.0)].map(|(x, y)| (Wide::from_num(x), Wide::from_num(y)));
     let scaling = [nearest(0.999), nearest(0.5)];
     let f = Fif::<2, 1>::interpolating(&knots.map(|(x, y)| Knot::new(x, y)), &scaling).unwrap();
-    for place in [0.9999] {
-        let x = Wide::from_num(place);
-        let error = (f.at(x).to_num::<f64>() - exact(&knots, &scaling, x)).abs();
-        assert!(error <= f.error_bound_at_x().to_num::<f64>() && error < 1e-3, "{place}: {error:e}");
-    }
+    let x = Wide::from_num(0.9999);
+    let error = (f.at(x).to_num::<f64>() - exact(&knots, &scaling, x)).abs();
+    assert!(error <= f.error_bound_at_x().to_num::<f64>() && error < 1e-3, "{error:e}");
 }
 
 /// Elsewhere than on dyadic partitions the value is within the bound of the exact one at an abscissa no further than 2^-40.
