@@ -31,7 +31,7 @@ impl Vec3<Real> {
         )
     }
 
-    /// The unit vector from here to `other`, however far; none if they are one point. Error: below `2^-27` in each component.
+    /// The unit vector from here to `other`, however far; none if they are one point. As exact as [`Vec3::normalised`].
     pub fn towards(self, other: Self) -> Option<Vec3<Unit>> {
         let differences = [(self.x, other.x), (self.y, other.y), (self.z, other.z)]
             .map(|(a, b)| i64::from(b.to_bits()) - i64::from(a.to_bits()));
