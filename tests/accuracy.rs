@@ -431,7 +431,7 @@ fn hits() -> Row {
     let fixed = e.fixed();
     let mut memory = vec![Cell::ZERO; Pyramid::cells(2, 7)];
     let pyramid = Pyramid::new(&fixed, 7, &mut memory).expect("a pyramid");
-    let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid).expect("a surface");
+    let surface = HeightField::new(&pyramid, &pyramid).expect("a surface");
     let bounds = reference::Bounds::new(&e.exact(), 7);
     let mut w = words(6);
     let mut number = move |bits: u32| Real::from_bits((w.next().unwrap_or(0) >> (64 - bits)) as i32);

@@ -450,7 +450,7 @@ fn pictures_from_any_camera() {
         let (mut first, mut second) = (vec![Cell::ZERO; 1600], vec![Cell::ZERO; 1600]);
         let px = Pyramid::new(&x, levels, &mut first).expect("room for a pyramid");
         let py = Pyramid::new(&y, levels, &mut second).expect("room for a pyramid");
-        let Ok(surface) = HeightField::<'_, 4>::new(&px, &py) else { return false };
+        let Ok(surface) = HeightField::new(&px, &py) else { return false };
         // rays in any direction, wherever they begin
         let mut statistics = Statistics::default();
         for footprint in [Unit::ZERO, Unit::MIN, Unit::MAX, Unit::from_bits(1 << 22)] {

@@ -118,7 +118,9 @@ pub(crate) struct Dump {
   mandelbrot, julia    re,im,dwell,reference for every pixel of --size; no reference for a deep zoom
 
 Fixed-point numbers are printed exactly, those of the reference with the digits that give the same f64 back.
-An abscissa is a multiple of 2^-48 and an f64.")]
+An abscissa is a multiple of 2^-48 and an f64. The reference of a function passes through the knots that the format has,
+and its error is that of the value at x: where the partition is not dyadic, a rough function may differ by more than the
+`error_bound` of `accuracy`, which then holds for an abscissa within 2^-40 of the domain from x.")]
 pub(crate) struct Sample {
     /// Name of a built-in scene, or path of a TOML file
     #[arg(value_name = "SCENE")]

@@ -170,3 +170,25 @@ fn the_list_names_every_command_and_the_table_has_its_columns() {
         assert!(list.contains(word), "{word}");
     }
 }
+
+/// Knots whose decimals no binary format has: the reference passes through what the kernel was given.
+#[test]
+fn knots_that_are_no_binary_fractions_are_sampled_from_end_to_end() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("rough.toml");
+    for (from, middle, to) in
+        [("0.1", "0.6", "1.1"), ("0", "0.3", "1.1"), ("-2.7", "0.1", "1.3"), ("1700.1", "1800.7", "2008.3")]
+    {
+        let knots = format!("[[{from}, 0.3], [{middle}, 1.7], [{to}, -0.9]]");
+        std::fs::write(
+            &file,
+            format!("kind = \"fif-curve\"\nknots = {knots}\nvertical_scaling = [0.85, -0.9]\n"),
+        )
+        .unwrap();
+        let (header, rows) = sample(&[file.to_str().unwrap(), "--points", "101"]);
+        assert_eq!((header.as_str(), rows.len()), ("x,fixed,reference,error", 101));
+        for row in [&rows[0], &rows[100]] {
+            assert!(row[3].abs() < 1e-7, "{knots}: {row:?}");
+        }
+    }
+}

@@ -6,6 +6,7 @@
 use super::Fif;
 use super::function::Map;
 use crate::num::{FRACTION, ONE, Polynomial, Real, Scaling, Wide, mul_high_u, real_from, twice_high};
+use crate::picture::Point2;
 
 /// A composition of maps: `(u, y) -> (start + width u, scaling y + q(u))` in the unit abscissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +42,14 @@ impl<const D: usize> Composite<D> {
         twice_high(y, self.scaling).wrapping_add(self.q.at(u))
     }
 
+    /// The image of a point of the graph (unit abscissa, value): another point of the graph, truncated and rounded to the format.
+    pub fn image(&self, point: Point2) -> Point2 {
+        let u = (point.x.to_bits().clamp(0, 1 << 24) as u64) << 39;
+        let x = self.start.wrapping_add(if u == ONE { self.width } else { mul_high_u(self.width, u << 1) });
+        let y = self.value(u, i64::from(point.y.to_bits()) << (FRACTION - 24));
+        Point2::new(Real::from_bits((x >> 39) as i32), real_from(y, FRACTION))
+    }
+
     /// The interval that the whole domain is sent to, in the unit abscissa, truncated to the format (figure 2).
     pub fn interval(&self) -> (Real, Real) {
         let end = self.start.wrapping_add(self.width);
@@ -66,12 +75,25 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// through the composite.
     ///
     /// Result: the value at some abscissa within `epsilon (x_N - x_0)` of `x` (at least `2^-40` of the domain). Error there: below [`Fif::error_bound`]
-    /// for degree 1. Cost: `D^2` products of 64 bits a level.
+    /// for degree 1. Cost: `D^2` products of 64 bits a level, at most 32,768 levels: where a map takes more than 0.9995 of the
+    /// domain, they may end at an interval wider than `epsilon`.
     pub fn at_by_composition(&self, x: Wide, epsilon: Real) -> Real {
+        let composite = self.composite_at(x, epsilon, self.levels);
+        let median = self.maps.get(self.maps.len() / 2).map_or(0, |m| m.start);
+        let y = self
+            .maps
+            .get(self.maps.len() / 2)
+            .map_or(0, |m| m.q.at(0).wrapping_add(twice_high(self.first, m.scaling)));
+        real_from(composite.value(median, y), FRACTION)
+    }
+
+    /// The composition of the first maps of the address of `x`, as many as it takes until the horizontal factor is at most `epsilon` (at least
+    /// `2^-40`), and no more than `most`. Cost: as [`Fif::at_by_composition`].
+    pub fn composite_at(&self, x: Wide, epsilon: Real, most: u32) -> Composite<D> {
         let epsilon = (epsilon.to_bits().max(0) as u64).saturating_mul(1 << 39).clamp(1 << 23, ONE);
         let mut u = self.unit(x);
         let mut composite = Composite::IDENTITY;
-        for _ in 0..self.levels {
+        for _ in 0..self.levels.min(most) {
             let index = self.maps.partition_point(|m| m.start <= u).min(self.maps.len()).saturating_sub(1);
             let Some(map) = self.maps.get(index) else { break };
             u = map.per_width.quotient(u.saturating_sub(map.start)).min(ONE);
@@ -80,11 +102,6 @@ impl<const N: usize, const D: usize> Fif<N, D> {
                 break;
             }
         }
-        let median = self.maps.get(self.maps.len() / 2).map_or(0, |m| m.start);
-        let y = self
-            .maps
-            .get(self.maps.len() / 2)
-            .map_or(0, |m| m.q.at(0).wrapping_add(twice_high(self.first, m.scaling)));
-        real_from(composite.value(median, y), FRACTION)
+        composite
     }
 }

@@ -157,3 +157,61 @@ impl<const M: usize, const D: usize> Dyadic<M, D> {
         y
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fif::Knot;
+    use crate::num::{Scaling, Wide};
+
+    /// Constants between two words of 24 fractional bits: steps round to the nearest.
+    #[test]
+    fn a_step_rounds_to_the_nearest_word() {
+        for quarters in [0, 1, 3, 4, 5, 7] {
+            for sign in [1, -1] {
+                let y = Wide::from_bits(sign * ((100 << 48) + (quarters << 22)));
+                let knots = [0, 1, 2].map(|x| Knot::new(Wide::from_num(x), y));
+                let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap();
+                let fast = f.dyadic::<2>().unwrap();
+                assert_eq!(fast.fraction, 24);
+                let nearest = Real::from_bits((sign * ((100 << 24) + (quarters + 2) / 4)) as i32);
+                for u in [0.0, 0.5, 0.25, 0.75, 0.625] {
+                    assert_eq!(fast.at(Angle::from_num(u)), nearest, "{y} at {u}");
+                }
+            }
+        }
+    }
+
+    /// Digits that are taken one, two, three, four at a time make one function, addresses whose length is no multiple of them too.
+    #[test]
+    fn the_digits_a_step_do_not_change_the_function() {
+        let knots = [(0, 1), (1, 3), (2, -2)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let f =
+            Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.75), Scaling::from_num(-0.5)]).unwrap();
+        let (one, three, four) =
+            (f.dyadic::<2>().unwrap(), f.dyadic::<8>().unwrap(), f.dyadic::<16>().unwrap());
+        assert_eq!([one.bits.get(), three.bits.get(), four.bits.get()], [1, 3, 4]);
+        for i in 0..2000_u32 {
+            let u = i.wrapping_mul(0x9e37_79b9) >> (i % 32) << (i % 32);
+            let x = Wide::from_bits(i64::from(u) << 17);
+            let exact = f.at_wide(x).to_num::<f64>();
+            for (got, bound) in [
+                (one.at(Angle::from_bits(u)), one.error_bound()),
+                (three.at(Angle::from_bits(u)), three.error_bound()),
+                (four.at(Angle::from_bits(u)), four.error_bound()),
+            ] {
+                assert!((got.to_num::<f64>() - exact).abs() <= bound.to_num::<f64>(), "{u:#x}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_equal_intervals_with_room_are_compiled() {
+        let through = |xs: [i32; 3]| {
+            let knots = xs.map(|x| Knot::new(Wide::from_num(x), Wide::ZERO));
+            Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap()
+        };
+        assert!(through([0, 1, 2]).dyadic::<2>().is_some() && through([0, 1, 2]).dyadic::<1>().is_none());
+        assert!(through([0, 1, 3]).dyadic::<2>().is_none());
+    }
+}

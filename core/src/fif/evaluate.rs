@@ -2,56 +2,48 @@
 //!
 //! `f(x) = q_j1(u_1) + alpha_j1 q_j2(u_2) + alpha_j1 alpha_j2 q_j3(u_3) + ...`, `u_k` the `k`-th pre-image of `x`. The walk ends exactly where a pre-image is
 //! an end of the domain (after finitely many maps for a dyadic abscissa on a dyadic partition), or when the product of the horizontal factors
-//! is below `2^-62` (then the value is exact at an abscissa no further away than that), or when that of the scalings is below `2^-40`.
+//! is below `2^-63` (then the value is exact at an abscissa no further away than that), or when that of the scalings is below `2^-40`,
+//! or after [`super::bounds::LEVELS`] maps. How far the value can then be from that at `x`: `error.rs`.
 //!
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
 use super::Fif;
 use super::function::Map;
-use crate::num::{FRACTION, ONE, Real, Wide, mul_high, mul_high_u, ratio, real_from};
+use crate::num::{FRACTION, ONE, Real, Wide, mul_high, ratio, real_from};
+
+/// A product of horizontal factors counts as 0 when 1 has been halved so often (24 fractional bits).
+const VANISHED: u32 = 63 << 24;
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.
     ///
-    /// Domain: abscissae outside count as the nearer end. Error: at most [`Fif::error_bound`] on a dyadic partition; elsewhere at most that at an
-    /// abscissa no further than `2^-40` from `x` (tests/accuracy.rs). Cost: some 180 Cortex-M4 instructions a level, at most 63 levels for
-    /// two equal maps; [`super::Dyadic`] takes 13 a level where the partition is dyadic.
+    /// Domain: abscissae outside count as the nearer end. Error: at most [`Fif::error_bound_at_x`]; at most
+    /// [`Fif::error_bound`] on a dyadic partition, elsewhere at an abscissa no further than `2^-40` of the domain from `x` (tests/laws.rs).
+    /// Cost: some 180 Cortex-M4 instructions a level; at most 63 levels for two equal maps, as many as it takes until the
+    /// product of the widths is below `2^-63` or that of the scalings below `2^-40` elsewhere, and
+    /// never more than 32,768;
+    /// [`super::Dyadic`] takes 13 a level where the partition is dyadic.
     pub fn at(&self, x: Wide) -> Real {
         real_from(self.evaluate(self.unit(x)), FRACTION)
     }
 
     /// The value at `x` with 48 fractional bits, for values that are to be subtracted or multiplied.
     ///
-    /// Error: that of [`Fif::error_bound`] less the final rounding to [`Real`].
+    /// Error: that of [`Fif::at`] less the final rounding to [`Real`].
     pub fn at_wide(&self, x: Wide) -> Wide {
         super::function::wide(self.evaluate(self.unit(x)))
     }
 
-    /// A bound on the error of [`Fif::at`]: `2^-32 max|f| / (1 - max|alpha|)` for scalings rounded to 31 bits, and `2^-25` for the result's rounding,
-    /// with all smaller terms, rounded up.
-    pub fn error_bound(&self) -> Real {
-        let steepest = self.maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0);
-        let rest = ((ONE - steepest) >> 32).max(1);
-        let largest = self.range.0.unsigned_abs().max(self.range.1.unsigned_abs());
-        // with 55 fractional bits: scalings 2^-32 max|f|, and 2^-47 for products and coefficients a level
-        let per_level = (largest >> 32) + (1 << (FRACTION - 47));
-        let sum = ratio(per_level, 31, rest);
-        let total = sum.saturating_add(1 << (FRACTION - 25)).saturating_add(1 << (FRACTION - 30));
-        let bits = (total >> (FRACTION - 24)) + u64::from(total.trailing_zeros() < FRACTION - 24);
-        Real::from_bits(bits.min(i32::MAX as u64) as i32)
-    }
-
     /// The value at a unit abscissa with 63 fractional bits, with 55 fractional bits.
     pub(crate) fn evaluate(&self, unit: u64) -> i64 {
-        let unit = unit.min(ONE);
-        let mut u = unit;
+        let mut u = unit.min(ONE);
         let mut sum = 0_i64;
         let mut scaling = 1_i64 << 62; // product of the scalings, 62 fractional bits
-        let mut halvings = 0; // the product of the horizontal factors is at least 2^-halvings
+        let mut halvings = 0; // the product of the horizontal factors is at least 2^-halvings, 24 fractional bits
         // only the right end itself is 1: pre-images of what lies before it do too
         let levels = if u == ONE { 0 } else { self.levels };
-        for level in 0..levels {
-            if u == 0 || scaling.unsigned_abs() < 1 << 22 || halvings > 63 && self.vanishes(unit, level) {
+        for _ in 0..levels {
+            if u == 0 || scaling.unsigned_abs() < 1 << 22 || halvings > VANISHED {
                 break;
             }
             let Some(map) = self.map_at(u) else { break };
@@ -64,34 +56,98 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         sum.wrapping_add(mul_high(scaling, end) << 2)
     }
 
-    /// Whether the product of the first horizontal factors, with 63 fractional bits, is 0.
-    #[inline(never)]
-    fn vanishes(&self, mut u: u64, factors: u32) -> bool {
-        let mut width = ONE;
-        for _ in 0..factors {
-            let Some(map) = self.map_at(u) else { break };
-            u = map.per_width.quotient(u - map.start);
-            width = mul_high_u(width, map.width << 1);
-        }
-        width == 0
-    }
-
     /// The last map that starts at or before `u`.
     #[inline(always)]
     fn map_at(&self, u: u64) -> Option<&Map<D>> {
-        let mut index = self.starts.partition_point(|start| *start <= (u >> 32) as u32).checked_sub(1)?;
-        let mut map = self.maps.get(index)?;
-        // it begins within the 31 bits that were compared, but behind u
-        while map.start > u {
-            index = index.checked_sub(1)?;
-            map = self.maps.get(index)?;
-        }
-        Some(map)
+        let index = self.starts.partition_point(|start| *start <= (u >> 32) as u32);
+        let map = self.maps.get(index.checked_sub(1)?)?;
+        // it begins within the 31 bits that were compared, but perhaps behind u
+        if map.start <= u { Some(map) } else { self.map_before(index, u) }
+    }
+
+    /// The same among the first `count` maps, by all bits.
+    #[cold]
+    #[inline(never)]
+    fn map_before(&self, count: usize, u: u64) -> Option<&Map<D>> {
+        let maps = self.maps.get(..count)?;
+        maps.get(maps.partition_point(|map| map.start <= u).checked_sub(1)?)
     }
 
     /// The value at the place `numerator / denominator` of the domain, as a point's ordinate.
     pub(crate) fn at_fraction(&self, numerator: u32, denominator: u32) -> (u64, Real) {
         let u = ratio(u64::from(numerator), 63, u64::from(denominator)).min(ONE);
         (u, real_from(self.evaluate(u), FRACTION))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bounds::LEVELS;
+    use super::*;
+    use crate::fif::Knot;
+    use crate::num::Scaling;
+
+    /// Two maps that meet at `inner` of a domain `outer` wide, both in units of the last place.
+    fn two(inner: i64, outer: i64, scalings: [Scaling; 2]) -> Option<Fif<2, 1>> {
+        let knots = [(0, 0), (inner, 1 << 20), (outer, 0)];
+        let knots = knots.map(|(x, y)| Knot::new(Wide::from_bits(x), Wide::from_bits(y)));
+        Fif::interpolating(&knots, &scalings).ok()
+    }
+
+    #[test]
+    fn no_walk_takes_more_than_32768_maps() {
+        let ends = [2, 3, 1 << 20, 10 << 48, (32767 << 48) | 1];
+        let (mut longest, mut steepest) = (0, 0);
+        // scalings 1 - 2^-k, up to the largest that any function may have
+        for k in 0..=31 {
+            let scaling = Scaling::from_bits(i32::MAX - ((1_u32 << (31 - k)) - 1) as i32);
+            for outer in ends {
+                for inner in [1, outer / 2, outer - 1] {
+                    let Some(f) = two(inner, outer, [scaling, -scaling]) else { continue };
+                    (longest, steepest) = (f.levels.max(longest), k);
+                    assert!(
+                        f.levels >= 28 && f.levels <= LEVELS,
+                        "{scaling} {inner} / {outer}: {}",
+                        f.levels
+                    );
+                    let (low, high) = f.range();
+                    for x in [inner - 1, inner + 1, outer - 1, outer / 3] {
+                        let y = f.at(Wide::from_bits(x));
+                        assert!(low <= y && y <= high, "{scaling} {inner} / {outer}: {y} at {x}");
+                    }
+                }
+            }
+        }
+        assert_eq!((longest, LEVELS), (LEVELS, 32_768));
+        assert!(steepest >= 20, "{steepest}");
+    }
+
+    /// The ends of walks are where the exact product of the widths is below `2^-63`, a thousandth of the maps more or less.
+    #[test]
+    fn a_walk_ends_with_the_product_of_its_widths() {
+        let f = two(10 << 48, 10_001 << 40, [Scaling::from_num(0.999), Scaling::from_num(0.5)]).unwrap();
+        let mut halvings = 0_u32;
+        let mut maps = 0;
+        while halvings <= VANISHED {
+            halvings += f.maps[0].per_width.halvings();
+            maps += 1;
+        }
+        let exact = (63.0 / -(f.maps[0].width as f64 / ONE as f64).log2()).ceil();
+        assert!((f64::from(maps) - exact).abs() <= exact * 1e-3, "{maps} against {exact}");
+    }
+
+    /// Knots so close that 31 bits do not tell them apart: the right map all the same.
+    #[test]
+    fn a_crowd_of_knots_is_told_apart() {
+        let mut knots = std::vec::Vec::new();
+        for x in 0..60 {
+            knots.push(Knot::new(Wide::from_bits(x), Wide::from_num(x % 7)));
+        }
+        knots.push(Knot::new(Wide::ONE << 7, Wide::ZERO));
+        let f = Fif::<64, 1>::interpolating(&knots, &[Scaling::ZERO; 60]).unwrap();
+        for knot in &knots {
+            assert_eq!(f.at_wide(knot.x), knot.y, "{}", knot.x);
+        }
+        assert!(f.starts.iter().filter(|start| **start == 0).count() == 60);
     }
 }

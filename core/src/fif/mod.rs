@@ -14,6 +14,7 @@ mod calculus;
 mod chaos;
 mod compose;
 mod dyadic;
+mod error;
 mod evaluate;
 mod function;
 mod graph;

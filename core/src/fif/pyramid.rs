@@ -339,3 +339,79 @@ impl<const D: usize> Slopes<D> {
 fn saturated(bits: i64) -> Real {
     Real::from_bits(bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map(scaling: i32, constant: i64, power: i64) -> Map<1> {
+        Map {
+            scaling: i64::from(scaling) << 32,
+            q: Polynomial { constant, powers: [power] },
+            start: 0,
+            width: ONE,
+            per_width: crate::num::Reciprocal::of(ONE),
+        }
+    }
+
+    /// The exact range of `alpha B + q`, 87 fractional bits.
+    fn exact(map: &Map<1>, parent: &Cell) -> (i128, i128) {
+        let scaled = [parent.min, parent.max].map(|y| i128::from(y.to_bits()) * i128::from(map.scaling));
+        let ends = [map.q.constant, map.q.constant + map.q.powers[0]].map(|q| i128::from(q) << 32);
+        (scaled[0].min(scaled[1]) + ends[0].min(ends[1]), scaled[0].max(scaled[1]) + ends[0].max(ends[1]))
+    }
+
+    /// Against integers: outward, by less than two units, and where the exact end lies just above or below a number of the format.
+    #[test]
+    fn a_range_is_rounded_outward_by_less_than_two_units() {
+        let mut touching = 0;
+        for i in 1..4000_i32 {
+            let scaling = i.wrapping_mul(0x2545_f491) | 1;
+            // the inverse modulo 2^31 (Newton): scaling * y is one above a number of the format
+            let mut y = scaling;
+            for _ in 0..5 {
+                y = y.wrapping_mul(2_i32.wrapping_sub(scaling.wrapping_mul(y)));
+            }
+            let y = (y & i32::MAX) >> (i & 1);
+            for sign in [1, -1] {
+                let (a, b) = (sign * y, sign * (y / 3));
+                let parent =
+                    Cell { min: Real::from_bits(a.min(b)), max: Real::from_bits(a.max(b)), ..Cell::ZERO };
+                for (constant, power) in [(0, 0), (1 << 31, -(1 << 31)), (i64::from(i) << 31, 0), (-1, 2)] {
+                    let map = map(scaling, constant, power);
+                    let (low, high) = range(&map, &map.q, &parent);
+                    let [low, high] = [low, high].map(|end| i128::from(end.to_bits()) << 63);
+                    let (least, most) = exact(&map, &parent);
+                    if low > -(1 << 94) && high < (i128::from(i32::MAX)) << 63 {
+                        assert!(low <= least && most <= high, "{scaling} {parent:?} {constant} {power}");
+                        assert!(least - low < 2 << 63 && high - most < 2 << 63, "{scaling} {parent:?}");
+                        touching += u32::from(most & ((1 << 63) - 1) == 1 << 32);
+                    }
+                }
+            }
+        }
+        assert!(touching > 1000, "{touching}");
+    }
+
+    /// The range of a parent that becomes the hull of its parts, and the places of cells.
+    #[test]
+    fn parents_become_the_hulls_of_their_parts() {
+        let cell =
+            |min: i32, max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
+        let mut cells =
+            [cell(-9, 9), cell(-8, 3), cell(0, 7), cell(-5, 2), cell(-7, 1), cell(1, 6), cell(2, 9)];
+        tighten(&mut cells, 2, 2);
+        assert_eq!(cells[..3], [cell(-7, 7), cell(-7, 2), cell(1, 7)]);
+        assert_eq!(cells[3..], [cell(-5, 2), cell(-7, 1), cell(1, 6), cell(2, 9)]);
+    }
+
+    #[test]
+    fn levels_lie_one_behind_the_other() {
+        assert_eq!([0, 1, 2, 3].map(|level| level_at(3, level)), [(0, 1), (1, 3), (4, 9), (13, 27)]);
+        assert_eq!(
+            (Pyramid::cells(3, 2), Pyramid::cells(1, 5), Pyramid::cells(2, 16)),
+            (13, 6, (1 << 17) - 1)
+        );
+        assert_eq!(Pyramid::cells(usize::MAX, 16), usize::MAX);
+    }
+}

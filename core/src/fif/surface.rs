@@ -83,7 +83,7 @@ impl<'a, const N: usize, const D: usize, const M: usize, const E: usize> Surface
         Self { f, g }
     }
 
-    /// The height at `(x, y)`, saturated. Error: `|f| err(g) + |g| err(f)`, see [`Fif::error_bound`], and `2^-25`.
+    /// The height at `(x, y)`, saturated. Error: `|f| err(g) + |g| err(f)`, see [`Fif::error_bound_at_x`], and `2^-25`.
     pub fn height(&self, x: Wide, y: Wide) -> Real {
         product(self.f.value.evaluate(self.f.value.unit(x)), self.g.value.evaluate(self.g.value.unit(y)))
     }

@@ -39,6 +39,16 @@ impl Vec3<Real> {
         )
     }
 
+    /// The unit vector from here to `other`, however far; none if they are one point. As exact as [`Vec3::normalised`].
+    pub fn towards(self, other: Self) -> Option<Vec3<Unit>> {
+        let differences = [(self.x, other.x), (self.y, other.y), (self.z, other.z)]
+            .map(|(a, b)| i64::from(b.to_bits()) - i64::from(a.to_bits()));
+        // 33 bits: where they do not fit 32, halves have 30 bits of the greatest left
+        let far = differences.iter().any(|d| i32::try_from(*d).is_err());
+        let direction = differences.map(|d| (d >> u32::from(far)) as i32);
+        if direction == [0; 3] { None } else { Some(unit(direction)) }
+    }
+
     /// The unit vector in this direction, none for the zero vector. Error: below `2^-27` in each component
     /// (`a_unit_vector_is_within_two_to_the_minus_27`).
     #[inline]

@@ -55,3 +55,70 @@ pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
     }
     (low, high + 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ranges of every sign, whose products are no multiples of a unit.
+    fn cells() -> impl Iterator<Item = Cell> + Clone {
+        let ends = [-(3 << 24) - 1, -(1 << 24), -12_345_677, -1, 0, 1, 4_097, (1 << 24) - 1, (2 << 24) + 3];
+        ends.into_iter().enumerate().flat_map(move |(i, min)| {
+            let cell =
+                move |max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
+            ends.into_iter().skip(i).map(cell)
+        })
+    }
+
+    /// The exact ends with 48 fractional bits.
+    fn exact(f: &Cell, g: &Cell) -> (i64, i64) {
+        let [a, b, c, d] = [f.min, f.max, g.min, g.max].map(|end| i64::from(end.to_bits()));
+        let ends = [a * c, a * d, b * c, b * d];
+        (ends.into_iter().min().unwrap(), ends.into_iter().max().unwrap())
+    }
+
+    #[test]
+    fn a_range_holds_every_product_and_hardly_more() {
+        let mut between = 0;
+        for f in cells() {
+            for g in cells() {
+                let (low, high) = range(&f, &g);
+                let (exact_low, exact_high) = exact(&f, &g);
+                assert!(
+                    i64::from(low) << 24 <= exact_low && exact_high <= i64::from(high) << 24,
+                    "{f:?} {g:?}"
+                );
+                assert!(exact_low - (i64::from(low) << 24) < 1 << 24);
+                assert!((i64::from(high) << 24) - exact_high <= 1 << 24);
+                between += usize::from(exact_high & 0xff_ffff != 0);
+            }
+        }
+        assert!(between > 500, "{between}");
+    }
+
+    /// A ray meets a box exactly where its heights touch the range: just above, just below, on both ends.
+    #[test]
+    fn a_ray_meets_what_its_heights_touch() {
+        let (mut met, mut missed) = (0, 0);
+        for f in cells() {
+            for g in cells() {
+                let (low, high) = range(&f, &g);
+                for (z_in, z_out) in [
+                    (high, high + 9),
+                    (high + 1, high + 9),
+                    (low - 9, low),
+                    (low - 9, low - 1),
+                    (low - 2, high + 2),
+                    (low, low),
+                    (high, high),
+                ] {
+                    let expected = z_in.max(z_out) >= low && z_in.min(z_out) <= high;
+                    assert_eq!(meets_bits(&f, &g, z_in, z_out), expected, "{f:?} {g:?} {z_in} {z_out}");
+                    assert_eq!(meets_bits(&f, &g, z_out, z_in), expected, "{f:?} {g:?} {z_out} {z_in}");
+                    if expected { met += 1 } else { missed += 1 }
+                }
+            }
+        }
+        assert!(met > 1000 && missed > 1000);
+    }
+}

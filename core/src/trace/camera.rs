@@ -32,10 +32,8 @@ impl Camera {
             }
         }
         between("field of view", None, field_of_view.into(), Wide::ONE, Wide::from_num(120))?;
-        let forward = look_at
-            .minus(eye)
-            .normalised()
-            .ok_or(Error::Degenerate { what: "distance from eye to look_at" })?;
+        let forward =
+            eye.towards(look_at).ok_or(Error::Degenerate { what: "distance from eye to look_at" })?;
         let up = up.normalised().ok_or(Error::Degenerate { what: "up" })?;
         let side = forward.cross(up);
         // an `up` within 2^-10 of the view's direction leaves the frame undecided
@@ -86,5 +84,55 @@ impl Camera {
         );
         let up = Vec3::new(Real::ZERO, Real::ZERO, Real::ONE);
         Self::new(eye, Vec3::new(real(x)?, real(y)?, real(z)?), up, real(field_of_view)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(x: i32, y: i32, z: i32) -> Vec3 {
+        Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z))
+    }
+
+    /// Eyes and aims as far apart as they may be, along every axis and diagonal.
+    #[test]
+    fn a_camera_looks_at_what_it_is_told_however_far() {
+        let (mut far, mut tried) = (0, 0);
+        for [ex, ey, ez] in [[-60, 0, 0], [63, -63, 63], [0, 0, 0], [-63, 63, 5], [1, -63, -63]] {
+            for [lx, ly, lz] in [[120, 90, 0], [-128, 127, -128], [127, 127, 127], [0, -128, 1], [64, 0, 127]]
+            {
+                let camera =
+                    Camera::new(at(ex, ey, ez), at(lx, ly, lz), at(1, 2, 101), Real::from_num(30)).unwrap();
+                let exact = [lx - ex, ly - ey, lz - ez].map(f64::from);
+                let length = exact.iter().map(|c| c * c).sum::<f64>().sqrt();
+                let got = [camera.forward.x, camera.forward.y, camera.forward.z].map(|c| c.to_num::<f64>());
+                for (g, e) in got.iter().zip(exact) {
+                    assert!((g - e / length).abs() < 2_f64.powi(-27), "{got:?} against {exact:?}");
+                }
+                far += usize::from(exact.iter().any(|c| c.abs() >= 128.0));
+                tried += 1;
+            }
+        }
+        assert!(far >= 10 && tried == 25, "{far} of {tried}");
+    }
+
+    #[test]
+    fn the_frame_of_a_camera_is_orthonormal_and_its_tangent_that_of_half_the_view() {
+        for (look_at, degrees) in [(at(120, 90, 0), 1.0_f64), (at(3, -2, 1), 40.0), (at(-60, 1, 127), 120.0)]
+        {
+            let camera = Camera::new(at(-60, 0, 0), look_at, at(0, 0, 1), Real::from_num(degrees)).unwrap();
+            let (w, r, u) = (camera.forward, camera.right, camera.up);
+            for (a, b, product) in
+                [(w, w, 1.0), (r, r, 1.0), (u, u, 1.0), (w, r, 0.0), (w, u, 0.0), (r, u, 0.0)]
+            {
+                assert!((a.dot(b).to_num::<f64>() - product).abs() < 1e-7);
+            }
+            // upright: the horizon is level and up is not down
+            assert!(r.z.to_num::<f64>().abs() < 1e-7 && u.z > 0);
+            let exact = (degrees.to_radians() / 2.0).tan();
+            let error = (f64::from(camera.tangent) / 2_f64.powi(28) - exact).abs();
+            assert!(error < 2_f64.powi(-26), "{degrees}: {error:e}");
+        }
     }
 }

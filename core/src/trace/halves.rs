@@ -124,7 +124,7 @@ pub(super) struct Cone {
     shift: u32,
 }
 
-impl<const STACK: usize> HeightField<'_, STACK> {
+impl HeightField<'_> {
     pub(super) fn cone(&self, footprint: Footprint) -> Cone {
         let small = footprint.reaches(self.x.width.max(self.y.width)).max(0);
         // at most 31: a width has 31 bits, the reciprocal of a footprint 32
@@ -133,7 +133,7 @@ impl<const STACK: usize> HeightField<'_, STACK> {
     }
 }
 
-impl<const STACK: usize> HeightField<'_, STACK> {
+impl HeightField<'_> {
     #[inline(never)]
     pub(super) fn walk_halves(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf> {
         let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin, ray.direction);

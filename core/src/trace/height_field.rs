@@ -15,9 +15,9 @@ use crate::Error;
 use crate::fif::{Cell, Pyramid};
 use crate::num::{Real, Unit, Vec3, Wide};
 
-/// A height field `f(x) g(y)` as the pyramids of its factors, for a stack of at most `STACK` frames.
+/// A height field `f(x) g(y)` as the pyramids of its factors.
 #[derive(Debug, Clone, Copy)]
-pub struct HeightField<'a, const STACK: usize = 16> {
+pub struct HeightField<'a> {
     pub(super) x: Side<'a>,
     pub(super) y: Side<'a>,
     depth: u32,
@@ -114,21 +114,13 @@ impl<'a> Side<'a> {
     }
 }
 
-impl<'a, const STACK: usize> HeightField<'a, STACK> {
+impl<'a> HeightField<'a> {
     /// The height field over the domains of two pyramids, down to the depth of the shallower one.
     ///
     /// # Errors
-    /// [`Error::Capacity`] if the depth is above `STACK`: a walk stands at most once on each level above the leaves;
-    /// [`Error::OutOfRange`] if a domain leaves ±64.
+    /// [`Error::OutOfRange`] if a domain or the heights leave ±64.
     pub fn new(x: &Pyramid<'a>, y: &Pyramid<'a>) -> Result<Self, Error> {
         let depth = x.depth().min(y.depth());
-        if depth as usize > STACK {
-            return Err(Error::Capacity {
-                what: "frames on the stack",
-                needed: depth as usize,
-                capacity: STACK,
-            });
-        }
         let (f, g) = (x.root(), y.root());
         let largest = |c: Cell| i64::from(c.min.to_bits()).abs().max(i64::from(c.max.to_bits()).abs());
         let height = (largest(f) * largest(g)) >> 24;
@@ -151,7 +143,7 @@ impl<'a, const STACK: usize> HeightField<'a, STACK> {
         Ok(Self { x, y, depth, leaves, halved, heights: range(&f, &g) })
     }
 
-    /// The depth of the tree: no more than this many frames are on the stack.
+    /// The depth of the tree, at most [`Pyramid::MAX_DEPTH`]: no more than this many frames are on the stack of a walk.
     pub const fn depth(&self) -> u32 {
         self.depth
     }

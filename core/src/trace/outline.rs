@@ -100,3 +100,82 @@ fn scalar(v: &[i64; 3], axis: &Vec3<Unit>) -> i64 {
     let axis = [axis.x, axis.y, axis.z];
     v.iter().zip(axis).map(|(v, a)| (v * i64::from(a.to_bits())) >> 30).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Real;
+
+    const COLS: u32 = 97;
+    const ROWS: u32 = 61;
+
+    fn camera() -> Camera {
+        let at = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+        Camera::new(at(-9, -7, 6), at(1, 1, 0), at(0, 0, 1), Real::from_num(30)).unwrap()
+    }
+
+    /// The pixel coordinates of a point by the definition of a picture (CONTRIBUTING.md).
+    fn pixel(point: [f64; 3], camera: &Camera) -> (f64, f64) {
+        let eye = [camera.eye.x, camera.eye.y, camera.eye.z].map(|c| c.to_num::<f64>());
+        let along = |axis: Vec3<Unit>| {
+            let axis = [axis.x, axis.y, axis.z].map(|c| c.to_num::<f64>());
+            (0..3).map(|i| (point[i] - eye[i]) * axis[i]).sum::<f64>()
+        };
+        let k = f64::from(camera.tangent) / 2_f64.powi(28) * along(camera.forward);
+        let (half_cols, half_rows) = (f64::from(COLS) / 2.0, f64::from(ROWS) / 2.0);
+        (half_cols + along(camera.right) / k * half_rows, half_rows - along(camera.up) / k * half_rows)
+    }
+
+    /// All samples of a pixel lie within two pixels of its centre: each pixel whose samples may meet the box is inside, and none that is far off.
+    #[test]
+    fn an_outline_holds_what_samples_may_meet_and_little_more() {
+        let camera = camera();
+        let (mut tight, mut inside) = ([0; 4], 0);
+        for i in 0..60 {
+            let low = [i * 37 % 13 - 5, i * 29 % 11 - 4, i * 17 % 5 - 2].map(|c| (c << 22) + i * 40_961);
+            let size = [1 << 14, 1 << (14 + i % 9), 1 << (14 + i % 8)];
+            let extent = [0, 1, 2].map(|k| [low[k], low[k] + size[k]]);
+            let outline = Outline::new(extent, &camera, COLS, ROWS);
+            let corners: std::vec::Vec<_> = (0..8)
+                .map(|c| pixel([0, 1, 2].map(|k| f64::from(extent[k][c >> k & 1]) / 2_f64.powi(24)), &camera))
+                .collect();
+            let hull = |pick: fn(&(f64, f64)) -> f64| {
+                let all = corners.iter().map(pick);
+                (all.clone().fold(f64::MAX, f64::min), all.fold(f64::MIN, f64::max))
+            };
+            let (left, right) = hull(|c| c.0);
+            let (top, bottom) = hull(|c| c.1);
+            for y in 0..ROWS {
+                let columns = outline.columns(y, COLS);
+                let row = f64::from(y) + 0.5;
+                for x in 0..COLS {
+                    let column = f64::from(x) + 0.5;
+                    let near =
+                        corners.iter().any(|c| (c.0 - column).abs() <= 2.0 && (c.1 - row).abs() <= 2.0);
+                    assert!(!near || columns.contains(&x), "{x} {y} of {i}: {columns:?} {corners:?}");
+                    inside += usize::from(near);
+                    if columns.contains(&x) {
+                        assert!(column > left - 4.0 && column < right + 4.0, "{x} {y} of {i}");
+                        assert!(row > top - 4.0 && row < bottom + 4.0, "{x} {y} of {i}");
+                    }
+                    // each margin decides somewhere
+                    if near {
+                        let sides =
+                            [left - column > 1.0, column - right > 1.0, top - row > 1.0, row - bottom > 1.0];
+                        for (count, side) in tight.iter_mut().zip(sides) {
+                            *count += usize::from(side);
+                        }
+                    }
+                }
+            }
+        }
+        assert!(inside > 1000 && tight.iter().all(|n| *n > 100), "{inside} {tight:?}");
+    }
+
+    #[test]
+    fn a_box_behind_the_eye_is_everywhere() {
+        let extent = [[-20 << 24, 0], [-20 << 24, 0], [0, 12 << 24]];
+        let outline = Outline::new(extent, &camera(), COLS, ROWS);
+        assert!((0..ROWS).all(|y| outline.columns(y, COLS) == (0..COLS)));
+    }
+}

@@ -10,6 +10,7 @@ use super::boxes::meets_bits;
 use super::height_field::{HeightField, Leaf, Side};
 use super::ray::{Axis, Footprint, Ray};
 use super::statistics::Count;
+use crate::fif::Pyramid;
 
 /// The extent of a node along one axis. Nodes are numbered level by level: the parts of node `q` are `n q + 1` to `n q + n`.
 #[derive(Debug, Clone, Copy)]
@@ -100,7 +101,10 @@ fn step(axis: &Axis) -> u32 {
     if axis.direction > 0 { 1 } else { u32::MAX }
 }
 
-impl<const STACK: usize> HeightField<'_, STACK> {
+/// A walk stands at most once on each level above the leaves.
+const FRAMES: usize = Pyramid::MAX_DEPTH as usize;
+
+impl HeightField<'_> {
     /// The first leaf that the ray meets.
     #[inline(never)]
     pub(super) fn walk_parts(&self, ray: &Ray, footprint: Footprint, count: &mut impl Count) -> Option<Leaf> {
@@ -120,7 +124,7 @@ impl<const STACK: usize> HeightField<'_, STACK> {
         if self.leaves == 0 || is_small(&x, &y, t_in, footprint) {
             return Some(Leaf { nodes: (0, 0), span: (t_in, t_out) });
         }
-        let mut stack = Vec::<Frame, STACK>::new();
+        let mut stack = Vec::<Frame, FRAMES>::new();
         let mut frame = self.enter(&axes, (x, y), t_in, az.at(t_in), t_out);
         loop {
             // the part where the walk stands, up to the next plane
@@ -138,7 +142,7 @@ impl<const STACK: usize> HeightField<'_, STACK> {
                 }
                 if !finished {
                     self.advance(&axes, &mut frame, t_next, z_next);
-                    // never full: at most one frame for each level above the leaves, and depth <= STACK
+                    // never full: at most one frame for each level above the leaves, and depth <= FRAMES
                     let _ = stack.push(frame);
                 }
                 count.depth(stack.len() as u32 + 1);

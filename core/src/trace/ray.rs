@@ -132,3 +132,72 @@ impl Ray {
         [Axis::new(ox, dx), Axis::new(oy, dy), Axis::new(oz, dz)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACES: [i32; 9] = [1 - (64 << 24), -(5 << 24), -77_777, -1, 0, 1, 3 << 20, 40_000_001, 64 << 24];
+    const DIRECTIONS: [i32; 10] =
+        [-(4 << 28) + 1, -(1 << 28), -54_321, -1, 1, 77, 1 << 20, 123_456_789, 1 << 28, 1 << 30];
+
+    /// `(plane - origin) / direction` with 24 fractional bits, against the quotient of integers.
+    #[test]
+    fn a_crossing_is_the_exact_quotient_or_saturates() {
+        let (mut close, mut saturated) = (0, 0);
+        for origin in PLACES {
+            for plane in PLACES {
+                for direction in DIRECTIONS {
+                    let exact = (i128::from(plane) - i128::from(origin)) * (1 << 28) / i128::from(direction);
+                    let got = i128::from(Axis::new(origin, direction).crossing(plane));
+                    if exact.abs() < (1 << 31) - 64 {
+                        assert!(
+                            (got - exact).abs() <= 2 + (exact.abs() >> 26),
+                            "{origin} {plane} {direction}"
+                        );
+                        close += 1;
+                    } else if exact.abs() > (1 << 31) + 64 {
+                        let limit = if exact < 0 { i32::MIN } else { i32::MAX };
+                        assert!((got - i128::from(limit)).abs() <= 64, "{origin} {plane} {direction}: {got}");
+                        saturated += 1;
+                    }
+                }
+            }
+        }
+        assert!(close > 300 && saturated > 200, "{close} {saturated}");
+    }
+
+    #[test]
+    fn a_ray_is_clipped_to_the_planes_on_both_sides() {
+        for (direction, expected) in [(1 << 28, (1 << 24, 3 << 24)), (-(1 << 28), (-3 << 24, -1 << 24))] {
+            let axis = Axis::new(0, direction);
+            let (t_in, t_out) = axis.clip(1 << 24, 3 << 24, (i32::MIN, i32::MAX));
+            assert!((t_in - expected.0).abs() <= 2 && (t_out - expected.1).abs() <= 2, "{t_in} {t_out}");
+            assert_eq!(axis.clip(1 << 24, 3 << 24, (7, 5)).1.min(5), axis.clip(1 << 24, 3 << 24, (7, 5)).1);
+            assert!((axis.at(2 << 24) - if direction > 0 { 2 << 24 } else { -2 << 24 }).abs() <= 1);
+        }
+        // parallel to the planes: it leans by the resolution of a direction
+        assert_eq!(Axis::new(0, 0).direction, 1);
+    }
+
+    #[test]
+    fn a_footprint_reaches_a_width_where_the_cone_has_it() {
+        for per_t in [1, 1 << 10, 123_457, 1 << 28, 1 << 30] {
+            for width in [1, 777, 1 << 24, i32::MAX] {
+                let exact = (i128::from(width) << 30) / i128::from(per_t);
+                let got = i128::from(Footprint::new(Unit::from_bits(per_t)).reaches(width));
+                assert!((got - exact).abs() <= 1 + (exact >> 28), "{per_t} {width}: {got} against {exact}");
+            }
+        }
+        assert_eq!(Footprint::new(Unit::ZERO), Footprint::new(Unit::DELTA));
+        assert_eq!(Footprint::new(Unit::ONE).part(4).per_t(), Unit::ONE / 4);
+    }
+
+    #[test]
+    fn a_ray_is_saturated_to_its_formats() {
+        let far = Vec3::new(Real::MAX, Real::MIN, Real::ONE);
+        let ray = Ray::new(far, far);
+        assert_eq!(ray.origin, [64 << 24, 1 - (64 << 24), 1 << 24]);
+        assert_eq!(ray.direction, [1 << 30, -(1 << 30), 1 << 28]);
+    }
+}

@@ -43,7 +43,7 @@ pub struct Tone(pub u16);
 /// let f = slope.integral::<2>(Wide::ZERO)?;
 /// let mut memory = [Cell::ZERO; Pyramid::cells(2, 6)];
 /// let pyramid = Pyramid::new(&f, 6, &mut memory)?;
-/// let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid)?;
+/// let surface = HeightField::new(&pyramid, &pyramid)?;
 /// let at = |x: f32, y: f32, z: f32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
 /// let camera = Camera::new(at(-3.0, -2.0, 5.0), at(1.0, 1.0, 1.0), at(0.0, 0.0, 1.0), Real::from_num(40))?;
 /// let picture = RayCaster::new(surface, camera, Size::new(64, 64))?.with_material(Material::Mirror)?;
@@ -51,8 +51,8 @@ pub struct Tone(pub u16);
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct RayCaster<'a, const STACK: usize = 16> {
-    surface: HeightField<'a, STACK>,
+pub struct RayCaster<'a> {
+    surface: HeightField<'a>,
     camera: Camera,
     size: Size,
     material: Material,
@@ -70,12 +70,12 @@ pub struct RayCaster<'a, const STACK: usize = 16> {
     outline: Outline,
 }
 
-impl<'a, const STACK: usize> RayCaster<'a, STACK> {
+impl<'a> RayCaster<'a> {
     /// A picture of `size` pixels with one sample each, diffuse, lit from the upper left front, under [`Environment::SKY`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a size of 0 or above [`crate::picture::MAX_SIDE`], or where the view is so wide that a ray's direction leaves ±4.
-    pub fn new(surface: HeightField<'a, STACK>, camera: Camera, size: Size) -> Result<Self, Error> {
+    pub fn new(surface: HeightField<'a>, camera: Camera, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
         in_reach(&camera, cols, rows, 0)?;
@@ -257,8 +257,8 @@ fn narrow(direction: i64) -> i32 {
 
 /// The tones of one row from left to right.
 #[derive(Debug, Clone)]
-pub struct Row<'a, 'b, const STACK: usize> {
-    caster: &'b RayCaster<'a, STACK>,
+pub struct Row<'a, 'b> {
+    caster: &'b RayCaster<'a>,
     y: u32,
     x: Range<u32>,
     direction: [i64; 3],
@@ -266,10 +266,10 @@ pub struct Row<'a, 'b, const STACK: usize> {
     visible: Range<u32>,
 }
 
-impl<'a, const STACK: usize> Field for RayCaster<'a, STACK> {
+impl<'a> Field for RayCaster<'a> {
     type Value = Tone;
     type Row<'b>
-        = Row<'a, 'b, STACK>
+        = Row<'a, 'b>
     where
         Self: 'b;
 
@@ -277,7 +277,7 @@ impl<'a, const STACK: usize> Field for RayCaster<'a, STACK> {
         self.size
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> Row<'a, '_, STACK> {
+    fn row(&self, y: u32, x: Range<u32>) -> Row<'a, '_> {
         // what lies outside the picture has no pixels
         let (y, width) = (y.min(self.size.height.saturating_sub(1)), self.size.width);
         let x = x.start.min(width)..x.end.min(width);
@@ -291,7 +291,7 @@ impl<'a, const STACK: usize> Field for RayCaster<'a, STACK> {
     }
 }
 
-impl<const STACK: usize> Iterator for Row<'_, '_, STACK> {
+impl Iterator for Row<'_, '_> {
     type Item = Tone;
 
     #[inline]
@@ -318,5 +318,5 @@ impl<const STACK: usize> Iterator for Row<'_, '_, STACK> {
     }
 }
 
-impl<const STACK: usize> ExactSizeIterator for Row<'_, '_, STACK> {}
-impl<const STACK: usize> FusedIterator for Row<'_, '_, STACK> {}
+impl ExactSizeIterator for Row<'_, '_> {}
+impl FusedIterator for Row<'_, '_> {}

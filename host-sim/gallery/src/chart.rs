@@ -6,7 +6,7 @@ use attractor::Error;
 use attractor::draw::{Level, Stroke, hex};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Wide};
-use attractor::picture::{Bounds2, Field, Point2, Window};
+use attractor::picture::{Bounds2, Field, Point2, Step, Window};
 use embedded_graphics::Pixel;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::pixelcolor::Rgb888;
@@ -41,6 +41,8 @@ const RULE: Rgb888 = hex(0x3a4260);
 pub(crate) const MARK: Rgb888 = hex(0xffb454);
 /// More knots than this are not marked.
 const MARKED: usize = 16;
+/// No address of a cell is followed further.
+const LONGEST: u32 = 64;
 
 /// Where a function is drawn.
 #[derive(Debug)]
@@ -54,6 +56,8 @@ pub struct Chart<'a, const N: usize, const D: usize> {
     /// Row of the axis in the plot.
     axis: i64,
     palette: Named,
+    /// Where the lowest and the highest value lie, from left to right.
+    extremes: [Point2; 2],
 }
 
 impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
@@ -76,12 +80,12 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
             size.width.saturating_sub(2 * margin).max(1),
             size.height.saturating_sub(2 * margin + nested.height()).max(1),
         );
-        let (min, max) = range(fif, cells)?;
+        let ((min, max), extremes) = range(fif, cells)?;
         let bounds = Bounds2 { min: Point2::new(Real::ZERO, min), max: Point2::new(Real::ONE, max) };
         let window = Window::stretch(bounds, inner)?;
         let axis = window.raster(Point2::new(Real::ZERO, Real::ZERO.clamp(min, max))).1;
         let corner = Point::new(margin as i32, margin as i32);
-        Ok(Self { fif, nested, size, corner, window, axis, palette })
+        Ok(Self { fif, nested, size, corner, window, axis, palette, extremes })
     }
 
     /// Draws it. `columns` has room for a number for each column of the display.
@@ -107,8 +111,7 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
         }
         let inner = self.window.size();
         let line = solid::<T::Color>(self.palette.at(Level(56_000)));
-        let graph = self.fif.graph(inner.width.saturating_mul(8));
-        let Ok(_) = Stroke::new(graph, self.window, line).at(self.corner).draw(target);
+        let Ok(_) = Stroke::new(self.graph(inner.width), self.window, line).at(self.corner).draw(target);
         if self.fif.maps() <= MARKED {
             let (from, to) = self.fif.domain();
             for knot in self.fif.knots() {
@@ -119,6 +122,28 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
         self.nested.draw(self, target);
         watch(target, self.size.height, self.size.height);
         Ok(())
+    }
+
+    /// The graph, eight points a column. A rough function reaches further within an eighth of a column than at any abscissa with the bits of a number: each point
+    /// brings the extremes of its cell along, the images of those of the whole.
+    fn graph(&self, columns: u32) -> impl Iterator<Item = Step> + Clone {
+        let steps = columns.saturating_mul(8).max(1);
+        let (from, to) = self.fif.domain();
+        let width = i128::from(to.to_bits()) - i128::from(from.to_bits());
+        let cell = Real::from_bits(((1_u32 << 24) / steps).max(1) as i32);
+        (0..=steps).flat_map(move |i| {
+            let offset = width * i128::from(i) / i128::from(steps);
+            let x = Wide::from_bits((i128::from(from.to_bits()) + offset) as i64);
+            let u = Real::from_bits(((u64::from(i) << 24) / u64::from(steps)) as i32);
+            let point = Point2::new(u, self.fif.at(x));
+            let composite = self.fif.composite_at(x, cell, LONGEST);
+            let (left, right) = composite.interval();
+            // an address too long to be followed: intervals hardly narrower than the domain
+            let extremes =
+                self.extremes.map(|p| if right - left <= cell { composite.image(p) } else { point });
+            let first = if i == 0 { Step::MoveTo(point) } else { Step::LineTo(point) };
+            [first, Step::LineTo(extremes[0]), Step::LineTo(extremes[1])]
+        })
     }
 
     /// The pixel that shows a point with a unit abscissa.
@@ -161,14 +186,27 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
     }
 }
 
-/// The smallest and largest values, rigorous and tight, with the axis if it is near.
-fn range<const N: usize, const D: usize>(fif: &Fif<N, D>, cells: &mut [Cell]) -> Result<(Real, Real), Error> {
+/// The smallest and largest values, rigorous and tight, with the axis if it is near; and where these values lie, from left to right.
+fn range<const N: usize, const D: usize>(
+    fif: &Fif<N, D>,
+    cells: &mut [Cell],
+) -> Result<((Real, Real), [Point2; 2]), Error> {
     let depth = depth_for(fif.maps(), CELLS_ACROSS);
     let (given, needed) = (cells.len(), Pyramid::cells(fif.maps(), depth));
     let cells =
         cells.get_mut(..needed).ok_or(Error::BufferLength { what: "cells of the pyramid", given, needed })?;
-    let root = Pyramid::new(fif, depth, cells)?.root();
+    let pyramid = Pyramid::new(fif, depth, cells)?;
+    let root = pyramid.root();
     let (mut min, mut max) = (root.min, root.max);
+    let place = |has_it: &dyn Fn(&Cell) -> bool| {
+        let index = pyramid.level(depth).iter().position(has_it).unwrap_or(0);
+        let digit = |level: u32| (index / fif.maps().pow(level)) % fif.maps();
+        let (left, right) = fif.composite((0..depth).rev().map(digit)).interval();
+        left + (right - left) / 2
+    };
+    let mut extremes =
+        [Point2::new(place(&|c| c.min == min), min), Point2::new(place(&|c| c.max == max), max)];
+    extremes.sort_by_key(|p| p.x);
     let quarter = Real::from_bits(((i64::from(max.to_bits()) - i64::from(min.to_bits())) / 4) as i32);
     if min > 0 && min <= quarter {
         min = Real::ZERO;
@@ -180,7 +218,7 @@ fn range<const N: usize, const D: usize>(fif: &Fif<N, D>, cells: &mut [Cell]) ->
         // a constant, whose bounds are rounded outward
         (min, max) = (min.saturating_sub(Real::ONE), max.saturating_add(Real::ONE));
     }
-    Ok((min, max))
+    Ok(((min, max), extremes))
 }
 
 /// Where an abscissa lies between the ends of the domain.

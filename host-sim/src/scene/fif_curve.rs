@@ -147,6 +147,10 @@ fn from_data(source: &Source, table: &Spanned<Table>) -> Result<Function, Fail> 
 
 /// `from + i (to - from) / (points - 1)`, rounded to a multiple of `2^-48` and, beyond 32, to the 53 bits of the `f64` that the reference takes.
 pub(super) fn abscissa(from: Wide, to: Wide, i: u32, points: u32) -> Wide {
+    // the ends are exact, whatever an f64 makes of them
+    if i == 0 || i + 1 >= points.max(2) {
+        return if i == 0 { from } else { to };
+    }
     let steps = i128::from(points.max(2) - 1);
     let width = i128::from(to.to_bits()) - i128::from(from.to_bits());
     let offset = (2 * i128::from(i) * width + steps).div_euclid(2 * steps);

@@ -62,10 +62,12 @@ impl Description {
             })?;
             scalings.push(value);
         }
-        let fixed = match &self.polynomials {
+        let polynomials = self.polynomials.as_ref();
+        let rows = polynomials.map(|rows| self.coefficients(source, &key("polynomials"), rows.get_ref()));
+        let rows = rows.transpose()?;
+        let fixed = match &rows {
             None => Fixed::interpolating(&knots, &scalings),
-            Some(polynomials) => {
-                let rows = self.coefficients(source, &key("polynomials"), polynomials.get_ref())?;
+            Some(rows) => {
                 let rows: Vec<&[Wide]> = rows.iter().map(Vec::as_slice).collect();
                 let x: Vec<Wide> = knots.iter().map(|k| k.x).collect();
                 Fixed::with_polynomials(&x, &scalings, &rows)
@@ -73,8 +75,8 @@ impl Description {
         };
         let mut fixed = fixed.map_err(|error| self.explain(source, prefix, error))?;
         self.check_ordinates(source, prefix, &knots, &fixed)?;
-        self.check_abscissae(source, prefix)?;
-        let mut reference = self.reference(source);
+        self.check_abscissae(source, prefix, &knots)?;
+        let mut reference = self.reference(source, &knots, rows.as_deref());
         let times = self.integrate.as_ref().map_or(0, |times| *times.get_ref());
         for _ in 0..times {
             fixed = fixed.integral(Wide::ZERO).map_err(|error| {
@@ -124,32 +126,31 @@ impl Description {
     }
 
     /// Knots that differ in the format may be one and the same `f64`, of which the reference could make nothing.
-    fn check_abscissae(&self, source: &Source, prefix: &str) -> Result<(), Fail> {
-        let x = |knot: &Spanned<[Num; 2]>| number::float(source.digits(&knot.get_ref()[0]));
-        for (i, pair) in self.knots.get_ref().windows(2).enumerate() {
+    fn check_abscissae(&self, source: &Source, prefix: &str, knots: &[Knot]) -> Result<(), Fail> {
+        for (i, pair) in knots.windows(2).enumerate() {
             if let [a, b] = pair
-                && x(a) >= x(b)
+                && a.x.to_num::<f64>() >= b.x.to_num::<f64>()
             {
                 let reason = "its abscissa is the same f64 as that of its neighbour";
-                return Err(source.fail(b.span(), &format!("{prefix}knots[{}]", i + 1), reason));
+                let span = self.knots.get_ref().get(i + 1).map_or(0..0, Spanned::span);
+                return Err(source.fail(span, &format!("{prefix}knots[{}]", i + 1), reason));
             }
         }
         Ok(())
     }
 
-    /// The same from the decimal numbers in `f64`; the fixed-point function has checked them.
-    fn reference(&self, source: &Source) -> reference::Fif {
+    /// The same in `f64`, through the knots that the kernel has: beside a decimal number that the format does not have, a rough function is another one.
+    /// Scalings are the file's decimal numbers; the fixed-point function has checked everything.
+    fn reference(&self, source: &Source, knots: &[Knot], rows: Option<&[Vec<Wide>]>) -> reference::Fif {
         let float = |n: &Num| number::float(source.digits(n));
         let scalings: Vec<f64> = self.vertical_scaling.get_ref().iter().map(float).collect();
-        let knots = self.knots.get_ref().iter().map(|knot| {
-            let [x, y] = knot.get_ref();
-            (float(x), float(y))
-        });
-        match &self.polynomials {
+        let knots = knots.iter().map(|knot| (knot.x.to_num::<f64>(), knot.y.to_num::<f64>()));
+        match rows {
             None => reference::Fif::interpolating(&knots.collect::<Vec<_>>(), &scalings),
-            Some(polynomials) => {
-                let maps = scalings.iter().zip(polynomials.get_ref()).map(|(&vertical_scaling, q)| {
-                    reference::Map { vertical_scaling, q: q.get_ref().iter().map(float).collect() }
+            Some(rows) => {
+                let maps = scalings.iter().zip(rows).map(|(&vertical_scaling, q)| reference::Map {
+                    vertical_scaling,
+                    q: q.iter().map(|c| c.to_num()).collect(),
                 });
                 let x: Vec<f64> = knots.map(|knot| knot.0).collect();
                 reference::Fif::with_polynomials(&x, maps.collect())

@@ -28,7 +28,7 @@ fn draw() -> Result<(), attractor::Error> {
     let pyramid = Pyramid::new(&g, bb(6), &mut memory)?;
     let at = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
     let camera = Camera::new(bb(at(-4, -3, 5)), bb(at(1, 1, 0)), at(0, 0, 1), bb(Real::from_num(32)))?;
-    let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid)?;
+    let surface = HeightField::new(&pyramid, &pyramid)?;
     let caster = RayCaster::new(surface, camera, Wire::<Rgb565>::SIZE)?.with_material(Material::Mirror)?;
     let picture = Picture::<_, _, Rgb565>::new(caster, gradients::DUSK);
     let Ok(()) = Image::new(&picture, Point::zero()).draw(&mut Wire::new());

@@ -40,6 +40,7 @@ fn functions() -> Result<(), Error> {
     let xs = knots.map(|knot| knot.x);
     bb(Fif::<2, 2>::with_polynomials(bb(&xs), bb(&[Scaling::ZERO; 2]), bb(&[&xs[..], &xs[..]]))?);
     bb((f.at(zero), f.at_wide(zero), f.error_bound(), f.at_by_composition(zero, bb(Real::DELTA))));
+    bb((f.error_bound_at_x(), f.oscillation(bb(40)), f.composite_at(zero, bb(Real::DELTA), bb(9))));
     bb((f.maps(), f.degree(), f.domain(), f.range(), f.max_scaling(), f.knots().last()));
     bb(f.composite(bb([0_usize, 1])).vertical_scaling());
     bb(f.derivative::<4>())?;
@@ -219,6 +220,6 @@ fn numbers() {
     let limbs = num::Limbs::<4>::from_wide(bb(Wide::ONE)).unwrap_or_default();
     bb((limbs.top64(), limbs.times_small(bb(3)).plus_units(bb(1)).divided(bb(0))));
     let v = num::Vec3::new(bb(num::Real::ONE), bb(num::Real::ONE), bb(num::Real::ONE));
-    bb(v.minus(v));
+    bb((v.minus(v), v.towards(v)));
     bb(v.normalised());
 }

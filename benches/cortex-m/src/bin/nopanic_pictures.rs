@@ -101,7 +101,7 @@ fn rays() -> Result<(), Error> {
     let f = Fif::<2, 1>::interpolating(bb(&knots[..]), bb(&[Scaling::from_bits(1 << 30); 2][..]))?;
     let mut memory = [Cell::ZERO; Pyramid::cells(2, 4)];
     let pyramid = Pyramid::new(&f, bb(4), &mut memory)?;
-    let surface: HeightField<'_> = HeightField::new(&pyramid, &pyramid)?;
+    let surface = HeightField::new(&pyramid, &pyramid)?;
     bb((surface.depth(), surface.heights()));
     let v = Vec3::new(bb(Real::ONE), bb(Real::ONE), bb(Real::ONE));
     if let Some(hit) = surface.intersect(&Ray::new(v, v), bb(Unit::ZERO)) {

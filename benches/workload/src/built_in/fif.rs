@@ -141,7 +141,7 @@ pub(super) fn surface<C: Colour + Ink, const CELLS: usize>(
     let pyramid = Pyramid::new(&f, depth_for(2, size.width), &mut cells)?;
     let up = Vec3::new(Real::ZERO, Real::ZERO, Real::ONE);
     let camera = Camera::new(vector(surface.eye), vector(surface.look_at), up, surface.field_of_view)?;
-    let heights: HeightField<'_> = HeightField::new(&pyramid, &pyramid)?;
+    let heights = HeightField::new(&pyramid, &pyramid)?;
     let mut caster = RayCaster::new(heights, camera, size)?
         .with_material(surface.material)?
         .with_environment(surface.environment)?
