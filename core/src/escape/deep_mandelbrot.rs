@@ -7,12 +7,13 @@ use embedded_graphics_core::geometry::Size;
 
 use super::block::{Block, Number};
 use super::deep_view::Pixels;
-use super::escape_time::{Ending, EscapeTime, follow, period};
-use super::period::{MAX_PERIOD, Period};
+use super::escape_time::{Ending, EscapeTime, follow};
+use super::period::Period;
 use super::perturbation::{OrbitPoint, Reference};
 use super::wide_dwell::{self, WideOrbit, WideWord};
-use super::{DeepView, Dwell, checked_max};
+use super::{Complex, DeepView, Dwell, checked_max};
 use crate::Error;
+use crate::num::Limbs;
 use crate::picture::Field;
 
 /// How the orbits of a deep view are computed.
@@ -68,6 +69,8 @@ pub struct DeepMandelbrot<'a, const LIMBS: usize> {
     view: DeepView<LIMBS>,
     max: u32,
     orbits: Orbits<'a>,
+    /// Whether points of the view may be near `|c| = 2`, where 30 bits do not decide.
+    at_edge: bool,
 }
 
 impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
@@ -101,7 +104,17 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
                 Orbits::PerturbedLong(Reference::new(view.centre(), max, view.reach(), orbit)?)
             }
         };
-        Ok(Self { view, max, orbits })
+        let at_edge = match arithmetic {
+            Arithmetic::Perturbed | Arithmetic::PerturbedLong => {
+                // the picture, panned or not, is within 2^-20 of its centre, or is looked at everywhere
+                let square = |part: &Limbs<LIMBS>| i128::from(part.to_wide().to_bits()).pow(2);
+                let norm = square(&view.centre().re) + square(&view.centre().im);
+                let four = 4_i128 << 96;
+                view.pitch_exponent() > -40 || (norm - four).abs() < four >> 10
+            }
+            Arithmetic::Word64 | Arithmetic::Word128 => false,
+        };
+        Ok(Self { view, max, orbits, at_edge })
     }
 
     /// How many points a picture of this view takes from the lent orbit.
@@ -146,6 +159,9 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
     ///
     /// Domain: inside the view; others count as the nearest pixel.
     pub fn dwell_at(&self, column: u32, row: u32) -> Dwell {
+        if self.starts_beyond(column, row) {
+            return Dwell { count: 0, max: self.max };
+        }
         let dwell = |ending: Option<Ending>| ending.map_or(self.max, |ending| ending.steps);
         let count = match self.orbit(column, row) {
             Orbit::Word64(c) => wide_dwell::dwell(c, c, self.max),
@@ -154,6 +170,11 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
             Orbit::PerturbedLong(reference, g) => dwell(reference.ending::<false>(g, self.max)),
         };
         Dwell { count, max: self.max }
+    }
+
+    /// Whether `|c| > 2`, for perturbation, which sees 30 bits of it: the other orbits know.
+    fn starts_beyond(&self, column: u32, row: u32) -> bool {
+        self.at_edge && is_beyond_two(&self.view.point_at(self.view.steps(column, row)))
     }
 
     fn orbit(&self, column: u32, row: u32) -> Orbit<'_> {
@@ -176,6 +197,12 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
     }
 
     fn ending_of<const DERIVATIVE: bool>(&self, (column, row): (u32, u32)) -> Option<Ending> {
+        if self.starts_beyond(column, row) {
+            let c = self.view.point_at(self.view.steps(column, row));
+            let c = WideWord::block((c.re.top64(), c.im.top64()));
+            let one = Block::<i32>::ONE;
+            return Some(Ending { steps: 0, z: c, c, derivative: one, gain: one });
+        }
         match self.orbit(column, row) {
             Orbit::Word64(c) => self.follow::<DERIVATIVE, _>(c),
             Orbit::Word128(c) => self.follow::<DERIVATIVE, _>(c),
@@ -188,6 +215,19 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
         let dwell = wide_dwell::dwell(c, c, self.max);
         (dwell < self.max).then(|| follow::<DERIVATIVE, _>(WideOrbit { z: c, c }, dwell, Block::<i32>::ONE))
     }
+}
+
+/// Whether `|c| > 2`: a unit of the last place decides but for `|im|^2` below it, which counts where the real part is 2.
+fn is_beyond_two<const LIMBS: usize>(c: &Complex<Limbs<LIMBS>>) -> bool {
+    let four = Limbs::ZERO.plus_whole(4);
+    let (re, im) = (c.re.times(&c.re), c.im.times(&c.im));
+    // the top is enough beyond the format of the sum, and for what is far from 2
+    let square = |part: &Limbs<LIMBS>| i128::from(part.to_wide().to_bits()).pow(2);
+    if square(&c.re) + square(&c.im) > 5 << 96 {
+        return true;
+    }
+    let over = re.plus(&im).minus(&four);
+    if over == Limbs::ZERO { re == four && c.im != Limbs::ZERO } else { !over.is_negative() }
 }
 
 /// What a pixel's orbit is computed from.
@@ -237,12 +277,13 @@ impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
         if !self.dwell_at(column, row).is_inside() {
             return Period(0);
         }
-        Period(match self.orbit(column, row) {
-            Orbit::Word64(c) => period(WideOrbit { z: c, c }, self.max, MAX_PERIOD),
-            Orbit::Word128(c) => period(WideOrbit { z: c, c }, self.max, MAX_PERIOD),
-            Orbit::Perturbed(reference, g) => reference.period(g, self.max, MAX_PERIOD),
-            Orbit::PerturbedLong(reference, g) => reference.period(g, self.max, MAX_PERIOD),
-        })
+        let period = match self.orbit(column, row) {
+            Orbit::Word64(c) => wide_dwell::period(c, self.max),
+            Orbit::Word128(c) => wide_dwell::period(c, self.max),
+            Orbit::Perturbed(reference, g) => reference.period(g, self.max),
+            Orbit::PerturbedLong(reference, g) => reference.period(g, self.max),
+        };
+        Period(period.unwrap_or(0))
     }
 
     fn pitch(&self) -> (u32, i32) {
@@ -309,7 +350,7 @@ impl<const LIMBS: usize> FusedIterator for DeepRow<'_, LIMBS> {}
 mod tests {
     extern crate std;
     use super::*;
-    use crate::escape::{Canvas, Complex, Distance, Interior, Mandelbrot, Precision, Smooth, View};
+    use crate::escape::{Canvas, Distance, Interior, Mandelbrot, Precision, Smooth, View};
     use crate::num::Wide;
     use core::cell::Cell;
     use fixed::types::U21F11;
@@ -421,6 +462,28 @@ mod tests {
             assert_eq!((once, once.point(2, 9)), (twice, view.point(7, 12)));
         }
         assert!(DeepView::<4>::parse("-2", "0", "4e-2", Size::new(8, 8)).unwrap().pan(1000, 0).is_err());
+    }
+
+    #[test]
+    fn an_orbit_that_escapes_has_no_period() {
+        let view = DeepView::<6>::parse("1", "0", "1e-40", Size::new(8, 8)).unwrap();
+        for max in [1, 2, 3, 50] {
+            let mut orbit = [OrbitPoint::default(); 50];
+            let picture = Interior(DeepMandelbrot::new(view, max, &mut orbit).unwrap());
+            assert!((0..8).flat_map(|y| picture.row(y, 0..8)).all(|p| p == Period(0)), "{max}");
+        }
+    }
+
+    #[test]
+    fn left_of_the_tip_every_dwell_is_0() {
+        for width in ["1e-28", "1e-31", "1e-50"] {
+            let view = DeepView::<8>::parse("-2", "0", width, Size::new(16, 16)).unwrap();
+            let mut orbit = std::vec![OrbitPoint::default(); 1000];
+            let picture = DeepMandelbrot::new(view, 500, &mut orbit).unwrap();
+            for (column, row) in (0..16).flat_map(|row| (0..16).map(move |column| (column, row))) {
+                assert_eq!(picture.dwell_at(column, row).count == 0, column < 8, "{width} {column} {row}");
+            }
+        }
     }
 
     #[test]

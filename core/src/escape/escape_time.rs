@@ -62,8 +62,6 @@ pub(super) trait Steps: Copy {
     fn step(&mut self);
     fn z(&self) -> Block;
     fn c(&self) -> Block;
-    /// Whether both are at the same point but for what rounding leaves of an orbit that is drawn in.
-    fn is_near(&self, other: &Self) -> bool;
 }
 
 /// The last point within 2 of an orbit of this dwell. `gain` is what the derivative gains at each step.
@@ -77,19 +75,4 @@ pub(super) fn follow<const DERIVATIVE: bool, O: Steps>(mut orbit: O, dwell: u32,
         orbit.step();
     }
     Ending { steps, z: orbit.z(), c: orbit.c(), derivative, gain }
-}
-
-/// The length of the cycle that an orbit is drawn to after `steps`; 0 if none of at most `longest` shows.
-pub(super) fn period<O: Steps>(mut orbit: O, steps: u32, longest: u32) -> u32 {
-    for _ in 0..steps {
-        orbit.step();
-    }
-    let start = orbit;
-    for period in 1..=longest {
-        orbit.step();
-        if orbit.is_near(&start) {
-            return period;
-        }
-    }
-    0
 }

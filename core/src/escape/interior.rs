@@ -16,10 +16,16 @@ use crate::num::{high, product};
 const MARGIN: i32 = 1 << 4;
 
 /// Whether `c` lies in one of the two parts, apart from a thin rim.
+#[inline(always)]
+pub(super) fn contains(c: Word) -> bool {
+    period(c).is_some()
+}
+
+/// The period of the part that `c` lies in, apart from a thin rim.
 ///
 /// Domain: `|c| <= 2`. Cost: 6 multiplications.
 #[inline(always)]
-pub(super) fn contains((x, y): Word) -> bool {
+pub(super) fn period((x, y): Word) -> Option<u32> {
     let yy = product(y, y); // at most 2^60
     let yy_high = (yy >> 32) as i32;
     // p >= -9/4, p^2 + y^2 < 9.1 < 32: no word overflows. Both sums are low by less than 2 units before the margin is added.
@@ -28,10 +34,10 @@ pub(super) fn contains((x, y): Word) -> bool {
     let q_plus_p = q + (p >> 3) + 1;
     // 52 fractional bits on both sides. If q + p is negative, so is the exact one, and the exact test holds as well.
     if product(q, q_plus_p) <= yy >> 8 {
-        return true;
+        return Some(1);
     }
     let r = x + (1 << FRACTION);
-    high(r, r) + yy_high + MARGIN <= 1 << 22
+    (high(r, r) + yy_high + MARGIN <= 1 << 22).then_some(2)
 }
 
 #[cfg(test)]

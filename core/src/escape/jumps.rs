@@ -12,6 +12,8 @@ use super::block::{Block, Number};
 
 /// How many maps are kept: with 400 instead of 16 a pixel takes 8 to 14 % fewer steps.
 const LEVELS: usize = 16;
+/// A factor below `2^FLOOR` is 0: along an orbit that is drawn in it shrinks for ever, and no exponent may wrap.
+const FLOOR: i32 = -(1 << 24);
 /// From the first point of the reference to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Jump<N> {
@@ -112,6 +114,9 @@ impl<N: Number> Builder<N> {
         self.below = next;
         let twice = z.doubled();
         self.a = twice.times(self.a);
+        if self.a.above() < FLOOR {
+            self.a = Block::<i64>::ZERO;
+        }
         self.b = twice.times(self.b).plus(Block::<i64>::ONE);
     }
 

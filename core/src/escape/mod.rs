@@ -12,6 +12,7 @@ mod block;
 mod canvas;
 mod complex;
 mod count;
+mod cycle;
 mod deep_mandelbrot;
 mod deep_view;
 mod distance;

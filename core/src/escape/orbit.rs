@@ -3,9 +3,11 @@
 use core::ops::Range;
 
 use super::block::Block;
-use super::dwell::{FRACTION, Word};
-use super::escape_time::{Ending, EscapeTime, Steps, follow, period};
-use super::period::{MAX_PERIOD, Period};
+use super::cycle::{self, Path};
+use super::dwell::{FRACTION, Fine, Step, Word, is_beyond};
+use super::escape_time::{Ending, EscapeTime, Steps, follow};
+use super::interior;
+use super::period::Period;
 use super::precision::Precision;
 use super::view::Line;
 use super::{Complex, Dwell, Julia, Mandelbrot};
@@ -34,10 +36,34 @@ impl Steps for Orbit {
     fn c(&self) -> Block {
         block(self.c)
     }
+}
 
-    fn is_near(&self, other: &Self) -> bool {
-        const NEAR: u32 = 1 << 9; // 2^-20
-        self.z.0.abs_diff(other.z.0) < NEAR && self.z.1.abs_diff(other.z.1) < NEAR
+impl Path for Orbit {
+    fn run(&mut self, steps: u32) -> bool {
+        (0..steps).all(|_| self.next())
+    }
+
+    #[inline]
+    fn next(&mut self) -> bool {
+        if is_beyond(self.z) {
+            return false;
+        }
+        // |c| <= 2: no point beyond 2 wraps into the disc but 6, at c = 2
+        self.z = Fine::step(self.z, self.c);
+        !is_beyond(self.z)
+    }
+
+    fn z(&self) -> Block {
+        block(self.z)
+    }
+
+    fn off(&self, other: &Self) -> Block {
+        // each within 2
+        block((self.z.0.wrapping_sub(other.z.0), self.z.1.wrapping_sub(other.z.1)))
+    }
+
+    fn grain(&self) -> Block {
+        block((4, 0))
     }
 }
 
@@ -81,7 +107,7 @@ macro_rules! escape_time {
             fn period_at(&self, point: Complex<Wide>) -> Period {
                 let max = self.max_dwell();
                 let inside = self.orbit_of(point).filter(|_| self.dwell_at(point).is_inside());
-                Period(inside.map_or(0, |orbit| period(orbit, max, MAX_PERIOD)))
+                Period(inside.map_or(0, |orbit| period(orbit, max)))
             }
 
             fn pitch(&self) -> (u32, i32) {
@@ -104,6 +130,19 @@ macro_rules! escape_time {
 }
 
 escape_time! { Mandelbrot, gain: ONE; Julia, gain: ZERO; }
+
+/// By formula where there is one; 0 for none.
+fn period(orbit: Orbit, max: u32) -> u32 {
+    if is_beyond(orbit.c) {
+        return 0;
+    }
+    // a formula knows at once; a short picture looks on, as what is drawn in is drawn in soon
+    let known = interior::period(orbit.c);
+    known.or_else(|| cycle::period(orbit, max.max(LEAST))).unwrap_or(0)
+}
+
+/// Steps that a period is looked for, however few a picture takes for the dwell.
+const LEAST: u32 = 1 << 12;
 
 fn ending<const DERIVATIVE: bool>(
     dwell: Dwell,

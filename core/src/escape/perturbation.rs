@@ -9,16 +9,21 @@
 //! from the centre (`a_pixel_is_moved_by_less_than_the_bound`). Whether `|z| > 2` is decided on 30 bits: at `c = -2` alone, where an orbit follows the circle
 //! itself, a dwell is that of a circle wider by `2^-29`. Against arbitrary precision: tests/deep_zoom.rs.
 //!
-//! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P. Brent, 1980, as in [`super::dwell`]).
+//! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P. Brent, 1980, as in [`super::dwell`]). So does one
+//! that has come near an attracting cycle ([`super::cycle`]): it is looked for after 4096, 8192, ... steps.
 
 use core::slice::Iter;
 
 use super::Complex;
 use super::block::{Block, Number};
+use super::cycle::{self, LONGEST, Path};
 use super::escape_time::Ending;
 use super::jumps::{Builder, Jumps};
 use crate::Error;
 use crate::num::Limbs;
+
+/// Steps before an orbit is looked at for a cycle: a picture of fewer has nothing to gain.
+const FIRST_LOOK: u32 = 1 << 12;
 
 /// A point of a reference orbit, 12 bytes. Lend an array of [`OrbitPoint::default`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,7 +140,16 @@ impl<'a, N: Stored> Reference<'a, N> {
     pub(super) fn ending<const DERIVATIVE: bool>(&self, g: N, max: u32) -> Option<Ending> {
         let mut walk = Walk::new(self, g);
         let (mut saved, mut rebased, mut window) = (N::ZERO, 0_u32, 1_u32);
-        while walk.steps < max {
+        let mut until = FIRST_LOOK.min(max);
+        loop {
+            if walk.steps >= until {
+                // an orbit that is near an attracting cycle never escapes
+                if until >= max || cycle::look(&walk, LONGEST).is_some() {
+                    return None;
+                }
+                until = until.saturating_mul(2).min(max);
+                continue;
+            }
             match walk.step::<DERIVATIVE>() {
                 Event::Beyond if walk.steps <= max => {
                     let (z, c) = (walk.z.short(), self.centre.plus(g).short());
@@ -149,42 +163,15 @@ impl<'a, N: Stored> Reference<'a, N> {
                         (saved, window) = (walk.z, window.saturating_mul(2));
                     }
                 }
-                Event::Beyond | Event::Plain => {}
+                Event::Beyond => return None,
+                Event::Plain => {}
             }
         }
-        None
     }
 
-    /// The length of the cycle that an orbit inside is drawn to after `max` steps; 0 if none of at most `longest` shows.
-    ///
-    /// Near a small copy of the set all cycles pass by the same places; where an orbit comes nearest to 0 it tells them apart.
-    pub(super) fn period(&self, g: N, max: u32, longest: u32) -> u32 {
-        let mut walk = Walk::new(self, g);
-        while walk.steps < max {
-            walk.step::<false>();
-        }
-        let mut nearest = walk.z;
-        let until = walk.steps.saturating_add(longest);
-        while walk.steps < until {
-            walk.step::<false>();
-            if walk.z.is_less(nearest) {
-                nearest = walk.z;
-            }
-        }
-        let mut passed = None;
-        let until = walk.steps.saturating_add(2 * longest);
-        while walk.steps < until {
-            walk.step::<false>();
-            // within 2^-20 of its size
-            let off = walk.z.plus(nearest.negated());
-            if off.above() <= nearest.reached() - 20 {
-                match passed {
-                    None => passed = Some(walk.steps),
-                    Some(before) => return walk.steps - before,
-                }
-            }
-        }
-        0
+    /// The length of the cycle that an orbit inside is drawn to within about `max` steps.
+    pub(super) fn period(&self, g: N, max: u32) -> Option<u32> {
+        cycle::period(Walk::new(self, g), max)
     }
 }
 
@@ -198,6 +185,7 @@ enum Event {
 }
 
 /// An orbit on its way along the reference.
+#[derive(Debug, Clone)]
 struct Walk<'a, N> {
     reference: &'a Reference<'a, N>,
     /// From the next point on.
@@ -276,6 +264,37 @@ impl<'a, N: Stored> Walk<'a, N> {
         } else {
             Event::Plain
         }
+    }
+}
+
+impl<N: Stored> Path for Walk<'_, N> {
+    fn run(&mut self, steps: u32) -> bool {
+        let until = self.steps.saturating_add(steps);
+        while self.steps < until {
+            if matches!(self.step::<false>(), Event::Beyond) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn next(&mut self) -> bool {
+        // no jump: each point counts
+        self.at_start = false;
+        !matches!(self.step::<false>(), Event::Beyond)
+    }
+
+    fn z(&self) -> Block {
+        self.z.short()
+    }
+
+    fn off(&self, other: &Self) -> Block {
+        self.z.plus(other.z.negated()).short()
+    }
+
+    fn grain(&self) -> Block {
+        let z = self.z.short();
+        Block { exponent: z.exponent - (N::BITS - 3), ..z }
     }
 }
 

@@ -9,7 +9,10 @@
 //! Cost in Cortex-M4 instructions (`cargo xtask target`, what a pixel takes at its start included): 58.3 an iteration in 64 bits, 259.2 in 128.
 
 use super::block::{Block, Number};
+use super::cycle::{self, Path};
+use super::dwell::is_beyond;
 use super::escape_time::Steps;
+use super::interior;
 use crate::num::{high_of_square, product, product_u};
 
 /// A real word of an orbit.
@@ -22,8 +25,10 @@ pub(super) trait WideWord: Copy + PartialEq {
     fn is_beyond(x: Self, y: Self) -> bool;
     /// The nearest block.
     fn block(z: (Self, Self)) -> Block;
-    /// Within `2^-48` in 64 bits, `2^-104` in 128.
-    fn is_near(self, other: Self) -> bool;
+    /// The difference of two parts within 2.
+    fn minus(self, other: Self) -> Self;
+    /// 4 units of the last place.
+    const GRAIN: Block;
 }
 
 /// An orbit for the colourings.
@@ -45,9 +50,31 @@ impl<W: WideWord> Steps for WideOrbit<W> {
     fn c(&self) -> Block {
         W::block(self.c)
     }
+}
 
-    fn is_near(&self, other: &Self) -> bool {
-        self.z.0.is_near(other.z.0) && self.z.1.is_near(other.z.1)
+impl<W: WideWord> Path for WideOrbit<W> {
+    fn run(&mut self, steps: u32) -> bool {
+        (0..steps).all(|_| self.next())
+    }
+
+    fn next(&mut self) -> bool {
+        if W::is_beyond(self.z.0, self.z.1) {
+            return false;
+        }
+        self.z = W::step(self.z, self.c);
+        !W::is_beyond(self.z.0, self.z.1)
+    }
+
+    fn z(&self) -> Block {
+        W::block(self.z)
+    }
+
+    fn off(&self, other: &Self) -> Block {
+        W::block((self.z.0.minus(other.z.0), self.z.1.minus(other.z.1)))
+    }
+
+    fn grain(&self) -> Block {
+        W::GRAIN
     }
 }
 
@@ -84,6 +111,16 @@ pub(super) fn dwell<W: WideWord>(z: (W, W), c: (W, W), max: u32) -> u32 {
         window = window.saturating_mul(2);
     }
     max
+}
+
+/// The period of the cycle that the orbit of 0 is drawn to, by formula where there is one.
+pub(super) fn period<W: WideWord>(c: (W, W), max: u32) -> Option<u32> {
+    // 29 fractional bits; the rim that the formula leaves is wider than what is cut off
+    let word = (c.0.top().saturating_mul(2), c.1.top().saturating_mul(2));
+    if is_beyond(word) {
+        return None;
+    }
+    interior::period(word).or_else(|| cycle::period(WideOrbit { z: c, c }, max))
 }
 
 #[inline(always)]
@@ -142,9 +179,11 @@ impl WideWord for i64 {
         Block::<i32>::new(x, y, -60)
     }
 
-    fn is_near(self, other: Self) -> bool {
-        self.abs_diff(other) < 1 << 12
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
     }
+
+    const GRAIN: Block = Block { exponent: -87, ..Block::<i32>::ONE };
 }
 
 /// The square of a Q4.124, modulo 16, rounded down. Domain: `|v| < 4`.
@@ -205,9 +244,11 @@ impl WideWord for i128 {
         Block::<i64>::new(x, y, -124).short()
     }
 
-    fn is_near(self, other: Self) -> bool {
-        self.abs_diff(other) < 1 << 20
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
     }
+
+    const GRAIN: Block = Block { exponent: -151, ..Block::<i32>::ONE };
 }
 
 #[inline(always)]

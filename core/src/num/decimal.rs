@@ -15,6 +15,22 @@ impl<const LIMBS: usize> Limbs<LIMBS> {
     pub const DECIMAL_PLACES: usize = (Self::FRACTION as usize * 30_102) / 100_000;
 }
 
+/// How many limbs hold so many decimal places.
+///
+/// ```
+/// use attractor::num::{Limbs, limbs_for};
+/// const LIMBS: usize = limbs_for(25);
+/// let long: Limbs<LIMBS> = "0.1234567890123456789012345".parse()?;
+/// assert_eq!((LIMBS, Limbs::<LIMBS>::DECIMAL_PLACES), (3, 27));
+/// # Ok::<(), attractor::Error>(())
+/// ```
+pub const fn limbs_for(decimal_places: usize) -> usize {
+    // 2 limbs are meant at least; the bits of all places, and 4 before the point
+    let bits = decimal_places.saturating_mul(100_000).div_ceil(30_102).saturating_add(4);
+    let limbs = bits.div_ceil(32);
+    if limbs < 2 { 2 } else { limbs }
+}
+
 /// Result: the nearest number, within 0.6 units of the last place (`a_decimal_is_read_to_the_last_place`).
 ///
 /// ```
@@ -27,7 +43,7 @@ impl<const LIMBS: usize> Limbs<LIMBS> {
 /// ```
 ///
 /// # Errors
-/// [`Error::Capacity`] for more decimal places than [`Limbs::DECIMAL_PLACES`], [`Error::OutOfRange`] for 8 and more in magnitude,
+/// [`Error::Capacity`] for more decimal places than [`Limbs::DECIMAL_PLACES`] ([`limbs_for`] tells how many limbs they take), [`Error::OutOfRange`] for 8 and more in magnitude,
 /// [`Error::Malformed`] with the position of the first byte that does not belong.
 impl<const LIMBS: usize> FromStr for Limbs<LIMBS> {
     type Err = Error;
@@ -45,12 +61,11 @@ impl<const LIMBS: usize> FromStr for Limbs<LIMBS> {
         }
         // a digit above the ones is too many
         let first = decimal.first_place();
-        let whole = if first < 0 {
-            10
-        } else if first > 0 {
-            0
+        let whole = if first < -8 {
+            // more than the error can tell
+            u32::MAX
         } else {
-            decimal.digit(0)
+            (first..=0).fold(0, |whole, place| whole * 10 + decimal.digit(place))
         };
         if whole > 7 {
             let value = Wide::saturating_from_num(whole);
@@ -211,6 +226,19 @@ mod tests {
     }
 
     #[test]
+    fn limbs_for_is_the_least_that_holds_them() {
+        fn check<const N: usize>() {
+            let places = Limbs::<N>::DECIMAL_PLACES;
+            assert_eq!((limbs_for(places), limbs_for(places + 1)), (N, N + 1));
+        }
+        check::<2>();
+        check::<3>();
+        check::<4>();
+        check::<12>();
+        check::<53>();
+    }
+
+    #[test]
     fn what_does_not_fit_says_so() {
         let long = format!("0.{}", String::from_utf8(std::vec![b'3'; 500]).unwrap());
         let error = long.parse::<Limbs<4>>().unwrap_err();
@@ -218,6 +246,10 @@ mod tests {
         assert!(long.parse::<Limbs<52>>().is_err() && long.parse::<Limbs<53>>().is_ok());
         assert!(matches!("1e-40".parse::<Limbs<4>>(), Err(Error::Capacity { needed: 40, .. })));
         assert!("1e-999999999999999999999".parse::<Limbs<4>>().is_err());
+        for (text, told) in [("100", 100), ("-12.5", -12), ("3e3", 3000), ("8", 8)] {
+            let Err(Error::OutOfRange { value, .. }) = text.parse::<Limbs<4>>() else { panic!("{text}") };
+            assert_eq!(value, told, "{text}");
+        }
         for text in ["8", "-8.5", "123456789", "1e1", "0.5e99999999999999999999"] {
             assert!(matches!(text.parse::<Limbs<4>>(), Err(Error::OutOfRange { .. })), "{text}");
         }

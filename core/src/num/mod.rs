@@ -64,6 +64,7 @@ mod trig;
 mod vector;
 mod wide;
 
+pub use decimal::limbs_for;
 pub use exponential::exp_minus;
 pub use limbs::Limbs;
 pub use logarithm::log2;

@@ -40,6 +40,10 @@ impl Deep {
             let reason = "it must be above 0, and may be as small as 1e-100";
             return Err(source.fail(width.span(), "width", reason));
         }
+        if about < 1e-100 {
+            let reason = "it is too narrow: it may be as small as 1e-100";
+            return Err(source.fail(width.span(), "width", reason));
+        }
         if about < UNIT && keys.centre.is_none() {
             return Err(source.fail(width.span(), "width", "a view as narrow as this needs a centre"));
         }
