@@ -1,11 +1,64 @@
-//! Tells the kernel whether the target multiplies 32 by 32 bits to 64 in one instruction. It is asked of the target, so that no user has to set a feature.
+//! Tells the kernel whether the target multiplies 32 by 32 bits to 64 in one instruction, which is asked of the target, so that no user has to set a
+//! feature; and collects what the private files say of themselves for the page `methods` of the documentation.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src");
     println!("cargo::rustc-check-cfg=cfg(no_long_product)");
     // Armv6-M and Armv8-M Baseline: Cortex-M0, M0+, M1 and M23
-    let target = std::env::var("TARGET").unwrap_or_default();
+    let target = env::var("TARGET").unwrap_or_default();
     if target.starts_with("thumbv6m") || target.starts_with("thumbv8m.base") {
         println!("cargo::rustc-cfg=no_long_product");
     }
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("methods.md");
+    fs::write(out, methods()).expect("cargo's directory can be written");
+}
+
+/// The openings of the private files, rooms in the order of their dependence.
+fn methods() -> String {
+    let src = Path::new(&env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it")).join("src");
+    let read = |path: &Path| fs::read_to_string(path).unwrap_or_default();
+    let mut page = String::from(
+        "What each file computes, by which formula, from which source and in which format: what the kernels say of themselves.\n",
+    );
+    for room in ["num", "fif", "ifs", "curve", "escape", "trace", "draw"] {
+        let mods = read(&src.join(room).join("mod.rs"));
+        writeln!(page, "\n# {room}").expect("a string takes all");
+        let private = mods.lines().filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'));
+        for name in private {
+            // `#[cfg(test)]` stands above helpers of tests
+            if mods.contains(&format!("#[cfg(test)]\nmod {name};")) {
+                continue;
+            }
+            let opening = opening(&read(&src.join(room).join(name).with_extension("rs")));
+            writeln!(page, "\n## {room}: {}\n\n{opening}", name.replace('_', " "))
+                .expect("a string takes all");
+        }
+    }
+    page
+}
+
+/// The paragraphs at the top of a file. Links name what means nothing elsewhere: their words stay.
+fn opening(text: &str) -> String {
+    let mut out = String::new();
+    for line in text.lines().map_while(|line| line.strip_prefix("//!")) {
+        let mut rest = line.strip_prefix(' ').unwrap_or(line);
+        while let Some((before, (name, after))) =
+            rest.split_once("[`").and_then(|(before, link)| Some((before, link.split_once("`]")?)))
+        {
+            out.push_str(&format!("{before}`{name}`"));
+            // what stands in parentheses behind it is where it led
+            rest = match after.strip_prefix('(') {
+                Some(place) => place.split_once(')').map_or(after, |(_, rest)| rest),
+                None => after,
+            };
+        }
+        out.push_str(rest);
+        out.push('\n');
+    }
+    out
 }

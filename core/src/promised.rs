@@ -14,14 +14,14 @@ const NOT_SERDE: [(&str, &[&str]); 4] = [
     ),
     ("the same, with a seed", &["Elbow", "LineToLine", "OneVariable", "TwoVariable"]),
     ("a step on the way to a value", &["Reciprocal", "Alias", "Ending", "OrbitPoint"]),
-    ("walks along something else", &["Line", "Pixels", "BackwardIteration"]),
+    ("walks along something else, or a function", &["Line", "Pixels", "BackwardIteration", "Walk", "FromFn"]),
 ];
 
 /// Why a type is not logged.
 const NOT_DEFMT: [(&str, &[&str]); 3] = [
     ("as large as a program, and made of what is logged", &["Dyadic", "Composite", "Factor"]),
     ("a step on the way to a value", &["Ending", "OrbitPoint"]),
-    ("walks along something else", &["Line", "Pixels", "BackwardIteration"]),
+    ("walks along something else, or a function", &["Line", "Pixels", "BackwardIteration", "Walk", "FromFn"]),
 ];
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
