@@ -17,5 +17,5 @@ const _: () = {
     assert!(size_of::<Generator<4>>() == 64 * 4 + 16 && size_of::<Generator<9>>() == 64 * 9 + 16);
     assert!(size_of::<LSystem<'_>>() == 32 && size_of::<Turtle<'_, 12, 12>>() == 8 * 12 + 24 * 12 + 88);
     assert!(size_of::<Ifs<4>>() == 33 * 4 + 36);
-    assert!(size_of::<Density<'_, u16>>() == 80 && size_of::<Density<'_, u8>>() == 80);
+    assert!(size_of::<Density<'_, u16>>() == 88 && size_of::<Density<'_, u8>>() == 88);
 };

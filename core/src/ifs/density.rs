@@ -83,7 +83,7 @@ pub struct Density<'a, C> {
 impl<'a, C: Counter> Density<'a, C> {
     /// An empty count of what `window` shows: the buffer is cleared.
     ///
-    /// Memory: one counter a pixel, lent; beyond that 80 bytes on a 32-bit machine.
+    /// Memory: one counter a pixel, lent; beyond that 88 bytes on a 32-bit machine.
     ///
     /// # Errors
     /// [`Error::BufferLength`] with the length needed unless there is exactly one counter for each pixel.

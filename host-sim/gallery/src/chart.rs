@@ -206,7 +206,7 @@ fn range<const N: usize, const D: usize>(
     };
     let mut extremes =
         [Point2::new(place(&|c| c.min == min), min), Point2::new(place(&|c| c.max == max), max)];
-    extremes.sort_by_key(|p| p.x);
+    extremes.sort_unstable_by_key(|p| p.x);
     let quarter = Real::from_bits(((i64::from(max.to_bits()) - i64::from(min.to_bits())) / 4) as i32);
     if min > 0 && min <= quarter {
         min = Real::ZERO;
