@@ -155,12 +155,7 @@ fn digits_of_deep_coordinates_that_no_picture_shows_are_rounded_away() {
         good(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", size]);
     }
     // no width is rounded into what is allowed
-    refused(
-        DEEP,
-        "1e-60",
-        &format!("1.{}e-110", "3".repeat(9)),
-        &["width = \"1.3", "as small as 1e-100"],
-    );
+    refused(DEEP, "1e-60", &format!("1.{}e-110", "3".repeat(9)), &["width = \"1.3", "as small as 1e-100"]);
     for width in ["0", "-1e-30", "-3"] {
         refused(DEEP, "1e-60", width, &["width", width, "above 0"]);
     }

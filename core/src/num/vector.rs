@@ -46,7 +46,8 @@ impl Vec3<Real> {
         // 33 bits: where they do not fit 32, halves have 30 bits of the greatest left
         let far = differences.iter().any(|d| i32::try_from(*d).is_err());
         let direction = differences.map(|d| (d >> u32::from(far)) as i32);
-        if direction == [0; 3] { None } else { Some(unit(direction)) }
+        let [x, y, z] = direction;
+        if x | y | z == 0 { None } else { Some(unit(direction)) }
     }
 
     /// The unit vector in this direction, none for the zero vector. Error: below `2^-27` in each component

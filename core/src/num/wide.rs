@@ -29,7 +29,9 @@ pub fn mul_high(a: i64, b: i64) -> i64 {
 }
 
 /// The high 64 bits of the 128-bit product, rounded down. Exact.
-#[inline]
+// 70 instructions where products are made by halves: there once
+#[cfg_attr(no_long_product, inline(never))]
+#[cfg_attr(not(no_long_product), inline)]
 pub fn mul_high_u(a: u64, b: u64) -> u64 {
     let ((ah, al), (bh, bl)) = (((a >> 32) as u32, a as u32), ((b >> 32) as u32, b as u32));
     let low = u64::from(product::high_u(al, bl));
