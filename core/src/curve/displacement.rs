@@ -156,3 +156,25 @@ pub(super) fn undone(bits: [i64; 2]) -> Result<Point2, Error> {
     let [x, y] = bits.map(|b| Real::from_bits(b as i32));
     Ok(Point2::new(x, y))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against integers: halves upwards, saturated.
+    #[test]
+    fn midpoints_and_products_are_the_nearest() {
+        for i in 1..5000_i32 {
+            let [a, b, length, g] =
+                [0x2545_f491, 0x6c07_8965, 0x1f12_3bb5, 0x4f6c_dd1d_i32].map(|n| i.wrapping_mul(n));
+            let half = (i128::from(a) + i128::from(b)) << 27;
+            let exact = (half + i128::from(length) * i128::from(g) + (1 << 27)) >> 28;
+            let expected = exact.clamp(i32::MIN.into(), i32::MAX.into());
+            let got = raised(Real::from_bits(a), Real::from_bits(b), Real::from_bits(length), g);
+            assert_eq!(i128::from(got.to_bits()), expected, "{a} {b} {length} {g}");
+            let (a, b) = (a >> 2, b >> 3);
+            let exact = (i64::from(a) * i64::from(b) + (1 << 27)) >> 28;
+            assert_eq!(i64::from(product(a, b)), exact, "{a} {b}");
+        }
+    }
+}

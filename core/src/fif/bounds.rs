@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn levels_settle_the_value() {
-        for (width, scaling) in [(0.5, 0.9), (0.9, 0.5), (0.99, 0.99), (0.3, 0.999)] {
+        for (width, scaling) in [(0.5, 0.9), (0.9, 0.5), (0.99, 0.99), (0.998, 0.999_99), (0.3, 0.999)] {
             let bits = |v: f64| (v * ONE as f64) as u64;
             let levels = f64::from(levels(bits(width), bits(scaling)));
             let settled =

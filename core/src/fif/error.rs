@@ -240,4 +240,33 @@ mod tests {
         let whole = function(Scaling::from_num(0.999));
         assert!(whole.levels < LEVELS && whole.error_bound() < Real::DELTA * 16, "{}", whole.error_bound());
     }
+
+    /// Against the formula of [`Fif::oscillation`] in floating point: not below, and hardly above.
+    #[test]
+    fn an_oscillation_is_that_of_its_formula() {
+        let knots =
+            [(0, 0), (1, 3), (3, -1), (4, 1)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        for alphas in [[0.3, -0.2, 0.25], [0.6, 0.1, -0.7], [0.95, 0.9, 0.99], [0.1, 0.0, 0.05]] {
+            let f = Fif::<3, 1>::interpolating(&knots, &alphas.map(Scaling::from_num)).unwrap();
+            let real = |bits: u64| bits as f64 / 2_f64.powi(55);
+            let width = |m: &crate::fif::function::Map<1>| m.width as f64 / 2_f64.powi(63);
+            let scaling = |m: &crate::fif::function::Map<1>| m.scaling.unsigned_abs() as f64 / 2_f64.powi(63);
+            let narrowest = f.maps.iter().map(width).fold(1.0, f64::min);
+            for halvings in [2, 7, 15, 24] {
+                let formula = |k: i32| {
+                    let h = f64::from(k) / 64.0;
+                    let gap = f.maps.iter().map(|m| width(m).powf(h) - scaling(m)).fold(1.0, f64::min);
+                    let constant = real(f.spread()).max(real(f.slope()) / gap);
+                    let reach = 2.0 * constant * (2_f64.powi(-halvings) / narrowest).powf(h);
+                    if gap > 0.0 { reach } else { f64::MAX }
+                };
+                let exact = (1..=64).map(formula).fold(real(f.spread()), f64::min);
+                // beyond the format it saturates
+                let exact = exact.min(Real::MAX.to_num());
+                let got = f.oscillation(halvings as u32).to_num::<f64>();
+                let allowed = exact * (1.0 + 2_f64.powi(-12)) + 2_f64.powi(-20);
+                assert!(exact <= got && got <= allowed, "{alphas:?} {halvings}: {got} against {exact}");
+            }
+        }
+    }
 }

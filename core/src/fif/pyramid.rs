@@ -343,6 +343,8 @@ fn saturated(bits: i64) -> Real {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fif::Knot;
+    use crate::num::{Scaling, Wide};
 
     fn map(scaling: i32, constant: i64, power: i64) -> Map<1> {
         Map {
@@ -413,5 +415,26 @@ mod tests {
             (13, 6, (1 << 17) - 1)
         );
         assert_eq!(Pyramid::cells(usize::MAX, 16), usize::MAX);
+    }
+
+    /// Thirds are no multiples of the places' unit: just beside the end of a cell both sides count.
+    #[test]
+    fn bounds_beside_the_end_of_a_cell_hold_the_cell() {
+        let knots =
+            [(0, 0), (1, 2), (2, -1), (3, 1)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let f = Fif::<3, 1>::interpolating(&knots, &[Scaling::from_num(0.4); 3]).unwrap();
+        let mut memory = [Cell::ZERO; Pyramid::cells(3, 7)];
+        let pyramid = Pyramid::new(&f, 7, &mut memory).unwrap();
+        let cells = pyramid.level(7);
+        for (index, pair) in cells.windows(2).enumerate() {
+            let (start, _) = interval(&f.maps, index + 1, 7);
+            // 3 times the place, 48 fractional bits, towards minus infinity; a place is low by less than 2^-58
+            let x = ((u128::from(start) * 3) >> 15) as i64;
+            for (x, cell) in [(x - 4, pair[0]), (x + 4, pair[1])] {
+                let x = Wide::from_bits(x);
+                let (low, high) = pyramid.bounds(x, x);
+                assert!(low <= cell.min && cell.max <= high, "{index} at {x}");
+            }
+        }
     }
 }

@@ -64,4 +64,10 @@ mod tests {
         assert_eq!((exp_minus(Real::ZERO), exp_minus(Real::MIN)), (Unit::ONE, Unit::ONE));
         assert!(worst > 0.0 && worst < 2_f64.powi(-28), "{worst:e}");
     }
+
+    #[test]
+    fn what_is_far_below_a_unit_is_nothing() {
+        assert_eq!(exp_minus(Real::MAX), Unit::ZERO);
+        assert_eq!(exp_minus(Real::from_num(33)), Unit::ZERO);
+    }
 }

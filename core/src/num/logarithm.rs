@@ -83,6 +83,7 @@ mod tests {
         }
         assert_eq!(log2(0), 0);
         assert_eq!(log2(u64::MAX), 64 << 24);
-        assert!(worst > 2_f64.powi(-26) && worst < 2_f64.powi(-24), "{worst:e}");
+        // half a unit of rounding, and hardly more: a third term or a 1 / ln 2 that is wrong has no room
+        assert!(worst > 2_f64.powi(-26) && worst < 0.52 * 2_f64.powi(-24), "{worst:e}");
     }
 }

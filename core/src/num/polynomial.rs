@@ -269,4 +269,34 @@ mod tests {
         let p = polynomial(0.5, [1.0, -2.0, 4.0]);
         assert!((p.derivative().mean() - (p.at(ONE) - p.at(0))).abs() < 8);
     }
+
+    /// Against exact values at eighths: none outside, and the ends of Bernstein's coefficients within the pad.
+    #[test]
+    fn a_range_holds_every_value() {
+        for i in 1..3000_i64 {
+            let bits = |n: i64| i.wrapping_mul(n) >> (12 + i % 44);
+            let p = Polynomial::<3> {
+                constant: bits(0x2545_f491_4f6c_dd1d),
+                powers: [
+                    bits(0x1f12_3bb5_159a_55e5),
+                    bits(0x6c07_8965_0000_8967),
+                    bits(0x4f6c_dd1d_2545_f491),
+                ],
+            };
+            let [a, b, c] = p.powers.map(i128::from);
+            let constant = i128::from(p.constant);
+            let (low, high) = p.range();
+            let (low, high) = (i128::from(low), i128::from(high));
+            for t in 0..=8 {
+                // times 8^3
+                let value = 512 * constant + 64 * t * a + 8 * t * t * b + t * t * t * c;
+                assert!(512 * low <= value && value <= 512 * high, "{p:?} at {t}/8");
+            }
+            let control =
+                [3 * constant, 3 * constant + a, 3 * constant + 2 * a + b, 3 * (constant + a + b + c)];
+            let (least, most) = (control.iter().min().unwrap(), control.iter().max().unwrap());
+            let slack = 3 * (1 << 22);
+            assert!(least - 3 * low < slack && 3 * high - most < slack, "{p:?}: {low} {high}");
+        }
+    }
 }

@@ -43,7 +43,8 @@ pub(crate) fn high_rounded(a: i32, b: i32) -> i32 {
 
 /// The upper word of `2 a b`, to nearest, halves upwards.
 ///
-/// Domain: `|a| + |b| <= 2^31 - 2^18`. Cost: two Cortex-M4 instructions; on a Cortex-M0 14, and less where the squares are wanted too: the halves are shared.
+/// Domain: `|a| < 2^30`, `|a| + |b| <= 2^31 - 2^18`. Cost: two Cortex-M4 instructions; on a Cortex-M0 14, and less where
+/// the squares are wanted too: the halves are shared.
 #[inline(always)]
 pub(crate) fn high_of_double(a: i32, b: i32) -> i32 {
     if cfg!(no_long_product) { halves::high_of_double(a, b) } else { high_rounded(a.wrapping_add(a), b) }
@@ -191,10 +192,14 @@ mod tests {
         assert_eq!(i64::from(halves::high(a, b)), exact >> 32, "{a} {b}");
         // |exact| <= 2^62: adding half a unit does not overflow
         assert_eq!(i64::from(halves::high_rounded(a, b)), (exact + (1 << 31)) >> 32, "{a} {b}");
+        assert_eq!(i64::from(super::high_rounded(a, b)), (exact + (1 << 31)) >> 32, "{a} {b}");
         assert_eq!(i64::from(halves::high_of_square(a)), whole::product(a, a) >> 32, "{a}");
         if i64::from(a).abs() + i64::from(b).abs() <= (1 << 31) - (1 << 18) {
             let half_up = (2 * exact + (1 << 31)) >> 32;
             assert_eq!(i64::from(halves::high_of_double(a, b)), half_up, "{a} {b}");
+            if i64::from(a).abs() < 1 << 30 {
+                assert_eq!(i64::from(super::high_of_double(a, b)), half_up, "{a} {b}");
+            }
         }
         let (a, b) = (a as u32, b as u32);
         assert_eq!(halves::product_u(a, b), whole::product_u(a, b), "{a} {b}");

@@ -87,4 +87,9 @@ mod tests {
         }
         assert!(saturated > 20);
     }
+
+    #[test]
+    fn no_parts_count_as_one() {
+        assert_eq!([nth(1 << 40, 0), nth(-77, 0)], [1 << 40, -77]);
+    }
 }

@@ -80,4 +80,11 @@ mod tests {
         }
         assert!(worst > 0.0 && worst < 2_f64.powi(-28), "{worst:e}");
     }
+
+    #[test]
+    fn whole_quarters_are_exact() {
+        let at = |quarters: u32| sin_cos(Angle::from_bits(quarters << 30));
+        let (zero, one) = (Unit::ZERO, Unit::ONE);
+        assert_eq!([at(0), at(1), at(2), at(3)], [(zero, one), (one, zero), (zero, -one), (-one, zero)]);
+    }
 }

@@ -156,4 +156,22 @@ mod tests {
             assert_eq!([cross.x, cross.y, cross.z].map(bits), exact);
         }
     }
+
+    /// Differences that leave 32 bits are halved.
+    #[test]
+    fn a_direction_to_the_other_end_of_the_format_is_right() {
+        for (from, to) in
+            [((-127, -100, 5), (127, 120, -9)), ((127, 3, 2), (-127, 3, 1)), ((1, 2, 3), (4, 6, 3))]
+        {
+            let real = |(x, y, z): (i32, i32, i32)| {
+                Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z))
+            };
+            let e = real(from).towards(real(to)).unwrap();
+            let d = [to.0 - from.0, to.1 - from.1, to.2 - from.2].map(f64::from);
+            let length = d.iter().map(|c| c * c).sum::<f64>().sqrt();
+            for (got, c) in [e.x, e.y, e.z].into_iter().zip(d) {
+                assert!((got.to_num::<f64>() - c / length).abs() < 2_f64.powi(-27), "{from:?} {to:?}");
+            }
+        }
+    }
 }

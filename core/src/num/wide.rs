@@ -207,4 +207,14 @@ mod tests {
         assert!(worst > 1);
         assert_eq!(Reciprocal::of(0), Reciprocal::of(1));
     }
+
+    #[test]
+    fn halvings_are_never_too_many() {
+        for i in 1..20_000_u64 {
+            let d = i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (1 + i % 50);
+            let exact = (63.0 - (d as f64).log2()) * 2_f64.powi(24);
+            let got = f64::from(Reciprocal::of(d).halvings());
+            assert!(got <= exact + 1e-6 && got > exact - 6.0, "{d}: {got} {exact}");
+        }
+    }
 }

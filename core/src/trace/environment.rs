@@ -139,3 +139,63 @@ pub(crate) fn between(
 ) -> Result<(), Error> {
     if value < min || value > max { Err(Error::OutOfRange { what, index, value, min, max }) } else { Ok(()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Directions of unit length on both sides of the horizon, down to `2^-19` of it.
+    fn directions() -> impl Iterator<Item = Vec3<Unit>> {
+        (1..6000_i32).filter_map(|i| {
+            let bits = |n: i32| i.wrapping_mul(n) >> 3;
+            let [x, y, z] = [bits(0x2545_f491), bits(0x6c07_8965), bits(0x1f12_3bb5) >> (i % 19)];
+            Vec3::new(Real::from_bits(x), Real::from_bits(y), Real::from_bits(z)).normalised()
+        })
+    }
+
+    #[test]
+    fn a_gradient_is_linear_on_both_sides_of_the_horizon() {
+        let tones = [0.9, 0.3, 0.05];
+        let [zenith, horizon, nadir] = tones.map(Unit::from_num);
+        let sky = Environment::Gradient { zenith, horizon, nadir };
+        for e in directions() {
+            let z = e.z.to_num::<f64>();
+            let pole = if z < 0.0 { tones[2] } else { tones[0] };
+            let exact = tones[1] + (pole - tones[1]) * z.abs();
+            assert!((sky.tone(e).to_num::<f64>() - exact).abs() < 2_f64.powi(-29), "{e:?}");
+        }
+    }
+
+    /// Against floating point, except where a ray comes within `2^-7` of a square from its side.
+    #[test]
+    fn a_checkerboard_has_the_tones_of_its_squares_and_fades() {
+        let [bright, dark, horizon] = [0.875, 0.125, 0.5].map(Unit::from_num);
+        let (mut evens, mut faded) = ([0; 2], 0);
+        for (scale, fade) in [(1.0, 0.125), (0.75, 1.0 / 64.0), (2.3125, 1.0)] {
+            let (scale_bits, fade_bits) = (Real::from_num(scale), Unit::from_num(fade));
+            let board =
+                Environment::Checkerboard { bright, dark, horizon, scale: scale_bits, fade: fade_bits };
+            for e in directions() {
+                let [x, y, z] = [e.x, e.y, e.z].map(|c| c.to_num::<f64>());
+                let squares = [x, y].map(|c| c / z.abs() * scale);
+                if squares.iter().any(|s| (s - s.round()).abs() < 2_f64.powi(-7)) || z.abs() < 2_f64.powi(-18)
+                {
+                    continue;
+                }
+                let even = (squares[0].floor() + squares[1].floor()) % 2.0 == 0.0;
+                let tone = if even { 0.875 } else { 0.125 };
+                let exact = 0.5 + (tone - 0.5) * (z.abs() / fade).min(1.0);
+                assert!((board.tone(e).to_num::<f64>() - exact).abs() < 2_f64.powi(-26), "{scale} {e:?}");
+                evens[usize::from(even)] += 1;
+                faded += usize::from(z.abs() < 2_f64.powi(-14));
+            }
+        }
+        assert!(evens.iter().all(|n| *n > 3000) && faded > 100, "{evens:?} {faded}");
+    }
+
+    #[test]
+    fn the_ends_of_a_range_belong_to_it() {
+        let within = |v: i32| between("number", None, Wide::from_num(v), Wide::ZERO, Wide::ONE).is_ok();
+        assert!(within(0) && within(1) && !within(-1) && !within(2));
+    }
+}

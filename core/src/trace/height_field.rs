@@ -209,3 +209,38 @@ impl<'a> HeightField<'a> {
         Some(Hit { level, index: (i, j), t: Real::from_bits(t), cells: (*f, *g) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Minus the products of slopes and means: towards plus infinity by a unit at most, saturated at 64.
+    #[test]
+    fn a_normal_is_minus_the_products_exactly() {
+        let numbers =
+            [0, 1, -1, 12_345_679, -98_765_431, 64 << 24, (8 << 24) + 1, -(8 << 24), i32::MAX, i32::MIN];
+        for slope in numbers {
+            for mean in numbers {
+                let f = Cell { slope: Real::from_bits(slope), ..Cell::ZERO };
+                let g = Cell { mean: Real::from_bits(mean), ..Cell::ZERO };
+                let exact = i64::from(slope) * i64::from(mean);
+                let expected = if (-(64_i64 << 48)..64 << 48).contains(&exact) {
+                    -(exact >> 24)
+                } else if exact < 0 {
+                    64 << 24
+                } else {
+                    -(64 << 24)
+                };
+                assert_eq!(normal(&f, &g).map(i64::from), [expected, 0, 1 << 24], "{slope} {mean}");
+                assert_eq!(normal(&g, &f).map(i64::from), [0, expected, 1 << 24], "{slope} {mean}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_node_has_its_place_in_its_level() {
+        let side = Side { cells: &[], starts: &[0, 1 << 29, 1 << 30], origin: 0, width: 1 << 24 };
+        let places = [0, 1, 3, 4, 12, 13, 39].map(|node| side.place(node));
+        assert_eq!(places, [(0, 0), (1, 0), (1, 2), (2, 0), (2, 8), (3, 0), (3, 26)]);
+    }
+}

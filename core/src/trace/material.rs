@@ -164,9 +164,70 @@ fn times(a: Unit, b: Unit) -> Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::Real;
 
     #[test]
     fn the_ordinary_light_is_the_one_of_its_direction() {
         assert_eq!(Light::new(Vec3::new((-1).into(), (-2).into(), 3.into())), Ok(Light::ORDINARY));
+    }
+
+    /// Pairs of directions of unit length.
+    fn directions() -> impl Iterator<Item = (Vec3<Unit>, Vec3<Unit>)> {
+        let direction = |i: i32| {
+            let [x, y, z] = [0x2545_f491, 0x6c07_8965, 0x1f12_3bb5_i32].map(|n| i.wrapping_mul(n) >> 3);
+            Vec3::new(Real::from_bits(x), Real::from_bits(y), Real::from_bits(z)).normalised().unwrap()
+        };
+        (1..3000).map(move |i| (direction(i), direction(7 * i + 3)))
+    }
+
+    fn numbers(v: Vec3<Unit>) -> [f64; 3] {
+        [v.x, v.y, v.z].map(|c| c.to_num())
+    }
+
+    fn product(a: [f64; 3], b: [f64; 3]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    /// Against the formulas of Lambert and Phong in floating point.
+    #[test]
+    fn tones_are_those_of_their_formulas() {
+        let light = Light::ORDINARY;
+        let l = numbers(light.towards);
+        let (mut full, mut behind) = (0, 0);
+        for (n, d) in directions() {
+            let (normal, ray) = (numbers(n), numbers(d));
+            let along = product(normal, ray);
+            let lit = (if along > 0.0 { -product(normal, l) } else { product(normal, l) }).clamp(0.0, 1.0);
+            let mirror: std::vec::Vec<_> = (0..3).map(|i| ray[i] - 2.0 * along * normal[i]).collect();
+            let highlight = product([mirror[0], mirror[1], mirror[2]], l).clamp(0.0, 1.0);
+            behind += usize::from(product([mirror[0], mirror[1], mirror[2]], l) < -0.5);
+            let tone = |material: Material| material.tone(n, d, &light, &Environment::SKY).to_num::<f64>();
+            // the sign of a grazing ray is anybody's
+            if along.abs() > 1e-8 {
+                let exact = 0.25 + 0.75 * lit;
+                let got = tone(Material::Diffuse { ambient: Unit::from_num(0.25) });
+                assert!((got - exact).abs() < 2_f64.powi(-26), "{n:?} {d:?}: {got} {exact}");
+                for (parts, shininess) in [([0.125, 0.5, 0.375], 32), ([0.5, 0.75, 0.875], 3)] {
+                    let [ambient, diffuse, specular] = parts.map(Unit::from_num);
+                    let got = tone(Material::Phong { ambient, diffuse, specular, shininess });
+                    let matt = (parts[0] + parts[1] * lit).min(1.0);
+                    let exact = matt + parts[2] * highlight.powi(shininess.into());
+                    full += usize::from(exact > 1.25);
+                    assert!((got - exact.min(1.0)).abs() < 2_f64.powi(-22), "{n:?} {d:?}: {got} {exact}");
+                }
+            }
+            let sky = 0.5 + (if mirror[2] < 0.0 { 0.125 } else { 1.0 } - 0.5) * mirror[2].abs();
+            assert!((tone(Material::Mirror) - sky).abs() < 2_f64.powi(-26), "{n:?} {d:?}");
+        }
+        assert!(full > 10 && behind > 100, "{full} {behind}");
+    }
+
+    #[test]
+    fn a_product_of_tones_is_the_nearest() {
+        for (n, d) in directions() {
+            let exact = i64::from(n.x.to_bits()) * i64::from(d.y.to_bits());
+            let off = (i64::from(times(n.x, d.y).to_bits()) << 30) - exact;
+            assert!((-(1 << 29) + 1..=1 << 29).contains(&off), "{n:?} {d:?}: {off}");
+        }
     }
 }

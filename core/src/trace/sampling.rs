@@ -188,4 +188,61 @@ mod tests {
         assert_eq!(at(5, 9), at(5, 9));
         assert_ne!(at(5, 9), at(9, 5));
     }
+
+    /// Places and weights of a Gaussian filter against its formula.
+    #[test]
+    fn a_gaussian_weighs_its_places() {
+        for (n, deviation, width) in [(8, 0.125, 4.0), (5, 0.5, 2.0), (4, 4.0, 1.0), (3, 1.25, 3.5)] {
+            let filter =
+                Filter::Gaussian { deviation: Real::from_num(deviation), width: Real::from_num(width) };
+            let pattern = Pattern::new(Sampling::Grid(n), filter).unwrap();
+            let place = |i: u8| (f64::from(i) + 0.5) / f64::from(n) * width - width / 2.0;
+            let weight = |i: u8| (-(place(i) / deviation).powi(2) / 2.0).exp();
+            let sum: f64 = (0..n).map(weight).sum();
+            let samples: std::vec::Vec<_> = pattern.samples(0, 0).collect();
+            for (row, column, sample) in (0..n * n).zip(&samples).map(|(i, sample)| (i / n, i % n, sample)) {
+                let [dx, dy] = [sample.0, sample.1].map(|v| f64::from(v) / 2_f64.powi(24));
+                assert!(
+                    (dx - place(column)).abs() < 2_f64.powi(-24) && (dy - place(row)).abs() < 2_f64.powi(-24)
+                );
+                let exact = weight(row) * weight(column) / sum / sum;
+                let got = f64::from(sample.2) / 2_f64.powi(30);
+                assert!((got - exact).abs() < 2_f64.powi(-25), "{n} {row} {column}: {got} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_margin_is_what_a_filter_needs_beyond_the_pixel() {
+        let margin =
+            |width: f64| Filter::Gaussian { deviation: Real::ONE, width: Real::from_num(width) }.margin();
+        assert_eq!([1.0, 1.5, 2.0, 3.0, 3.5, 4.0].map(margin), [0, 1, 1, 1, 2, 2]);
+        assert_eq!(Filter::Box.margin(), 0);
+    }
+
+    /// Both axes are jittered on their own, over the whole area; one sample that moves is not the centre.
+    #[test]
+    fn jitter_fills_its_area() {
+        let pattern = Pattern::new(Sampling::Jittered { n: 1, seed: 3 }, Filter::Box).unwrap();
+        assert!(!pattern.is_centre() && Pattern::CENTRE.is_centre());
+        let mut quarters = [0; 4];
+        let mut extremes = [[0_i32; 2]; 2];
+        for x in 0..2000 {
+            for (dx, dy, _) in pattern.samples(x, 5) {
+                quarters[usize::from(dx < 0) * 2 + usize::from(dy < 0)] += 1;
+                for (extreme, v) in extremes.iter_mut().zip([dx, dy]) {
+                    *extreme = [extreme[0].min(v), extreme[1].max(v)];
+                }
+            }
+        }
+        assert!(quarters.iter().all(|n| (400..600).contains(n)), "{quarters:?}");
+        let side = 1 << 23;
+        assert!(
+            extremes.iter().all(|[low, high]| *low >= -side
+                && *low < -side + (side >> 6)
+                && *high < side
+                && *high > side - (side >> 6)),
+            "{extremes:?}"
+        );
+    }
 }
