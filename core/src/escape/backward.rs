@@ -29,7 +29,7 @@ impl JuliaSet {
     /// Result: points of `J_c` with 24 fractional bits, rounded towards 0; [`BackwardIteration::next_preimage`] gives them with 29, and
     /// then the forward orbit of each stays within 2 for 12 steps (`forward_orbits_stay_within_two`; for `|c| > 15/8`, where a step may
     /// drive an error away by a factor near 4, within 2.05; for `c = -2` within 2). Cost of a point:
-    /// 179 Cortex-M4 instructions with xoshiro128++.
+    /// 179 Cortex-M4 instructions (kernel `backward`) with xoshiro128++.
     pub fn backward_iteration<R: Rng>(&self, rng: R) -> BackwardIteration<R> {
         BackwardIteration { c: self.word(), z: self.start(), rng }
     }
@@ -42,7 +42,8 @@ impl JuliaSet {
     /// All preimages, except beyond a cell that has been hit `limit` times. `hits` is a grid of `side` by `side` cells over the square
     /// from `-2 - 2i` to `2 + 2i`; it is cleared first. A cell as large as a pixel and a limit of 1 to 20 are usual.
     ///
-    /// Result: finitely many points, at most 2 for each hit allowed. Memory: 600 bytes and the grid. Cost of a point: 247 Cortex-M4 instructions.
+    /// Result: finitely many points, at most 2 for each hit allowed. Memory: 600 bytes and the grid. Cost of a point: 247
+    /// Cortex-M4 instructions (kernel `backward pruned`).
     ///
     /// # Errors
     /// [`Error::BufferLength`] when `hits` does not have `side * side` elements, [`Error::TooFew`] for a `side` or a `limit` of 0.

@@ -44,10 +44,12 @@ pub(super) trait Step {
     }
 }
 
-/// 29 fractional bits: the whole 64-bit product is used. Error of a step: below `2^-29` in each part.
+/// 29 fractional bits: the whole 64-bit product is used. Error: of a step below `2^-29` in each part
+/// (`a_step_is_within_its_bound`).
 pub(super) struct Fine;
 
-/// 26 fractional bits: only the high words are used. Error of a step: below `2^-26` in the real, `2^-27` in the imaginary part.
+/// 26 fractional bits: only the high words are used. Error: of a step below `2^-26` in the
+/// real, `2^-27` in the imaginary part (`a_step_is_within_its_bound`).
 pub(super) struct Coarse;
 
 impl Step for Fine {

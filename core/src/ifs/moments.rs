@@ -31,7 +31,7 @@ impl<const N: usize> Ifs<N> {
     ///
     /// Domain: contraction factors up to `1 - 2^-8`.
     /// Error: of the mean below `2^-46`, of the covariance below `2^-40`, for the catalogue (rows `Ifs::moments` of the table of promises).
-    /// Cost: 92 thousand Cortex-M4 instructions for the fern.
+    /// Cost: 91 thousand Cortex-M4 instructions (kernel `moments`) for the fern.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for larger contraction factors.
