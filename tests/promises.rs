@@ -101,8 +101,8 @@ fn every_stated_error_names_the_test_that_measures_it() {
     for Documented { place, item, text } in documented() {
         // "Error of a tone: " would pass by the rule
         let spelled = text.match_indices("Error ").any(|(at, _)| {
-            let sentence = text[at..].split(['.', '`']).next().unwrap_or_default();
-            sentence.contains(": ")
+            let sentence = text[at + "Error ".len()..].split(['.', '`']).next().unwrap_or_default();
+            sentence.starts_with(char::is_alphabetic) && sentence.contains(": ")
         });
         assert!(!spelled && !text.contains("Error. "), "{item} at {place}: spell it `Error: `");
         let Some((_, promise)) = text.split_once("Error: ") else { continue };

@@ -236,6 +236,28 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn a_step_is_within_its_bound() {
+        let mut worst = [[0_i128; 2]; 2];
+        let mut word = 1_u64;
+        for _ in 0..200_000 {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            // up to 1.4 in absolute value
+            let z = ((word >> 32) as i32 >> 2, (word >> 16) as i32 >> 2);
+            let [x, y] = [z.0, z.1].map(i128::from);
+            let exact = [x * x - y * y, 2 * x * y];
+            for (worst, (re, im)) in worst.iter_mut().zip([Fine::step(z, (0, 0)), Coarse::step(z, (0, 0))]) {
+                for (worst, (got, exact)) in worst.iter_mut().zip([re, im].into_iter().zip(exact)) {
+                    *worst = (*worst).max(((i128::from(got) << FRACTION) - exact).abs());
+                }
+            }
+        }
+        // with 58 fractional bits
+        for (worst, bound) in worst.as_flattened().iter().zip([1 << 29, 1 << 29, 1_i128 << 32, 1 << 31]) {
+            assert!(bound / 4 < *worst && *worst <= bound, "{worst} of {bound}");
+        }
+    }
+
+    #[test]
     fn nothing_that_wraps_is_taken_for_a_point_of_the_disc() {
         let constants: Vec<Word> = edge(40, 1).into_iter().filter(|c| !is_beyond(*c)).collect();
         let mut dwells = [0_u32; 6];
