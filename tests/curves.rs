@@ -675,3 +675,33 @@ fn a_refinement_lengthens_by_the_sum_of_its_segments() {
         assert!((-segment..(points.len() - 1) as f64 * segment).contains(&excess), "{excess:e}");
     }
 }
+
+#[test]
+fn corners_lie_on_the_circle() {
+    let mut worst = 0.0_f64;
+    for bits in [1, 777, 1 << 20, 1 << 24, (7 << 24) + 12_345, 60 << 24, i32::MAX / 2] {
+        let radius = Real::from_bits(bits);
+        let r = radius.to_num::<f64>();
+        for (k, p) in [0, 1, 2, 0].into_iter().zip(koch::triangle(Point2::default(), radius)) {
+            let angle = (90.0 - 120.0 * f64::from(k)).to_radians();
+            let (x, y) = xy(p);
+            let error = (x - r * angle.cos()).abs().max((y - r * angle.sin()).abs());
+            worst = worst.max(error / (ULP / 2.0 + ULP / 8.0 * r));
+        }
+    }
+    assert!(worst > 0.25 && worst < 1.0, "{worst}");
+}
+
+#[test]
+fn a_fraction_is_rounded_down() {
+    for w in attractor_tests::accuracy::words(9).take(1000) {
+        let fraction =
+            koch::Fraction { numerator: w >> (w % 40), denominator: (w.rotate_left(20) >> (w % 23)) | 1 };
+        let (n, d) = (u128::from(fraction.numerator) << 48, u128::from(fraction.denominator));
+        let got = fraction.to_wide().to_bits();
+        let rest = n - d * got as u128;
+        assert!(rest < d || got == i64::MAX, "{fraction:?}");
+    }
+    let none = koch::Fraction { numerator: 1, denominator: 0 };
+    assert_eq!(none.to_wide(), Wide::MAX);
+}

@@ -321,3 +321,24 @@ fn one_map_is_a_polynomial() {
         );
     }
 }
+
+/// At its knots an integral is the reference's. The numbers of `f` are exact here, so that its own error does not count.
+#[test]
+fn an_integral_is_within_its_bound() {
+    let (tried, worst) = (Count::new(0_u32), Count::new(0.0_f64));
+    let check = |random: Random| {
+        let integral: Fif<6, 3> = random.fixed().integral(Wide::ZERO).unwrap();
+        let exact = random.exact();
+        let unit = two_to(-48);
+        for (knot, (_, y)) in integral.knots().zip(exact.integral(0.0).knots()) {
+            let error = (knot.y.to_num::<f64>() - y).abs();
+            prop_assert!(error <= unit, "{error:e}: {random:?}");
+            worst.set(worst.get().max(error / unit));
+        }
+        tried.set(tried.get() + 1);
+        Ok(())
+    };
+    TestRunner::new(config()).run(&functions(900), check).unwrap();
+    println!("{:.3} units", worst.get());
+    assert!(tried.get() > 50 && worst.get() > 0.25, "{} of {}", worst.get(), tried.get());
+}

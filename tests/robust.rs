@@ -164,9 +164,8 @@ fn functions_of_any_description() {
     let description = prop_oneof![wild_function(), function(30, 30), function(30_000, 30)];
     fuzz((description, vec(wide(), 8), real()), 25, |((knots, scaling), xs, epsilon)| {
         let Ok(f) = Fif::<6, 1>::interpolating(&knots, &scaling) else { return false };
-        if f.max_scaling() > 0.995 {
-            return true; // walks get long
-        }
+        // walks get long, and end: a few are taken
+        let xs = if f.max_scaling() > 0.995 { [xs[0]; 8].to_vec() } else { xs };
         exercise(&f, &xs, epsilon);
         if let Ok(integral) = f.integral::<3>(xs[0]) {
             exercise(&integral, &xs, epsilon);

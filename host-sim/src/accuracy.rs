@@ -45,5 +45,11 @@ pub(crate) fn run(args: &Accuracy) -> Result<(), Fail> {
             row.kernel, row.format, row.inputs
         )?;
     }
+    writeln!(
+        out,
+        "\nBounds of fractal interpolation functions (Fif, Dyadic, Surface, Cell) are those at an exact abscissa, \
+         error_bound:\nthe partitions of these rows are dyadic. On any other partition error_bound_at_x bounds the \
+         error at x itself."
+    )?;
     Ok(())
 }

@@ -71,7 +71,8 @@ pub struct Generator<const S: usize> {
 impl<const S: usize> Generator<S> {
     /// The generator with these vertices; the segment from the first to the last is what it replaces.
     ///
-    /// Domain: points as a scene says them. Error: half a unit in the last place of each vertex after division by the segment, `2^-31` (tests/curves.rs).
+    /// Domain: points as a scene says them. Error: half a unit in the last place of each vertex after division
+    /// by the segment, `2^-31` (`a_vertex_is_the_nearest_number`).
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` or 127 segments,
@@ -192,7 +193,8 @@ impl<const S: usize> Generator<S> {
         self.len == 0
     }
 
-    /// By how much a refinement lengthens the curve: the sum of the segments' lengths over that of the segment they replace. Error: below `2^-29` a segment, upwards (tests/curves.rs).
+    /// By how much a refinement lengthens the curve: the sum of the segments' lengths over that of the segment they replace. Error: below
+    /// `2^-29` a segment, upwards (`a_refinement_lengthens_by_the_sum_of_its_segments`).
     ///
     /// ```
     /// use attractor::curve::koch;
@@ -313,7 +315,7 @@ fn quotient(v: [i64; 2], whole: [i64; 2]) -> Option<[i32; 2]> {
     let square = u * u + w * w;
     // below 2^94 << 31
     let divided = |numerator: i128| {
-        let twice = (numerator << 31).checked_div(square).unwrap_or(i128::MAX);
+        let twice = (numerator << 31).checked_div_euclid(square).unwrap_or(i128::MAX);
         i64::try_from((twice + 1) >> 1).ok()
     };
     let (re, im) = (divided(x * u + y * w)?, divided(y * u - x * w)?);
@@ -338,4 +340,36 @@ pub(super) fn hypotenuse(x: i64, y: i64) -> u64 {
     let square = x.unsigned_abs() * x.unsigned_abs() + y.unsigned_abs() * y.unsigned_abs();
     let root = u64::from(sqrt(square));
     root + u64::from(root * root < square)
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+
+    #[test]
+    fn a_vertex_is_the_nearest_number() {
+        let (mut made, mut close) = (0, 0);
+        let mut word = 1_u64;
+        let mut next = || {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            word as i64 >> 20
+        };
+        for _ in 0..4000 {
+            let points = [(); 4].map(|()| [Wide::from_bits(next()), Wide::from_bits(next())]);
+            let Ok(generator) = Generator::<3>::polyline(&points) else { continue };
+            made += 1;
+            let [u, v, _, w] = points
+                .map(|p| [0, 1].map(|i| i128::from(p[i].to_bits()) - i128::from(points[0][i].to_bits())));
+            assert_eq!(u, [0, 0]);
+            let norm = w[0] * w[0] + w[1] * w[1];
+            let exact = [v[0] * w[0] + v[1] * w[1], v[1] * w[0] - v[0] * w[1]].map(|e| e << 30);
+            for (got, exact) in generator.cells[0][1].start.into_iter().zip(exact) {
+                let twice = 2 * (i128::from(got) * norm - exact).abs();
+                assert!(twice <= norm, "{points:?}: {got}");
+                close += u32::from(4 * twice > norm);
+            }
+        }
+        assert!(made > 100 && close > 100, "{made} {close}");
+    }
 }

@@ -25,7 +25,8 @@ pub const SEGMENT: [Point2; 2] = [Point2::new(Real::ZERO, Real::ZERO), Point2::n
 
 /// The base of a snowflake: an equilateral triangle with a corner at the top, closed, walked clockwise, so that all bumps point outwards.
 ///
-/// Domain: all; corners saturate. Error: below `2^-24` of the radius (tests/curves.rs).
+/// Domain: all; corners saturate. Error: half a unit and below `2^-27` of the radius
+/// (`corners_lie_on_the_circle`).
 pub fn triangle(centre: Point2, radius: Real) -> [Point2; 4] {
     [0_u64, 1, 2, 0].map(|third| {
         // a quarter turn, and clockwise from there
@@ -53,7 +54,8 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    /// Its value, saturated. Error: below `2^-48`, downwards (tests/curves.rs).
+    /// Its value, saturated. Error: below `2^-48`, downwards
+    /// (`a_fraction_is_rounded_down`).
     pub fn to_wide(self) -> Wide {
         let quotient = (u128::from(self.numerator) << 48).checked_div(u128::from(self.denominator));
         Wide::from_bits(quotient.and_then(|q| i64::try_from(q).ok()).unwrap_or(i64::MAX))

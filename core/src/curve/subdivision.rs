@@ -60,8 +60,9 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     /// The curve through `knots` that `law` describes; closed when the last knot is the first.
     ///
     /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision, with the
-    /// point that it yields: 156 Cortex-M4 instructions for an elbow that stops by parameter, 185 by length; 179 for one variable and 241 for two by norm;
-    /// 145 for a function that stops by parameter.
+    /// point that it yields: 156 Cortex-M4 instructions (kernel `elbow`) for an elbow that stops by parameter, 185
+    /// (kernel `elbow by length`) by length; 179 (kernel `one variable`) for one variable and 241
+    /// (kernel `two variable`) for two by norm; 145 (kernel `line to line`) for a function that stops by parameter.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for neighbours that are 128 or more apart in a coordinate and for a limit of 0 or less, [`Error::Capacity`] when the parameter asks for more than

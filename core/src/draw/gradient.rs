@@ -11,7 +11,8 @@ use crate::draw::{Level, Leveled, Palette};
 /// Result: between neighbouring stops `(p, c)` and `(q, d)` each channel is `c + (d - c) (x - p) / (q - p)`,
 /// rounded; exact at the stops, constant outside the first and the last. Values inside the set are black.
 /// Interpolation is in the encoded (sRGB) channels: put enough stops where that matters. Error: 0.51 of a
-/// step of a channel (`a_gradient_stays_within_half_a_step_of_the_exact_line`).
+/// step of a channel (`a_gradient_stays_within_half_a_step_of_the_exact_line`,
+/// `the_gradients_of_the_crate_keep_the_same_bound`).
 /// Cost: a walk along the stops up to the level, and 4 multiplications.
 ///
 /// ```

@@ -21,7 +21,8 @@ impl Level {
 
     /// `part / whole`.
     ///
-    /// Domain: all; 1 where `part > whole`, 0 where `whole` is 0. Error: half a step.
+    /// Domain: all; 1 where `part > whole`, 0 where `whole` is 0. Error: half a step
+    /// (`a_ratio_is_rounded_to_the_nearest_step`).
     /// Cost: one 32-bit division while both are below 65536, else one 64-bit division.
     #[inline]
     pub const fn ratio(part: u32, whole: u32) -> Self {

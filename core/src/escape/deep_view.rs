@@ -34,7 +34,7 @@ pub struct DeepView<const LIMBS: usize> {
     /// `W / (2 cols)`: quotient and remainder.
     half_pitch: Limbs<LIMBS>,
     rest: u32,
-    /// The same as a real block. Error: `2^-61` of it.
+    /// The same as a real block. Error: below `2^-49` of it (`the_grid_is_that_of_the_narrow_view`).
     half_pitch_block: Block<i64>,
     /// Pixels by which the view was panned, to the right and up.
     panned: (i32, i32),
@@ -152,7 +152,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
 
     /// The middle of pixel `(column, row)`, `(0, 0)` at the upper left.
     ///
-    /// Domain: inside [`DeepView::size`]; others count as the nearest pixel. Error: below a unit of the last place.
+    /// Domain: inside [`DeepView::size`]; others count as the nearest pixel. Error: below a unit of
+    /// the last place, of which `2^-48` is measured (`the_grid_is_that_of_the_narrow_view`).
     pub fn point(&self, column: u32, row: u32) -> Complex<Limbs<LIMBS>> {
         self.point_at(self.steps(column, row))
     }

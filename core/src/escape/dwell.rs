@@ -44,10 +44,12 @@ pub(super) trait Step {
     }
 }
 
-/// 29 fractional bits: the whole 64-bit product is used. Error of a step: below `2^-29` in each part.
+/// 29 fractional bits: the whole 64-bit product is used. Error: of a step below `2^-29` in each part
+/// (`a_step_is_within_its_bound`).
 pub(super) struct Fine;
 
-/// 26 fractional bits: only the high words are used. Error of a step: below `2^-26` in the real, `2^-27` in the imaginary part.
+/// 26 fractional bits: only the high words are used. Error: of a step below `2^-26` in the
+/// real, `2^-27` in the imaginary part (`a_step_is_within_its_bound`).
 pub(super) struct Coarse;
 
 impl Step for Fine {
@@ -231,6 +233,28 @@ pub(super) mod tests {
             }
         }
         points
+    }
+
+    #[test]
+    fn a_step_is_within_its_bound() {
+        let mut worst = [[0_i128; 2]; 2];
+        let mut word = 1_u64;
+        for _ in 0..200_000 {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            // up to 1.4 in absolute value
+            let z = ((word >> 32) as i32 >> 2, (word >> 16) as i32 >> 2);
+            let [x, y] = [z.0, z.1].map(i128::from);
+            let exact = [x * x - y * y, 2 * x * y];
+            for (worst, (re, im)) in worst.iter_mut().zip([Fine::step(z, (0, 0)), Coarse::step(z, (0, 0))]) {
+                for (worst, (got, exact)) in worst.iter_mut().zip([re, im].into_iter().zip(exact)) {
+                    *worst = (*worst).max(((i128::from(got) << FRACTION) - exact).abs());
+                }
+            }
+        }
+        // with 58 fractional bits
+        for (worst, bound) in worst.as_flattened().iter().zip([1 << 29, 1 << 29, 1_i128 << 32, 1 << 31]) {
+            assert!(bound / 4 < *worst && *worst <= bound, "{worst} of {bound}");
+        }
     }
 
     #[test]

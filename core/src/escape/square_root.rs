@@ -12,8 +12,7 @@ use crate::num::root_and_reciprocal;
 impl Complex<I3F29> {
     /// The square root in the right half plane; of a negative number the one above the real axis.
     ///
-    /// Domain: all. Result: `re >= 0`. Error: below 2 units of `2^-29` in each part (`a_root_is_within_two_units`), none for the
-    /// squares of real halves. Cost: 150 Cortex-M4 instructions.
+    /// Domain: all. Result: `re >= 0`, rounded as in `square_root`. Cost: 150 Cortex-M4 instructions (kernel `complex sqrt`).
     ///
     /// ```
     /// use attractor::escape::Complex;
@@ -27,7 +26,8 @@ impl Complex<I3F29> {
     }
 }
 
-/// The root of `x + i y`, both with 29 fractional bits.
+/// The root of `x + i y`, both with 29 fractional bits. Error: below 2 units of `2^-29` in each part
+/// (`a_root_is_within_two_units`), none for the squares of real halves (`squares_of_halves_have_exact_roots`).
 ///
 /// Domain: `|x|, |y| <= 4` (a difference of two points of the disc, 4 included).
 #[inline]

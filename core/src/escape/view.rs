@@ -304,7 +304,8 @@ impl FusedIterator for Line {}
 /// The nearest stored point, none beyond the disc `|c| <= 2`.
 ///
 /// Whether `c` is beyond is decided exactly, on all 48 bits; a point of the disc stays in the disc.
-/// Error: half a unit, `2^-30`, ties away from 0; at most one unit within `2^-24` of the circle.
+/// Error: half a unit, `2^-30`, ties away from 0; at most one unit within `2^-24` of the circle
+/// (`narrowing_decides_the_circle_on_all_bits_and_rounds_to_nearest`).
 #[inline(always)]
 pub(super) fn narrow(c: Complex<Wide>) -> Option<Word> {
     let (x, y) = (c.re.to_bits(), c.im.to_bits());

@@ -16,7 +16,8 @@ use crate::num::{ONE, Polynomial, Wide, mul_high_u, nth, quotient, times, twice_
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function `initial + integral of f from x_0 to x`, with room for polynomials of degree `E`.
     ///
-    /// Error: below `2^-44 (x_N - x_0) / (1 - max|alpha|)` beyond the integral of the error of `f` itself. Repeatable.
+    /// Error: at a knot at most a unit, `2^-48`, beyond the integral of
+    /// the error of `f` itself (`an_integral_is_within_its_bound`). Repeatable.
     ///
     /// # Errors
     /// [`Error::Capacity`] if `E` is not above the degree of `f`; [`Error::OutOfRange`] if the integral leaves the format.

@@ -74,8 +74,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value near `x` by composition (Algorithm 2): maps are composed until the horizontal factor is at most `epsilon`, then the median knot is sent
     /// through the composite.
     ///
-    /// Result: the value at some abscissa within `epsilon (x_N - x_0)` of `x` (at least `2^-40` of the domain). Error there: below [`Fif::error_bound`]
-    /// for degree 1. Cost: `D^2` products of 64 bits a level, at most 32,768 levels: where a map takes more than 0.9995 of the
+    /// Result: the value at some abscissa within `epsilon (x_N - x_0)` of `x` (at least `2^-40` of the domain). Error: there
+    /// below [`Fif::error_bound`] for degree 1 (row `Fif::at_by_composition (integral of g)`). Cost: `D^2` products of 64 bits a level, at most 32,768 levels: where a map takes more than 0.9995 of the
     /// domain, they may end at an interval wider than `epsilon`.
     pub fn at_by_composition(&self, x: Wide, epsilon: Real) -> Real {
         let composite = self.composite_at(x, epsilon, self.levels);

@@ -24,9 +24,10 @@ pub struct Cell {
     pub min: Real,
     /// No value is above.
     pub max: Real,
-    /// Mean value. Error: below `2^-23 / (1 - max|alpha|)`.
+    /// Mean value. Error: below `2^-23 / (1 - max|alpha|)` (row `Cell::mean (integral of g)`).
     pub mean: Real,
-    /// Mean slope, `(f(x1) - f(x0)) / (x1 - x0)`, saturated. Error: `2^-23 / (1 - max|alpha_j / a_j|)` where that is positive.
+    /// Mean slope, `(f(x1) - f(x0)) / (x1 - x0)`, saturated. Error: `2^-23 / (1 - max|alpha_j / a_j|)` where that is
+    /// positive (row `Cell::slope (integral of g)`).
     pub slope: Real,
 }
 

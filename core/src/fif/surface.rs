@@ -83,12 +83,14 @@ impl<'a, const N: usize, const D: usize, const M: usize, const E: usize> Surface
         Self { f, g }
     }
 
-    /// The height at `(x, y)`, saturated. Error: `|f| err(g) + |g| err(f)`, see [`Fif::error_bound_at_x`], and `2^-25`.
+    /// The height at `(x, y)`, saturated. Error: `|f| err(g) + |g| err(f)`, see [`Fif::error_bound_at_x`], and
+    /// `2^-25` (row `Surface::height (f x g)`).
     pub fn height(&self, x: Wide, y: Wide) -> Real {
         product(self.f.value.evaluate(self.f.value.unit(x)), self.g.value.evaluate(self.g.value.unit(y)))
     }
 
-    /// The partial derivatives `(h_x, h_y)` at `(x, y)` (eq. 42-43), saturated. Error: below `2^-18` for factors and slopes up to 8 (tests/accuracy.rs).
+    /// The partial derivatives `(h_x, h_y)` at `(x, y)` (eq. 42-43), saturated. Error: below `2^-18` for factors and slopes up to 8
+    /// (row `Surface::partials (f x g)`).
     pub fn partials(&self, x: Wide, y: Wide) -> (Real, Real) {
         let (u, v) = (self.f.value.unit(x), self.g.value.unit(y));
         let (f, df) = (self.f.value.evaluate(u), self.f.slope.evaluate(u));

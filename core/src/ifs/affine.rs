@@ -40,7 +40,8 @@ impl Affine {
     /// The map whose coefficients `[a, b, c, d, e, f]` are these numbers over a common denominator; for constants.
     ///
     /// Domain: the denominator positive (less counts as 1); coefficients saturate at the ends of their formats, 2 and 128.
-    /// Error: half a unit in the last place, `2^-31` in `a b c d` and `2^-25` in `e f`.
+    /// Error: half a unit in the last place, `2^-31` in `a b c d` and `2^-25` in `e f`
+    /// (`ratios_become_the_nearest_coefficients`).
     pub const fn from_ratios(numerators: [i32; 6], denominator: i32) -> Self {
         let [a, b, c, d, e, f] = numerators;
         Self {
@@ -119,7 +120,8 @@ impl Affine {
 
     /// The map that applies `first`, then `self`: `self o first`.
     ///
-    /// Domain: all; coefficients saturate. Error: half a unit in the last place of each. Cost: 12 multiplications.
+    /// Domain: all; coefficients saturate. Error: half a unit in the last place of each
+    /// (`a_composition_is_rounded_once_to_the_nearest`). Cost: 12 multiplications.
     pub fn after(&self, first: &Self) -> Self {
         let entry = |l: Unit, m: Unit, p: Unit, q: Unit| {
             // beyond 63 bits only for -2 throughout, where the entry saturates anyhow
@@ -137,7 +139,8 @@ impl Affine {
         }
     }
 
-    /// `a d - b c`: the factor of areas, negative when the map turns left into right. Error: below `2^-48`, downwards.
+    /// `a d - b c`: the factor of areas, negative when the map turns left into right. Error: below
+    /// `2^-48`, downwards (`a_determinant_is_rounded_down`).
     pub fn determinant(&self) -> Wide {
         let [a, b, c, d] = self.linear().map(i128::from);
         Wide::from_bits(((a * d - b * c) >> 12) as i64)
@@ -397,6 +400,43 @@ mod tests {
                 assert_eq!(i128::from(got), nearest, "{second:?} {first:?}");
             }
         }
+    }
+
+    #[test]
+    fn ratios_become_the_nearest_coefficients() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(8);
+        let (mut close, mut ends) = (0, 0);
+        for _ in 0..100_000 {
+            let denominator = (rng.next_u32() >> (1 + rng.next_u32() % 31)).max(1) as i32;
+            let numerators = [(); 6].map(|()| rng.next_u32() as i32 >> (rng.next_u32() % 31));
+            let map = Affine::from_ratios(numerators, denominator);
+            let linear = map.linear().map(|l| (l, 30));
+            let got = linear.into_iter().chain([map.e, map.f].map(|t| (t.to_bits().into(), 24)));
+            for ((got, fraction), numerator) in got.zip(numerators) {
+                let (got, d) = (i128::from(got), i128::from(denominator));
+                let exact = i128::from(numerator) << fraction;
+                // half a unit, but for what the format cannot hold
+                let twice = 2 * (got * d - exact);
+                let [low, high] = [i32::MIN, i32::MAX].map(i128::from);
+                let saturates = (twice < 0 && got == high) || (twice > 0 && got == low);
+                assert!(twice.abs() <= d || saturates, "{numerator} / {denominator}: {got}");
+                close += u32::from(twice.abs() * 4 > d && !saturates);
+                ends += u32::from(saturates);
+            }
+        }
+        assert!(close > 10_000 && ends > 10_000, "{close} {ends}");
+    }
+
+    #[test]
+    fn a_determinant_is_rounded_down() {
+        let mut most = 0;
+        for map in random_maps(9).take(20_000) {
+            let [a, b, c, d] = map.linear().map(i128::from);
+            let low = a * d - b * c - (i128::from(map.determinant().to_bits()) << 12);
+            assert!((0..1 << 12).contains(&low), "{map:?}: {low}");
+            most = most.max(low);
+        }
+        assert!(most > 4000, "{most}");
     }
 
     #[test]

@@ -30,8 +30,9 @@ impl<const N: usize> Ifs<N> {
     /// Mean and covariance of the invariant measure: of infinitely many points of the chaos game.
     ///
     /// Domain: contraction factors up to `1 - 2^-8`.
-    /// Error: of the mean below `2^-46`, of the covariance below `2^-40`, for the catalogue (rows `Ifs::moments` of the table of promises).
-    /// Cost: 92 thousand Cortex-M4 instructions for the fern.
+    /// Error: of the mean below `2^-46`, of the covariance below `2^-40`, for the catalogue
+    /// (rows `Ifs::moments (mean)` and `Ifs::moments (covariance)`).
+    /// Cost: 91 thousand Cortex-M4 instructions (kernel `moments`) for the fern.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for larger contraction factors.

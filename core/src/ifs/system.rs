@@ -41,7 +41,8 @@ pub struct Ifs<const N: usize> {
 impl<const N: usize> Ifs<N> {
     /// The system of these maps, each chosen with its probability.
     ///
-    /// Cost: 35 square roots and up to 33 divisions for each map, and a few thousand instructions more: 161 thousand Cortex-M4 instructions for the fern.
+    /// Cost: 35 square roots and up to 33 divisions for each map, and a few thousand instructions more: 161 thousand
+    /// Cortex-M4 instructions (kernel `ifs`) for the fern.
     ///
     /// # Errors
     /// [`Error::TooFew`] without maps, [`Error::Capacity`] for more than `N` or 256, [`Error::LengthMismatch`] unless there is one probability for each map,

@@ -43,8 +43,8 @@ pub(crate) fn high_rounded(a: i32, b: i32) -> i32 {
 
 /// The upper word of `2 a b`, to nearest, halves upwards.
 ///
-/// Domain: `|a| < 2^30`, `|a| + |b| <= 2^31 - 2^18`. Cost: two Cortex-M4 instructions; on a Cortex-M0 14, and less where
-/// the squares are wanted too: the halves are shared.
+/// Domain: `|a| < 2^30`, `|a| + |b| <= 2^31 - 2^18`. Cost: a doubling and one multiplication;
+/// on a Cortex-M0 14 instructions, and less where the squares are wanted too: the halves are shared.
 #[inline(always)]
 pub(crate) fn high_of_double(a: i32, b: i32) -> i32 {
     if cfg!(no_long_product) { halves::high_of_double(a, b) } else { high_rounded(a.wrapping_add(a), b) }

@@ -4,7 +4,7 @@
 
 /// `v 2^shift / d` rounded down, saturated; the greatest number for `d` = 0.
 ///
-/// Domain: `shift < 64`. Exact. Cost: 32 or 64 steps of 16 Cortex-M4 instructions.
+/// Domain: `shift < 64`. Exact. Cost: 32 or 64 steps of a shift and a subtraction of 128 bits.
 #[inline(never)]
 pub(crate) fn ratio(v: u64, shift: u32, d: u64) -> u64 {
     let (mut rest, mut low, mut quotient) = ((v >> 1) >> (63 - shift), v << shift, 1);

@@ -85,7 +85,7 @@ impl Reciprocal {
     }
 
     /// How often 1 has to be halved to reach `d` with 63 fractional bits: its negative logarithm with 24 fractional bits. Error: low by less
-    /// than 6 units; 0 where `d` is above 1.
+    /// than 6 units (`halvings_are_low_by_less_than_six_units`); 0 where `d` is above 1.
     #[inline]
     pub(crate) fn halvings(self) -> u32 {
         self.halvings
@@ -179,6 +179,29 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn halvings_are_low_by_less_than_six_units() {
+        let mut worst: f64 = 0.0;
+        let mut word = 1_u64;
+        for k in 0..200_000 {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            let d = (word >> (k % 64)).max(1);
+            let exact = (63.0 - (d as f64).log2()) * 16_777_216.0;
+            let got = f64::from(Reciprocal::of(d).halvings());
+            if d > 1 << 63 {
+                assert_eq!(got, 0.0, "{d}");
+            } else {
+                // the logarithm in f64 is good to 2^-46, 2^-22 of a unit
+                assert!(
+                    got == 0.0 && exact < 6.0 || (-1e-6..6.0).contains(&(exact - got)),
+                    "{d}: {got} {exact}"
+                );
+                worst = worst.max(exact - got);
+            }
+        }
+        assert!(worst > 1.5, "{worst}");
     }
 
     #[test]

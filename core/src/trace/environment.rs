@@ -69,7 +69,9 @@ impl Environment {
         Ok(self)
     }
 
-    /// The tone in direction `e`, a unit vector. Result: in `[0, 1]`. Error: below `2^-26`, and a square's edge is off by less than `2^-15` of a square.
+    /// The tone in direction `e`, a unit vector. Result: in `[0, 1]`. Error: below `2^-26`
+    /// (row `Environment::tone (gradient)`), and a square's edge is off by less than `2^-15 (scale + d)` of a square at
+    /// the distance `d = max(|e_x|, |e_y|) / |e_z|` (`an_edge_is_where_it_should_be`).
     #[inline]
     pub fn tone(&self, e: Vec3<Unit>) -> Unit {
         self.seen([e.x, e.y, e.z].map(Unit::to_bits), |z| z)
@@ -197,5 +199,42 @@ mod tests {
     fn the_ends_of_a_range_belong_to_it() {
         let within = |v: i32| between("number", None, Wide::from_num(v), Wide::ZERO, Wide::ONE).is_ok();
         assert!(within(0) && within(1) && !within(-1) && !within(2));
+    }
+
+    #[test]
+    fn an_edge_is_where_it_should_be() {
+        let (mut worst, mut tried, mut other) = (0.0_f64, 0, 0);
+        let mut word = 1_u64;
+        for _ in 0..400_000 {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            let [x, y] = [word >> 33, word >> 13].map(|w| (w as u32 as i32) >> 2);
+            let z = ((word >> 24) as i32 >> 2) | 1 << 24;
+            let scale = Real::from_bits((word >> 40) as i32 | 1 << 22);
+            let sky = Environment::Checkerboard {
+                bright: Unit::ONE,
+                dark: Unit::ZERO,
+                horizon: Unit::ZERO,
+                scale,
+                fade: Unit::from_bits(1 << 20),
+            };
+            if z.unsigned_abs() < 1 << 22 {
+                continue;
+            }
+            tried += 1;
+            let steps = f64::from(scale.to_bits()) / 16_777_216.0;
+            let places = [x, y].map(|c| f64::from(c) / f64::from(z.abs()));
+            let even = places.iter().map(|p| (p * steps).floor() as i64).sum::<i64>() & 1 == 0;
+            let tone = sky.tone(Vec3::new(Unit::from_bits(x), Unit::from_bits(y), Unit::from_bits(z)));
+            if (tone > 0.5) != even {
+                other += 1;
+                let distance = places.iter().fold(0.0_f64, |d, p| d.max(p.abs()));
+                let off = |p: &f64| (p * steps - (p * steps).round()).abs();
+                let off = places.iter().map(off).fold(f64::MAX, f64::min) / (steps + distance);
+                worst = worst.max(off * 32_768.0);
+            }
+        }
+        // some directions lie in the sliver, and none farther off
+        assert!(tried > 300_000 && other > 5 && worst < 1.0, "{worst} of {other} of {tried}");
+        assert!(worst > 0.25, "{worst}");
     }
 }

@@ -79,7 +79,9 @@ impl Material {
 
     /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points away is turned round.
     ///
-    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`. Error: below `2^-24` for diffuse and Phong light with an exponent up to 64.
+    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`. Error: below `2^-24` for
+    /// diffuse light, `2^-22` for Phong's with an exponent up to 64 (rows `Material::tone (diffuse)` and
+    /// `Material::tone (Phong, exponent 64)`).
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
         match self.answer(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
