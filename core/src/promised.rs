@@ -10,7 +10,7 @@ use std::vec::Vec;
 const NOT_SERDE: [(&str, &[&str]); 4] = [
     (
         "made from values that are written, by a constructor that keeps only what it computes from them",
-        &["Fif", "Dyadic", "Composite", "Factor", "Camera", "Light", "Ray", "Generator"],
+        &["Fif", "Dyadic", "Composite", "Factor", "Camera", "Light", "Ray", "Generator", "JuliaCover"],
     ),
     ("the same, with a seed", &["Elbow", "LineToLine", "OneVariable", "TwoVariable"]),
     ("a step on the way to a value", &["Reciprocal", "Alias", "Ending", "OrbitPoint"]),
@@ -19,7 +19,7 @@ const NOT_SERDE: [(&str, &[&str]); 4] = [
 
 /// Why a type is not logged.
 const NOT_DEFMT: [(&str, &[&str]); 3] = [
-    ("as large as a program, and made of what is logged", &["Dyadic", "Composite", "Factor"]),
+    ("as large as a program, or made of what is logged", &["Dyadic", "Composite", "Factor", "JuliaCover"]),
     ("a step on the way to a value", &["Ending", "OrbitPoint"]),
     ("walks along something else, or a function", &["Line", "Pixels", "BackwardIteration", "Walk", "FromFn"]),
 ];

@@ -8,7 +8,7 @@
 //! - its radius reaches 1/2: it may meet `J_c`, for near `J_c` the map drives apart whatever it is given.
 //!
 //! Where `|f'|` is 1, at parabolic points and in Siegel discs, the radius grows by `r^2` alone although nothing is driven apart. Therefore a disc counts only when
-//! `r |(f^n)'|`, its size to first order, grows to `5 r` or 1/48 as well before its middle escapes; by Schwarz and Pick it is then no farther
+//! `r |(f^n)'|`, its size to first order, grows to `5 r` or 1/48 as well before its middle escapes or it shrinks to `r / 64`; by Schwarz and Pick it is then no farther
 //! from `J_c` than some radii. Neither picture nor grid has to be stored: a square is decided by itself, and exactly as its negative is, since both have
 //! the same image.
 //!
@@ -141,13 +141,16 @@ impl Discs {
                 if first_order >= stretched {
                     return true;
                 }
-                if modulus > FAR {
+                // it escapes, or sinks into a petal
+                if modulus > FAR || first_order < radius / 64 {
                     return false;
                 }
             }
             // here |z| <= 5/2, or r < 1/2 and |z| <= r + bound
             let twice = 2 * u64::from(modulus);
-            first_order = ((u64::from(first_order) * twice) >> FRACTION).min(u64::from(ONE)) as u32;
+            // round 0 a disc goes into one of its radius squared
+            let size = u64::from(first_order);
+            first_order = ((size * twice.max(size)) >> FRACTION).min(u64::from(ONE)) as u32;
             z = (
                 (((x - y) * (x + y)) >> FRACTION) as i32 + self.c.0,
                 ((x * y) >> (FRACTION - 1)) as i32 + self.c.1,
