@@ -274,7 +274,7 @@ impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
     }
 
     fn period_at(&self, (column, row): (u32, u32)) -> Period {
-        if !self.dwell_at(column, row).is_inside() {
+        if self.starts_beyond(column, row) {
             return Period(0);
         }
         let period = match self.orbit(column, row) {
