@@ -475,6 +475,29 @@ mod tests {
     }
 
     #[test]
+    fn deep_copies_have_no_holes() {
+        // well inside the disc of a fixed point, and a copy of period 34
+        for (re, im, width, max, period) in [
+            ("-0.1", "0", "1e-50", 1 << 20, 1),
+            (
+                "-0.22815549365396177228498592653253904365159762112307",
+                "1.11514250803993715834441655794265638994873014695612",
+                "1e-40",
+                1000,
+                34,
+            ),
+        ] {
+            let view = DeepView::<6>::parse(re, im, width, Size::new(16, 16)).unwrap();
+            let mut orbit = std::vec![OrbitPoint::default(); DeepMandelbrot::orbit_points(&view, max)];
+            let picture = DeepMandelbrot::new(view, max, &mut orbit).unwrap();
+            for (column, row) in (0..16).flat_map(|row| (0..16).map(move |column| (column, row))) {
+                assert_eq!(Interior(picture).value_at((column, row)), Period(period), "{column} {row}");
+                assert!(picture.dwell_at(column, row).is_inside());
+            }
+        }
+    }
+
+    #[test]
     fn left_of_the_tip_every_dwell_is_0() {
         for width in ["1e-28", "1e-31", "1e-50"] {
             let view = DeepView::<8>::parse("-2", "0", width, Size::new(16, 16)).unwrap();

@@ -10,7 +10,7 @@
 //! itself, a dwell is that of a circle wider by `2^-29`. Against arbitrary precision: tests/deep_zoom.rs.
 //!
 //! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P. Brent, 1980, as in [`super::dwell`]). So does one
-//! that has come near an attracting cycle ([`super::cycle`]): it is looked for after 4096, 8192, ... steps.
+//! that has come near an attracting cycle ([`super::cycle`]): it is looked for after 2048, 4096, ... steps.
 
 use core::slice::Iter;
 
@@ -24,7 +24,7 @@ use crate::Error;
 use crate::num::Limbs;
 
 /// Steps before an orbit is looked at for a cycle: a picture of fewer has nothing to gain.
-const FIRST_LOOK: u32 = 1 << 12;
+const FIRST_LOOK: u32 = 1 << 11;
 
 /// A point of a reference orbit, 12 bytes. Lend an array of [`OrbitPoint::default`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
