@@ -484,3 +484,10 @@ fn help_is_not_an_error() {
         assert!(text(&output.stdout).contains("attractor"));
     }
 }
+
+#[test]
+fn a_deep_view_beyond_the_range_is_told_what_is_allowed() {
+    refused(MANDELBROT, "\"0.5\"", "\"1e-101\"", &["width", "1e-101", "1e-100"]);
+    let deep = MANDELBROT.replacen("\"0.5\"", "\"1e-40\"", 1);
+    refused(&deep, "[\"-0.75\", \"0.1\"]", "[\"100\", \"0\"]", &["centre[0]", "is 100", "-8 and 8"]);
+}

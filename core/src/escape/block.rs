@@ -3,7 +3,7 @@
 //! `(re + i im) 2^exponent`, the larger part between `2^29` and `2^30` in magnitude: block floating point, as in J. H. Wilkinson, "Rounding Errors
 //! in Algebraic Processes", 1963, section 1.26. A derivative and the distance of two neighbouring orbits have such numbers: 30
 //! bits are plenty, the range is not bounded. Each operation rounds to nearest, `2^-30` of the larger part; a sum
-//! that cancels is rounded as the larger term is.
+//! that cancels is rounded as the larger term is. No exponent wraps: at its ends it stays (`no_exponent_wraps`).
 //! `Block<i64>` has 62 bits: for long products that are made once a picture.
 
 /// `(re + i im) 2^exponent`.
@@ -64,12 +64,16 @@ macro_rules! arithmetic {
                 if places > 0 {
                     let half = ((1 as $double) << (places as u32 & MASK)) >> 1;
                     let round = |v: $double| (v.wrapping_add(half) >> (places as u32 & MASK)) as $word;
-                    Self { re: round(re), im: round(im), exponent: exponent + places }
+                    Self { re: round(re), im: round(im), exponent: exponent.saturating_add(places) }
                 } else if magnitude == 0 && re | im == 0 {
                     Self::ZERO
                 } else {
                     let up = places.unsigned_abs() & MASK;
-                    Self { re: (re << up) as $word, im: (im << up) as $word, exponent: exponent + places }
+                    Self {
+                        re: (re << up) as $word,
+                        im: (im << up) as $word,
+                        exponent: exponent.saturating_add(places),
+                    }
                 }
             }
 
@@ -82,12 +86,12 @@ macro_rules! arithmetic {
                 if zeros < <$word>::BITS - $bits {
                     // one bit too many
                     let half = |v: $word| (v >> 1) + (v & 1);
-                    Self { re: half(re), im: half(im), exponent: exponent + 1 }
+                    Self { re: half(re), im: half(im), exponent: exponent.saturating_add(1) }
                 } else if re | im == 0 {
                     Self::ZERO
                 } else {
                     let up = zeros - (<$word>::BITS - $bits);
-                    Self { re: re << up, im: im << up, exponent: exponent - up as i32 }
+                    Self { re: re << up, im: im << up, exponent: exponent.saturating_sub(up as i32) }
                 }
             }
 
@@ -95,7 +99,7 @@ macro_rules! arithmetic {
             #[inline]
             pub(super) fn square(self) -> ($unsigned, i32) {
                 let (a, b) = (<$double>::from(self.re), <$double>::from(self.im));
-                ((a * a + b * b) as $unsigned, 2 * self.exponent)
+                ((a * a + b * b) as $unsigned, self.exponent.saturating_mul(2))
             }
         }
 
@@ -126,14 +130,15 @@ macro_rules! arithmetic {
                     let (high, low) = ((v >> <$word>::BITS) as $half, v as $half);
                     ((high << (<$word>::BITS - places)) | (low >> places)) as $word
                 };
-                Self { re: part(re), im: part(im), exponent: self.exponent + other.exponent + places as i32 }
+                let exponent = self.exponent.saturating_add(other.exponent).saturating_add(places as i32);
+                Self { re: part(re), im: part(im), exponent }
             }
 
             #[$inline]
             fn plus(self, other: Self) -> Self {
                 let (large, small) =
                     if self.exponent >= other.exponent { (self, other) } else { (other, self) };
-                let apart = (large.exponent - small.exponent) as u32;
+                let apart = large.exponent.wrapping_sub(small.exponent) as u32;
                 // what is as small as this does not count
                 if apart > $bits {
                     return large;
@@ -151,7 +156,7 @@ macro_rules! arithmetic {
 
             #[inline(always)]
             fn doubled(self) -> Self {
-                Self { exponent: self.exponent + 1, ..self }
+                Self { exponent: self.exponent.saturating_add(1), ..self }
             }
 
             #[inline(always)]
@@ -169,7 +174,7 @@ macro_rules! arithmetic {
 
             #[$inline]
             fn is_less(self, other: Self) -> bool {
-                let apart = self.exponent - other.exponent;
+                let apart = self.exponent.saturating_sub(other.exponent);
                 // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
                 if !(-1..=1).contains(&apart) {
                     return apart < 0;
@@ -181,12 +186,12 @@ macro_rules! arithmetic {
             #[inline(always)]
             fn above(self) -> i32 {
                 // the larger part is at most 2^BITS, the modulus 3/2 of it
-                self.exponent + $bits + 1
+                self.exponent.saturating_add($bits + 1)
             }
 
             #[inline(always)]
             fn reached(self) -> i32 {
-                self.exponent + $bits - 1
+                self.exponent.saturating_add($bits - 1)
             }
 
             #[inline]
@@ -224,7 +229,7 @@ impl Block {
     /// The parts with `bits` fractional bits, towards minus infinity. Domain: parts below `2^(62 - bits)`.
     #[inline]
     pub(super) fn fixed(self, bits: i32) -> (i64, i64) {
-        let places = self.exponent + bits;
+        let places = self.exponent.saturating_add(bits);
         let part = |v: i32| {
             let v = i64::from(v);
             if places >= 0 { v << (places & 63) } else { v >> places.unsigned_abs().min(63) }
@@ -247,6 +252,33 @@ mod tests {
             let word = k.wrapping_mul(0x9e37_79b9_7f4a_7c15_u64 as i64);
             Block::<i32>::new(word >> (k % 40 + 3), (word << 17) >> (k % 23 + 3), (k % 50) as i32 - 60)
         })
+    }
+
+    #[test]
+    fn no_exponent_wraps() {
+        fn all<N: Number>(ends: [N; 9]) {
+            for (a, b) in ends.into_iter().flat_map(|a| ends.map(|b| (a, b))) {
+                let (large, small) = if a.is_less(b) { (b, a) } else { (a, b) };
+                assert!(!large.plus(small).is_less(small) || large.plus(small) == N::ZERO);
+                for c in [a.times(b), a.plus(b), a.doubled(), a.negated()] {
+                    let _ = (c.is_beyond_two(), c.is_less(a), c.above(), c.reached(), c.times(a), c.plus(b));
+                }
+            }
+            // what stays at an end is neither small nor large by mistake
+            let [low, high, ..] = ends;
+            assert!(high.times(high).is_beyond_two() && high.doubled().is_beyond_two());
+            assert!(!low.times(low).is_beyond_two() && low.times(low).is_less(N::ONE));
+        }
+        let short = |exponent| Block::<i32> { exponent, ..Block::<i32>::ONE };
+        let long = |exponent| Block::<i64> { exponent, ..Block::<i64>::ONE };
+        let at = [i32::MIN, i32::MAX, i32::MIN + 1, i32::MAX - 1, -(1 << 30), 1 << 30, -(1 << 28), 0, -29];
+        all(at.map(short));
+        all(at.map(long));
+        for exponent in at {
+            let _ = (Block::<i32>::new(1 << 60, 1, exponent), Block::<i32>::new(1, -1, exponent));
+            let _ = (Block::<i64>::new(1 << 124, 1, exponent), Block::<i64>::new(1, -1, exponent));
+            let _ = (short(exponent).square(), short(exponent.min(0)).fixed(24));
+        }
     }
 
     #[test]

@@ -276,7 +276,7 @@ impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
     }
 
     fn period_at(&self, (column, row): (u32, u32)) -> Period {
-        if !self.dwell_at(column, row).is_inside() {
+        if self.starts_beyond(column, row) {
             return Period(0);
         }
         let period = match self.orbit(column, row) {
@@ -473,6 +473,29 @@ mod tests {
             let mut orbit = [OrbitPoint::default(); 50];
             let picture = Interior(DeepMandelbrot::new(view, max, &mut orbit).unwrap());
             assert!((0..8).flat_map(|y| picture.row(y, 0..8)).all(|p| p == Period(0)), "{max}");
+        }
+    }
+
+    #[test]
+    fn deep_copies_have_no_holes() {
+        // well inside the disc of a fixed point, and a copy of period 34
+        for (re, im, width, max, period) in [
+            ("-0.1", "0", "1e-50", 1 << 20, 1),
+            (
+                "-0.22815549365396177228498592653253904365159762112307",
+                "1.11514250803993715834441655794265638994873014695612",
+                "1e-40",
+                1000,
+                34,
+            ),
+        ] {
+            let view = DeepView::<6>::parse(re, im, width, Size::new(16, 16)).unwrap();
+            let mut orbit = std::vec![OrbitPoint::default(); DeepMandelbrot::orbit_points(&view, max)];
+            let picture = DeepMandelbrot::new(view, max, &mut orbit).unwrap();
+            for (column, row) in (0..16).flat_map(|row| (0..16).map(move |column| (column, row))) {
+                assert_eq!(Interior(picture).value_at((column, row)), Period(period), "{column} {row}");
+                assert!(picture.dwell_at(column, row).is_inside());
+            }
         }
     }
 

@@ -55,7 +55,7 @@ impl<P: EscapeTime> Distance<P> {
         // at most 32 bits over at least 28
         let quotient = (estimate << 31).checked_div(u64::from(pitch))?;
         // to 24 fractional bits
-        let places = exponent - 31 - below + 24;
+        let places = exponent.saturating_sub(below).saturating_sub(31 - 24);
         let bits = if places >= 0 {
             if (quotient.leading_zeros() as i32) > places { quotient << (places & 63) } else { u64::MAX }
         } else {
@@ -82,7 +82,7 @@ fn estimate(ending: &Ending) -> Option<(u64, i32)> {
     let log = i64::from(log2(square)) + (i64::from(twice) << 24);
     let log = (u64::try_from(log).ok()? * LN_2) >> 32;
     let quotient = (u64::from(sqrt(square)) * log).checked_div(u64::from(sqrt(derivative.square().0)))?;
-    Some((quotient, z.exponent - derivative.exponent - 24))
+    Some((quotient, z.exponent.saturating_sub(derivative.exponent).saturating_sub(24)))
 }
 
 impl<P: EscapeTime> Field for Distance<P> {

@@ -12,7 +12,7 @@ use super::block::{Block, Number};
 
 /// How many maps are kept: with 400 instead of 16 a pixel takes 8 to 14 % fewer steps.
 const LEVELS: usize = 16;
-/// A factor below `2^FLOOR` is 0: along an orbit that is drawn in it shrinks for ever, and no exponent may wrap.
+/// A factor below `2^FLOOR` is 0: along an orbit that is drawn in it shrinks for ever.
 const FLOOR: i32 = -(1 << 24);
 /// From the first point of the reference to another.
 #[derive(Debug, Clone, Copy)]
@@ -97,9 +97,9 @@ impl<N: Number> Builder<N> {
             return;
         }
         // a step from here doubles and squares
-        let room = z.reached() + 1 + Self::NEGLIGIBLE;
-        let fits = self.b.above() + self.jumps.reach <= room;
-        let next = if fits { self.below.min(room - self.a.above()) } else { i32::MIN };
+        let room = z.reached().saturating_add(1 + Self::NEGLIGIBLE);
+        let fits = self.b.above().saturating_add(self.jumps.reach) <= room;
+        let next = if fits { self.below.min(room.saturating_sub(self.a.above())) } else { i32::MIN };
         let before = self.level;
         while self.level < LEVELS as i32 && next < self.size() {
             self.level += 1;

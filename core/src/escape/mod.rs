@@ -34,6 +34,7 @@ mod precision;
 mod row;
 mod smooth;
 mod square_root;
+mod upper;
 mod view;
 mod wide_dwell;
 

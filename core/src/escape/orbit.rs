@@ -9,6 +9,7 @@ use super::escape_time::{Ending, EscapeTime, Steps, follow};
 use super::interior;
 use super::period::Period;
 use super::precision::Precision;
+use super::upper::Upper;
 use super::view::Line;
 use super::{Complex, Dwell, Julia, Mandelbrot};
 use crate::Error;
@@ -62,8 +63,13 @@ impl Path for Orbit {
         block((self.z.0.wrapping_sub(other.z.0), self.z.1.wrapping_sub(other.z.1)))
     }
 
-    fn grain(&self) -> Block {
-        block((4, 0))
+    fn blur(&self) -> Upper {
+        self.step_error()
+    }
+
+    fn step_error(&self) -> Upper {
+        // below a unit in each part
+        Upper::power(1 - FRACTION as i32)
     }
 }
 
@@ -106,8 +112,7 @@ macro_rules! escape_time {
 
             fn period_at(&self, point: Complex<Wide>) -> Period {
                 let max = self.max_dwell();
-                let inside = self.orbit_of(point).filter(|_| self.dwell_at(point).is_inside());
-                Period(inside.map_or(0, |orbit| period(orbit, max)))
+                Period(self.orbit_of(point).map_or(0, |orbit| period(orbit, max)))
             }
 
             fn pitch(&self) -> (u32, i32) {
@@ -136,13 +141,9 @@ fn period(orbit: Orbit, max: u32) -> u32 {
     if is_beyond(orbit.c) {
         return 0;
     }
-    // a formula knows at once; a short picture looks on, as what is drawn in is drawn in soon
-    let known = interior::period(orbit.c);
-    known.or_else(|| cycle::period(orbit, max.max(LEAST))).unwrap_or(0)
+    // a formula knows at once
+    interior::period(orbit.c).or_else(|| cycle::period(orbit, max)).unwrap_or(0)
 }
-
-/// Steps that a period is looked for, however few a picture takes for the dwell.
-const LEAST: u32 = 1 << 12;
 
 fn ending<const DERIVATIVE: bool>(
     dwell: Dwell,

@@ -10,7 +10,7 @@
 //! itself, a dwell is that of a circle wider by `2^-29`. Against arbitrary precision: tests/deep_zoom.rs.
 //!
 //! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P. Brent, 1980, as in [`super::dwell`]). So does one
-//! that has come near an attracting cycle ([`super::cycle`]): it is looked for after 4096, 8192, ... steps.
+//! that has come near an attracting cycle ([`super::cycle`]): it is looked for after 2048, 4096, ... steps.
 
 use core::slice::Iter;
 
@@ -19,11 +19,12 @@ use super::block::{Block, Number};
 use super::cycle::{self, LONGEST, Path};
 use super::escape_time::Ending;
 use super::jumps::{Builder, Jumps};
+use super::upper::Upper;
 use crate::Error;
 use crate::num::Limbs;
 
 /// Steps before an orbit is looked at for a cycle: a picture of fewer has nothing to gain.
-const FIRST_LOOK: u32 = 1 << 12;
+const FIRST_LOOK: u32 = 1 << 11;
 
 /// A point of a reference orbit, 12 bytes. Lend an array of [`OrbitPoint::default`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -292,9 +293,18 @@ impl<N: Stored> Path for Walk<'_, N> {
         self.z.plus(other.z.negated()).short()
     }
 
-    fn grain(&self) -> Block {
-        let z = self.z.short();
-        Block { exponent: z.exponent - (N::BITS - 3), ..z }
+    fn blur(&self) -> Upper {
+        // |Z| <= 2 |z|, or the orbit was rebased: the point of the reference is rounded, and the sum
+        Upper::of(self.z.short()).scaled(3 - N::BITS)
+    }
+
+    fn step_error(&self) -> Upper {
+        // with u = 2^(1 - BITS): at most 5 u (|2 Z + d| |d| + |g|) for the distance, 4 u of it when it is rebased as |Z| <= 2 |d|,
+        // 4 u (1 + |d|) where the reference ends
+        let of = |v: N| Upper::of(v.short());
+        let size = of(self.at.doubled()).plus(of(self.distance)).times(of(self.distance)).plus(of(self.g));
+        let last = self.points.as_slice().len() <= N::POINTS;
+        (if last { size.plus(Upper::power(0)) } else { size }).scaled(5 - N::BITS)
     }
 }
 

@@ -13,6 +13,7 @@ use super::cycle::{self, Path};
 use super::dwell::is_beyond;
 use super::escape_time::Steps;
 use super::interior;
+use super::upper::Upper;
 use crate::num::{high_of_square, product, product_u};
 
 /// A real word of an orbit.
@@ -27,8 +28,8 @@ pub(super) trait WideWord: Copy + PartialEq {
     fn block(z: (Self, Self)) -> Block;
     /// The difference of two parts within 2.
     fn minus(self, other: Self) -> Self;
-    /// 4 units of the last place.
-    const GRAIN: Block;
+    /// 4 units of the last place: more than a step is rounded by.
+    const ERROR: Upper;
 }
 
 /// An orbit for the colourings.
@@ -73,8 +74,12 @@ impl<W: WideWord> Path for WideOrbit<W> {
         W::block((self.z.0.minus(other.z.0), self.z.1.minus(other.z.1)))
     }
 
-    fn grain(&self) -> Block {
-        W::GRAIN
+    fn blur(&self) -> Upper {
+        W::ERROR
+    }
+
+    fn step_error(&self) -> Upper {
+        W::ERROR
     }
 }
 
@@ -183,7 +188,7 @@ impl WideWord for i64 {
         self.wrapping_sub(other)
     }
 
-    const GRAIN: Block = Block { exponent: -87, ..Block::<i32>::ONE };
+    const ERROR: Upper = Upper::power(2 - 60);
 }
 
 /// The square of a Q4.124, modulo 16, rounded down. Domain: `|v| < 4`.
@@ -248,7 +253,7 @@ impl WideWord for i128 {
         self.wrapping_sub(other)
     }
 
-    const GRAIN: Block = Block { exponent: -151, ..Block::<i32>::ONE };
+    const ERROR: Upper = Upper::power(2 - 124);
 }
 
 #[inline(always)]
