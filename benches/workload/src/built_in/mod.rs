@@ -41,7 +41,7 @@ macro_rules! both {
     };
 }
 
-/// Even the picture in black and white takes more than 16 KiB.
+/// Even the picture in black and white takes more than 16 KiB, or a path of its own that the flash of the Cortex-M0 image has no room for.
 const fn both_roomy([colour, mono]: [Scene; 2]) -> [Scene; 2] {
     [colour, roomy(mono)]
 }
@@ -78,8 +78,8 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both!("minkowski", |stage, C, I| curves::named::<C, { GROUND[I] }>(stage, &curve::MINKOWSKI, 3, Some(&curves::SQUARE), Named::Moss)),
     both!("cesaro-square", |stage, C, I| curves::cesaro::<C, { GROUND[I] }>(stage)),
     both!("elbow", |stage, C, I| curves::elbow::<C, { GROUND[I] }>(stage)),
-    both!("carpenter-1", |stage, C, I| curves::carpenter_1::<C, { GROUND[I] }>(stage)),
-    both!("carpenter-2", |stage, C, I| curves::carpenter_2::<C, { GROUND[I] }>(stage)),
+    both_roomy(both!("carpenter-1", |stage, C, I| curves::carpenter_1::<C, { GROUND[I] }>(stage))),
+    both_roomy(both!("carpenter-2", |stage, C, I| curves::carpenter_2::<C, { GROUND[I] }>(stage))),
     both!("mountain-line", |stage, C, I| curves::mountain_line::<C, { GROUND[I] }>(stage)),
     both!("coastline", |stage, C, I| curves::coastline::<C, { GROUND[I] }>(stage)),
     both!("cantor", |stage, C| curves::l_system::<C>(stage, &curves::CANTOR)),
