@@ -4,6 +4,7 @@ mod bad_input;
 mod curves;
 mod deep_zoom;
 mod ifs;
+mod julia_sets;
 mod laws;
 mod pictures;
 mod promises;

@@ -70,7 +70,7 @@ impl Grid {
         Some(grid)
     }
 
-    /// Follows all orbits of a fixed point, but not on from a cell that has been hit [`HITS`] times: as a pruned walk through a Julia set. For maps that overlap so much
+    /// Follows all orbits of a fixed point, but not on from a cell that has been hit [`HITS`] times. For maps that overlap so much
     /// that there are too many images. Cells that the set hardly touches are missed, boxes are not.
     pub(crate) fn of_orbits(ifs: &Ifs<MAX_MAPS>, side: i64) -> Option<Self> {
         let maps = float_maps(ifs);

@@ -111,7 +111,7 @@ pub(crate) struct Dump {
   curve, random-curve  x,y of the first N vertices; where they stop at a pixel, --size counts
   ifs                  x,y of N points of the chaos game
   copier               x,y of the first N vertices of the last order
-  julia-set            x,y of the first N points found by backward iteration
+  julia-set            x,y of the first N points, or of the first N pixels that the set meets
   mandelbrot, julia    re,im,dwell,reference for every pixel of --size; no reference for a deep zoom
 
 Fixed-point numbers are printed exactly, those of the reference with the digits that give the same f64 back.

@@ -23,7 +23,7 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
                [coloring = \"dwell\" | \"smooth\" | \"distance\" | \"interior\"], [equalised], widths down to \"1e-100\",
                [grey] palette, lift, cycle, inside: the colours on displays without colour
   julia        c = [\"re\", \"im\"], and as mandelbrot
-  julia-set    c = [\"re\", \"im\"], [points], [method = \"pruned\" | \"plain\"], [palette]
+  julia-set    c = [\"re\", \"im\"], [points], [method = \"cover\" | \"plain\"], [palette]
 Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
 ";
 

@@ -8,6 +8,7 @@ mod builtin;
 mod canvas;
 mod cli;
 mod color;
+mod cover;
 mod dimension;
 mod dump;
 mod export;

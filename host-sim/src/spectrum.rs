@@ -41,7 +41,7 @@ pub(crate) fn run(args: &Spectrum) -> Result<(), Fail> {
             let law = trail.law.ok_or_else(|| fail(REFUSED))?;
             coordinates(law)?
         }
-        Ok(Subject::Set(_)) | Err(Fail::Message(_)) => return Err(fail(REFUSED)),
+        Ok(Subject::Set(_) | Subject::Julia(_)) | Err(Fail::Message(_)) => return Err(fail(REFUSED)),
         Err(other) => return Err(other),
     };
     let count = signals.first().map_or(0, Vec::len).saturating_sub(1);

@@ -82,6 +82,7 @@ fn parameters_outside_their_range_are_refused() {
     refused(ELBOW, "length = 0.1", "coast = \"utopia\"", &["coast", "iceland"]);
     refused(JULIA, "[0, 1]", "[2, 1]", &["c = "]);
     refused(JULIA, "points = 1000", "points = 0", &["points", "allowed is 1"]);
+    refused(JULIA, "\"plain\"", "\"cover\"", &["points", "a cover has no points", "plain"]);
 }
 
 #[test]

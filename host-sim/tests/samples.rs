@@ -170,3 +170,34 @@ fn the_list_names_every_command_and_the_table_has_its_columns() {
         assert!(list.contains(word), "{word}");
     }
 }
+
+/// Constants with a tip at `(1 + sqrt(1 + 4 |c|)) / 2` on an axis, and where the set stops short of it.
+#[test]
+fn a_julia_scene_without_a_width_shows_the_whole_set_on_every_display() {
+    for (re, im) in [(-1.75_f64, 0.0_f64), (-2.0, 0.0), (0.0, 1.0), (0.0, 0.0), (-1.2, -1.2)] {
+        let directory = tempfile::tempdir().unwrap();
+        let text = format!("kind = \"julia\"\nc = [\"{re}\", \"{im}\"]\nmax_dwell = 2\n");
+        std::fs::write(directory.path().join("scene.toml"), text).unwrap();
+        let radius = (1.0 + (1.0 + 4.0 * re.hypot(im)).sqrt()) / 2.0;
+        for size in ["128x64", "24x60", "3x5", "31x33", "1x1"] {
+            let csv = good(directory.path(), &["sample", "scene.toml", "--size", size]);
+            let points: Vec<Vec<f64>> = csv
+                .lines()
+                .skip(1)
+                .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+                .collect();
+            let (first, last) = (&points[0], &points[points.len() - 1]);
+            let sides: Vec<f64> = size.split('x').map(|n| n.parse().unwrap()).collect();
+            let pitch =
+                if points.len() > 1 && sides[0] > 1.0 { points[1][0] - first[0] } else { 2.0 * radius };
+            for (edge, name) in
+                [(-first[0], "left"), (first[1], "upper"), (last[0], "right"), (-last[1], "lower")]
+            {
+                assert!(edge + pitch / 2.0 > radius - 1e-6, "{re} {im}, {size}, {name}: {edge}");
+            }
+            // and no more than that
+            let narrow = sides[0].min(sides[1]);
+            assert!((pitch * narrow - 2.0 * radius).abs() < 1e-6, "{re} {im}, {size}: {pitch}");
+        }
+    }
+}

@@ -3,8 +3,8 @@
 use attractor::draw::Level;
 use attractor::draw::{Cycled, Equalised, Ink, Inside, Lifted, Palette, Ramp, gradients, hex};
 use attractor::escape::{
-    Complex, DeepMandelbrot, DeepView, Distance, FractionalDwell, Interior, Julia, Mandelbrot, OrbitPoint,
-    Period, Smooth, View,
+    Complex, DeepMandelbrot, DeepView, Distance, FractionalDwell, Interior, Julia, JuliaSet, Mandelbrot,
+    OrbitPoint, Period, Smooth, View,
 };
 use attractor::num::Wide;
 use embedded_graphics::geometry::Size;
@@ -76,14 +76,14 @@ pub(crate) fn periods<C: Colour + Ink>(
     field::<C, _, _>(stage, Interior(Mandelbrot::new(view, 1000)?), |period: Period| palette.rgb(period), 0)
 }
 
-/// A filled-in set, at least 3.2 wide and 2.5 high.
+/// A filled-in set, all of it.
 fn filled_in(stage: &Stage<'_>, re: Wide, im: Wide, max: u32) -> Result<Julia, Failure> {
-    const WIDTH: Wide = Wide::lit("3.2");
-    const HEIGHT: i64 = Wide::lit("2.5").to_bits();
+    let c = Complex::new(re, im);
+    let across = JuliaSet::new(c)?.radius() * 2;
     let Size { width, height } = stage.size();
-    let fitting = (HEIGHT * i64::from(width)).checked_div(i64::from(height)).unwrap_or(0);
-    let view = view(stage, Wide::ZERO, Wide::ZERO, WIDTH.max(Wide::from_bits(fitting)))?;
-    Ok(Julia::new(view, Complex::new(re, im), max)?)
+    let fitting = (across.to_bits() * i64::from(width)).checked_div(i64::from(height)).unwrap_or(0);
+    let view = view(stage, Wide::ZERO, Wide::ZERO, across.max(Wide::from_bits(fitting)))?;
+    Ok(Julia::new(view, c, max)?)
 }
 
 /// Douady's rabbit.

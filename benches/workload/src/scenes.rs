@@ -20,7 +20,7 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 
-use crate::built_in::{self, MONO_ONLY};
+use crate::built_in;
 use crate::escape_scenes as escape;
 use crate::kernels::figure_1;
 use crate::sink::{Colour, Failure, Outcome, Stage};
@@ -75,7 +75,7 @@ impl Scene {
 
 /// The table: what is drawn here, and the built-in scenes of the command; in an image for Armv6-M those that it can draw.
 pub static ALL: &[Scene] = &{
-    let mut all = [OWN[0]; count(OWNED + PAIRS.len() + MONO_ONLY.len())];
+    let mut all = [OWN[0]; count(OWNED + PAIRS.len())];
     let (mut i, mut kept) = (0, 0);
     while kept < all.len() {
         if fits(i) {
@@ -91,13 +91,7 @@ const OWNED: usize = OWN.len();
 const PAIRS: &[Scene] = built_in::PAIRS.as_flattened();
 
 const fn row(i: usize) -> Scene {
-    if i < OWNED {
-        OWN[i]
-    } else if i < OWNED + PAIRS.len() {
-        PAIRS[i - OWNED]
-    } else {
-        MONO_ONLY[i - OWNED - PAIRS.len()]
-    }
+    if i < OWNED { OWN[i] } else { PAIRS[i - OWNED] }
 }
 
 const fn fits(i: usize) -> bool {

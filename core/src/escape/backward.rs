@@ -1,11 +1,8 @@
 //! Points of the Julia set `J_c` by backward iteration: `z <- ± sqrt(z - c)` (course unit V, section 5.5.4, eq. 6).
 //!
-//! Every preimage of a point of `J_c` belongs to `J_c`, and all of them together are dense in it. Both iterators start at the fixed point
-//! `1/2 + sqrt(1/4 - c)`, which belongs to `J_c`; nothing has to warm up.
-//!
-//! - [`BackwardIteration`] flips a coin for the sign, without end. It rarely visits what is hard to reach.
-//! - [`PrunedIteration`] walks the tree of all preimages, depth first, and does not go on from a cell of a grid that has been hit often enough
-//!   (H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.3, "modified inverse iteration"). The caller lends the grid.
+//! Every preimage of a point of `J_c` belongs to `J_c`, and all of them together are dense in it. The walk starts at the fixed point
+//! `1/2 + sqrt(1/4 - c)`, which belongs to `J_c`; nothing has to warm up. It flips a coin for the sign, without end, and rarely visits what is
+//! hard to reach: [`JuliaCover`](super::JuliaCover) finds all of the set.
 //!
 //! Format: 29 fractional bits inside, 24 outside. A backward step divides errors by `|2 z|`: they do not add up.
 
@@ -16,12 +13,8 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use super::dwell::Word;
 use super::square_root::square_root;
 use super::{Complex, JuliaSet};
-use crate::Error;
 use crate::num::Real;
 use crate::picture::Point2;
-
-/// Depth of the tree that [`PrunedIteration`] walks.
-pub const MAX_DEPTH: usize = 64;
 
 impl JuliaSet {
     /// A random backward orbit, one coin flip a point.
@@ -37,35 +30,6 @@ impl JuliaSet {
     /// [`JuliaSet::backward_iteration`] with a generator of its own, xoshiro128++: the same seed gives the same points on every machine.
     pub fn seeded_backward_iteration(&self, seed: u64) -> BackwardIteration<Xoshiro128PlusPlus> {
         self.backward_iteration(Xoshiro128PlusPlus::seed_from_u64(seed))
-    }
-
-    /// All preimages, except beyond a cell that has been hit `limit` times. `hits` is a grid of `side` by `side` cells over the square
-    /// from `-2 - 2i` to `2 + 2i`; it is cleared first. A cell as large as a pixel and a limit of 1 to 20 are usual.
-    ///
-    /// Result: finitely many points, at most 2 for each hit allowed. Memory: 600 bytes and the grid. Cost of a point: 247 Cortex-M4 instructions.
-    ///
-    /// # Errors
-    /// [`Error::BufferLength`] when `hits` does not have `side * side` elements, [`Error::TooFew`] for a `side` or a `limit` of 0.
-    pub fn pruned_iteration<'a>(
-        &self,
-        side: usize,
-        limit: u8,
-        hits: &'a mut [u8],
-    ) -> Result<PrunedIteration<'a>, Error> {
-        let needed = side.saturating_mul(side);
-        for (what, given) in [("cells a side", side), ("hits a cell", usize::from(limit))] {
-            if given == 0 {
-                return Err(Error::TooFew { what, given, at_least: 1 });
-            }
-        }
-        if hits.len() != needed {
-            return Err(Error::BufferLength { given: hits.len(), needed });
-        }
-        hits.fill(0);
-        let mut iteration =
-            PrunedIteration { c: self.word(), side, limit, hits, waiting: [(0, 0); MAX_DEPTH], depth: 0 };
-        iteration.expand(self.start());
-        Ok(iteration)
     }
 
     fn start(&self) -> Word {
@@ -123,69 +87,6 @@ impl<R: Rng> Iterator for BackwardIteration<R> {
 
     fn size_hint(&self) -> (usize, Option<usize>) {
         (usize::MAX, None)
-    }
-}
-
-/// The pruned tree of preimages: see [`JuliaSet::pruned_iteration`].
-#[derive(Debug)]
-pub struct PrunedIteration<'a> {
-    c: Word,
-    side: usize,
-    limit: u8,
-    hits: &'a mut [u8],
-    /// Points found whose own preimages have not been looked for.
-    waiting: [Word; MAX_DEPTH],
-    depth: usize,
-}
-
-impl PrunedIteration<'_> {
-    /// How often each cell has been hit, row by row from the upper left: a density.
-    pub fn hits(&self) -> &[u8] {
-        self.hits
-    }
-
-    /// Both preimages wait. Beyond the depth of the stack the tree ends.
-    fn expand(&mut self, z: Word) {
-        let (x, y) = preimage(z, self.c);
-        for root in [(x, y), (-x, -y)] {
-            if let Some(slot) = self.waiting.get_mut(self.depth) {
-                *slot = root;
-                self.depth += 1;
-            }
-        }
-    }
-
-    /// Counts a hit; whether the cell was not full yet.
-    fn hit(&mut self, (x, y): Word) -> bool {
-        // -2..2 with 29 fractional bits, as a fraction of 2^31
-        let cell = |v: i32| {
-            let from_edge = v.wrapping_add(1 << 30).max(0) as u64;
-            (((from_edge * self.side as u64) >> 31) as usize).min(self.side - 1)
-        };
-        let index = cell(y.wrapping_neg()) * self.side + cell(x);
-        match self.hits.get_mut(index) {
-            Some(count) if *count < self.limit => {
-                *count += 1;
-                true
-            }
-            _ => false,
-        }
-    }
-}
-
-impl Iterator for PrunedIteration<'_> {
-    type Item = Point2;
-
-    fn next(&mut self) -> Option<Point2> {
-        while let Some(depth) = self.depth.checked_sub(1) {
-            self.depth = depth;
-            let z = self.waiting.get(depth).copied()?;
-            if self.hit(z) {
-                self.expand(z);
-                return Some(shown(z));
-            }
-        }
-        None
     }
 }
 
@@ -262,10 +163,7 @@ mod tests {
     fn rounded_points_stay_within_two_for_the_usual_sets() {
         for (re, im) in constants().into_iter().take(12) {
             let set = set(re, im);
-            let mut hits = vec![0; 128 * 128];
-            let pruned: Vec<_> = set.pruned_iteration(128, 4, &mut hits).unwrap().collect();
-            assert!(pruned.len() > 200);
-            for p in set.seeded_backward_iteration(7).take(20_000).chain(pruned) {
+            for p in set.seeded_backward_iteration(7).take(20_000) {
                 let r = reach((p.x.to_num(), p.y.to_num()), set.constant());
                 assert!(r <= 2.0 || re == -1.999, "c = {re} {im}: {p:?} reaches {r}");
             }
@@ -287,35 +185,6 @@ mod tests {
             (least, greatest) = (least.min(p.x), greatest.max(p.x));
         }
         assert!(least < -1.99 && greatest > 1.99);
-    }
-
-    #[test]
-    fn pruning_reaches_what_the_coin_does_not() {
-        // deep bays of a set near a parabolic one
-        let set = set(-0.745, 0.11);
-        let side = 512;
-        let mut hits = vec![0; side * side];
-        let points = set.pruned_iteration(side, 4, &mut hits).unwrap().count();
-        let reached = hits.iter().filter(|h| **h > 0).count();
-        let mut plain = vec![false; side * side];
-        for p in set.seeded_backward_iteration(3).take(points) {
-            let cell = |v: f64| ((v + 2.0) * side as f64 / 4.0) as usize;
-            plain[cell(-p.y.to_num::<f64>()) * side + cell(p.x.to_num())] = true;
-        }
-        let by_chance = plain.iter().filter(|h| **h).count();
-        std::println!("{points} points: {reached} cells pruned, {by_chance} by chance");
-        assert!(reached as f64 > 1.2 * by_chance as f64, "{points}: {reached} against {by_chance}");
-        assert!(hits.iter().all(|h| *h <= 4));
-    }
-
-    #[test]
-    fn a_grid_of_the_wrong_size_names_the_right_one() {
-        let set = set(0.0, 1.0);
-        let error = set.pruned_iteration(8, 1, &mut [0; 63]).err();
-        assert_eq!(error, Some(Error::BufferLength { given: 63, needed: 64 }));
-        assert!(matches!(set.pruned_iteration(0, 1, &mut []), Err(Error::TooFew { .. })));
-        assert!(matches!(set.pruned_iteration(1, 0, &mut [0]), Err(Error::TooFew { .. })));
-        assert!(core::mem::size_of::<PrunedIteration<'_>>() <= 600);
     }
 
     #[test]

@@ -1,10 +1,13 @@
-//! The Julia set itself, a cloud of points found by backward iteration.
+//! The Julia set itself: covered, or as a cloud of points found by backward iteration.
 
 use attractor::Error;
-use attractor::escape::JuliaSet;
-use attractor::num::Real;
+use attractor::draw::Level;
+use attractor::escape::{BackwardIteration, Complex, JuliaCover, JuliaSet, View};
+use attractor::num::{Real, Wide};
 use attractor::picture::{Point2, Step, Window};
+use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use embedded_graphics::geometry::Size;
+use embedded_graphics::pixelcolor::{Rgb888, RgbColor as _};
 
 use crate::density;
 use crate::ink::ground;
@@ -13,19 +16,14 @@ use crate::page::{Display, Extent, MAX_POINTS, PAPER, Watch, draw_field, inner, 
 
 /// Points that show how large the set is.
 const SCOUTS: usize = 1 << 14;
-/// How often the pruned method goes on from a cell of the size of a pixel.
-const HITS: u8 = 12;
-/// The grid covers the square of side 4; finer than this it would only be larger.
-const CELLS: i64 = 1 << 12;
-
-/// How points are found.
+/// How the set is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Method {
-    /// A coin flip a point.
+    /// Backward iteration, a coin flip a point.
     Plain,
-    /// The tree of all preimages without its crowded branches.
-    Pruned,
+    /// Every pixel that it meets; nothing has to be stored.
+    Cover,
 }
 
 /// A Julia set ready to be drawn.
@@ -33,9 +31,9 @@ pub enum Method {
 pub struct JuliaSetPicture {
     /// Which.
     pub set: JuliaSet,
-    /// How its points are found.
+    /// How it is found.
     pub method: Method,
-    /// How many; none: 8 a pixel.
+    /// How many points; none: 8 a pixel.
     pub points: Option<u32>,
     /// How they are coloured.
     pub palette: Named,
@@ -57,59 +55,65 @@ impl JuliaSetPicture {
         Window::fit(bounds, inner(size, 2).size)
     }
 
-    /// Cells a side of the grid by which the pruned method counts; 0 for the plain one.
-    pub fn grid(&self, window: &Window) -> usize {
-        match self.method {
-            Method::Plain => 0,
-            Method::Pruned => {
-                ((4 << 24) / i64::from(pitch(window).to_bits().max(1))).clamp(1, CELLS) as usize
-            }
-        }
+    /// A random walk on the set.
+    pub fn walk(&self, seed: u64) -> BackwardIteration<Xoshiro128PlusPlus> {
+        self.set.seeded_backward_iteration(seed)
     }
 
-    /// The points, in a window, no more than `most`, handed to `use_them`. `hits` has [`JuliaSetPicture::grid`] squared elements.
+    /// The set in every pixel of a display, with the margin that the window leaves: the view, and what is in it.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] with the elements needed, and what `use_them` says.
-    pub fn found<R>(
-        &self,
-        (window, seed, most): (&Window, u64, u32),
-        hits: &mut [u8],
-        use_them: impl FnOnce(&mut dyn Iterator<Item = Point2>) -> R,
-    ) -> Result<R, Error> {
-        let most = most as usize;
-        match self.method {
-            Method::Plain => Ok(use_them(&mut self.set.seeded_backward_iteration(seed).take(most))),
-            Method::Pruned => {
-                let side = self.grid(window);
-                let (given, needed) = (hits.len(), side * side);
-                let hits = hits.get_mut(..needed).ok_or(Error::BufferLength { given, needed })?;
-                Ok(use_them(&mut self.set.pruned_iteration(side, HITS, hits)?.take(most)))
-            }
-        }
+    /// As [`JuliaSetPicture::window`].
+    pub fn cover(&self, size: Size) -> Result<(View, JuliaCover), Error> {
+        let pitch = pitch(&self.window(size)?);
+        // 24 fractional bits: half a pitch has 25, so that each pixel is the negative of another
+        let width = Wide::from_num(pitch) * Wide::from_num(size.width.min(1 << 14));
+        let view = View::new(Complex::default(), width, size)?;
+        Ok((view, JuliaCover::new(view, self.set)?))
     }
 
-    /// Draws it. `counts` has a number for each pixel of the display, `hits` as for [`JuliaSetPicture::found`].
+    /// Draws it. `counts` has a number for each pixel within the margin for a plain walk; a cover needs none.
     ///
     /// # Errors
-    /// As [`JuliaSetPicture::window`] and [`JuliaSetPicture::found`].
+    /// As [`JuliaSetPicture::window`]; [`Error::BufferLength`] with the numbers needed.
     pub fn draw<D: Display>(
         &self,
         (size, seed): (Size, u64),
         target: &mut D,
-        (counts, hits): (&mut [u16], &mut [u8]),
+        counts: &mut [u16],
         watch: Watch<'_, D>,
     ) -> Result<(), Error> {
-        let window = self.window(size)?;
-        let pixels = size.width.saturating_mul(size.height).saturating_mul(8);
-        let most = self.points.unwrap_or(pixels.clamp(1, MAX_POINTS));
-        let margin = inner(size, 2).top_left.x.unsigned_abs();
         let paper = ground::<D::Color>(PAPER);
-        let color = |hits| density::color(self.palette, paper, hits);
-        self.found((&window, seed, most), hits, |points| {
-            density::counted(points, window, (size, margin), counts, |framed| {
-                draw_field(&framed, color, target, watch);
-            })
-        })?
+        match self.method {
+            Method::Cover => {
+                let (_, cover) = self.cover(size)?;
+                // where dots would be scattered, a pixel is lit for a quarter of its sixteenths: what only touches it would make lines thick
+                let coarse = paper == Rgb888::BLACK;
+                let color = |sixteenths: u8| match sixteenths {
+                    0 => paper,
+                    1..4 if coarse => paper,
+                    _ if coarse => Rgb888::WHITE,
+                    n => self.palette.at(Level(16_383 + 3072 * u16::from(n.min(16)))),
+                };
+                draw_field(cover, color, target, watch);
+                Ok(())
+            }
+            Method::Plain => {
+                let window = self.window(size)?;
+                let pixels = size.width.saturating_mul(size.height).saturating_mul(8);
+                let most = self.points.unwrap_or(pixels.clamp(1, MAX_POINTS));
+                let margin = inner(size, 2).top_left.x.unsigned_abs();
+                let color = |hits| density::color(self.palette, paper, hits);
+                density::counted(
+                    self.walk(seed).take(most as usize),
+                    window,
+                    (size, margin),
+                    counts,
+                    |framed| {
+                        draw_field(&framed, color, target, watch);
+                    },
+                )
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::escape::{Complex, Julia, JuliaSet, View};
+use attractor::escape::{Complex, Julia, JuliaSet};
 use attractor::num::Wide;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -12,9 +12,7 @@ use toml::Spanned;
 
 use super::coloring::{self, Coloring};
 use super::escape::{self, Escape, Grey, Keys};
-use super::julia_set;
 use super::motion::Motion;
-use super::trail::Trail;
 use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -54,7 +52,6 @@ pub(super) struct JuliaScene {
 
 impl JuliaScene {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
-        const HOME: [Wide; 3] = [Wide::ZERO, Wide::lit("3.2"), Wide::lit("2.5")];
         let file: File = source.parse()?;
         let keys = Keys {
             centre: file.centre.as_ref(),
@@ -72,15 +69,15 @@ impl JuliaScene {
         let [re, im] = source.pair(file.c.get_ref(), "c")?;
         let c = Complex::new(re, im);
         // the kernel says which constants it takes
-        let view = View::home(Size::new(1, 1)).map_err(Fail::new)?;
-        Julia::new(view, c, 1).map_err(|error| source.fail(file.c.span(), "c", error))?;
+        let set = JuliaSet::new(c).map_err(|error| source.fail(file.c.span(), "c", error))?;
+        let across = set.radius() * 2;
         let float = (re.to_num(), im.to_num());
-        Ok(Self { escape: Escape::load(source, &keys, HOME)?, c, float })
+        Ok(Self { escape: Escape::load(source, &keys, [Wide::ZERO, across, across])?, c, float })
     }
 
     /// What measurements need of it: its boundary, the Julia set itself, whatever part of it is in view.
-    pub(super) fn trail(&self) -> Result<Trail<'_>, Fail> {
-        JuliaSet::new(self.c).map(julia_set::trail).map_err(Fail::new)
+    pub(super) fn set(&self) -> Result<JuliaSet, Fail> {
+        JuliaSet::new(self.c).map_err(Fail::new)
     }
 
     fn picture(&self, request: &Request) -> Result<Julia, Fail> {

@@ -1,17 +1,17 @@
-//! `kind = "julia-set"`: the Julia set itself, a cloud of points found by backward iteration.
+//! `kind = "julia-set"`: the Julia set itself, covered or as a cloud of points found by backward iteration.
 
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::escape::{Complex, JuliaSet, SimpleCase};
-use attractor::num::{Real, Wide};
-use attractor::picture::{Point2, Step, Window};
+use attractor::escape::{Complex, JuliaSet};
+use attractor::num::Wide;
+use attractor::picture::Field as _;
 use attractor_gallery::{JuliaSetPicture, Method};
 use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::trail::Trail;
 use super::{Request, Watch};
 use crate::cli::MAX_POINTS;
 use crate::color::Depth;
@@ -19,12 +19,6 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Source};
-use crate::theory::Theory;
-
-/// How often the pruned method goes on from a cell where the set is measured.
-const HITS: u8 = 12;
-/// The finest grid then.
-const FINEST: i64 = 1 << 13;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -48,22 +42,22 @@ impl JuliaSetScene {
         let file: File = source.parse()?;
         let [re, im] = source.pair::<Wide>(file.c.get_ref(), "c")?;
         let set = JuliaSet::new(Complex::new(re, im)).map_err(|e| source.fail(file.c.span(), "c", e))?;
-        let points = file.points.map(|points| match *points.get_ref() {
-            n @ 1..=MAX_POINTS => Ok(n),
+        let method = file.method.unwrap_or(Method::Cover);
+        let points = file.points.map(|points| match (method, *points.get_ref()) {
+            (Method::Cover, _) => {
+                let reason = "a cover has no points: leave it out, or say method = \"plain\"";
+                Err(source.fail(points.span(), "points", reason))
+            }
+            (Method::Plain, n @ 1..=MAX_POINTS) => Ok(n),
             _ => Err(source.fail(points.span(), "points", format!("allowed is 1 to {MAX_POINTS}"))),
         });
-        let (method, palette) = (file.method.unwrap_or(Method::Pruned), file.palette.unwrap_or(Named::Fire));
+        let palette = file.palette.unwrap_or(Named::Fire);
         Ok(Self(JuliaSetPicture { set, method, points: points.transpose()?, palette }))
     }
 
     /// What measurements need of it.
-    pub(super) fn trail(&self) -> Trail<'_> {
-        trail(self.0.set)
-    }
-
-    /// The grid of the pruned method.
-    fn hits(&self, window: &Window) -> Vec<u8> {
-        vec![0; self.0.grid(window).pow(2)]
+    pub(super) fn set(&self) -> JuliaSet {
+        self.0.set
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -72,38 +66,30 @@ impl JuliaSetScene {
         D::Color: Depth,
     {
         let size = request.size;
-        let mut hits = self.hits(&self.0.window(size).map_err(Fail::new)?);
         let mut counts = vec![0; (size.width * size.height) as usize];
-        self.0.draw((size, request.seed), target, (&mut counts, &mut hits), watch).map_err(Fail::new)
+        self.0.draw((size, request.seed), target, &mut counts, watch).map_err(Fail::new)
     }
 
-    /// `x,y` of the first points.
+    /// `x,y` of the first points, or of the middles of the first pixels that the set meets.
     pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        let window = self.0.window(request.size).map_err(Fail::new)?;
         writeln!(out, "x,y")?;
-        let print = |found: &mut dyn Iterator<Item = Point2>| -> Result<(), Fail> {
-            for p in found {
-                writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
+        match self.0.method {
+            Method::Plain => {
+                for p in self.0.walk(request.seed).take(points as usize) {
+                    writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
+                }
             }
-            Ok(())
-        };
-        self.0.found((&window, request.seed, points), &mut self.hits(&window), print).map_err(Fail::new)?
+            Method::Cover => {
+                let (view, cover) = self.0.cover(request.size).map_err(Fail::new)?;
+                let Size { width, height } = view.size();
+                let pixels =
+                    (0..height).flat_map(|y| cover.row(y, 0..width).zip(0..).map(move |(n, x)| (n, x, y)));
+                for (_, x, y) in pixels.filter(|(n, ..)| *n > 0).take(points as usize) {
+                    let p = view.point(x, y);
+                    writeln!(out, "{},{}", exact(p.re), exact(p.im))?;
+                }
+            }
+        }
+        Ok(())
     }
-}
-
-/// The points of a Julia set as measurements need them: one in each cell of a grid that the pruned iteration reaches.
-pub(super) fn trail<'a>(set: JuliaSet) -> Trail<'a> {
-    let finer_than = move |length: Real| {
-        let cells = ((4 << 24) / i64::from(length.to_bits().max(1))).clamp(1, FINEST);
-        let side = cells as usize;
-        let mut hits = vec![0; side * side];
-        let points: Vec<Point2> = set.pruned_iteration(side, HITS, &mut hits)?.collect();
-        Ok(Box::new(points.into_iter().map(Step::MoveTo)) as Box<dyn Iterator<Item = Step>>)
-    };
-    let theory = match set.simple_case() {
-        Some(SimpleCase::UnitCircle) => Some(Theory::new(1.0, "the unit circle")),
-        Some(SimpleCase::Segment) => Some(Theory::new(1.0, "the segment from -2 to 2")),
-        None => None,
-    };
-    Trail { finer_than: Box::new(finer_than), theory, boundary: None, law: None }
 }

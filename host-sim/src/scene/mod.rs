@@ -28,6 +28,7 @@ use std::convert::Infallible;
 use std::io::Write;
 use std::path::Path;
 
+use attractor::escape::JuliaSet;
 use attractor_gallery::{Watch, draw_field};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -54,6 +55,8 @@ pub(crate) enum Subject<'a> {
     Set(&'a attractor::ifs::Ifs<{ attractor::ifs::MAX_MAPS }>),
     /// A path, or points, as dense as one likes.
     Trail(Trail<'a>),
+    /// A Julia set.
+    Julia(JuliaSet),
     /// The graph of a function.
     Graph(Graph<'a>),
 }
@@ -161,8 +164,8 @@ impl Scene {
                 law @ Law::LineToLine(..) => Subject::Graph(Graph::of_law(law)?),
                 _ => Subject::Trail(scene.trail()),
             },
-            Kind::Julia(scene) => Subject::Trail(scene.trail()?),
-            Kind::JuliaSet(scene) => Subject::Trail(scene.trail()),
+            Kind::Julia(scene) => Subject::Julia(scene.set()?),
+            Kind::JuliaSet(scene) => Subject::Julia(scene.set()),
             Kind::FifCurve(scene) => Subject::Graph(scene.graph()),
             Kind::FifSurface(_) => {
                 return Err(Fail::new("a surface is not measured, only its profiles as fif-curve"));

@@ -3,6 +3,7 @@
 //!
 //! Every transcendental comes from `libm`, so the bits are the same on every platform. Functions assert on bad input.
 
+mod backward;
 mod bounds;
 mod calculus;
 mod camera;
@@ -22,6 +23,7 @@ mod shade;
 mod surface;
 mod vector;
 
+pub use backward::julia_points;
 pub use bounds::{Bounds, Cell};
 pub use camera::{Camera, Ray};
 pub use compose::Composite;

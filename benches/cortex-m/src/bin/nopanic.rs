@@ -178,15 +178,16 @@ fn copies() -> Result<(), Error> {
 }
 
 fn julia_sets() -> Result<(), Error> {
-    use attractor::escape::JuliaSet;
+    use attractor::escape::{JuliaCover, JuliaSet, View};
     let set = JuliaSet::new(Complex::new(bb(Wide::ZERO), bb(Wide::ZERO)))?;
     bb((set.constant().sqrt(), set.fixed_points(), set.connectedness(bb(100))?, set.simple_case()));
     let mut walk = set.seeded_backward_iteration(bb(1));
     bb((walk.next_preimage(), walk.next()));
     bb(set.backward_iteration(rng()).take(bb(10)).last());
-    let mut hits = [0; 64];
-    let mut pruned = set.pruned_iteration(bb(8), bb(3), bb(&mut hits[..]))?;
-    bb((pruned.next(), pruned.hits().last()));
+    let middle = Complex::new(bb(Wide::ZERO), bb(Wide::ZERO));
+    bb((set.radius(), set.may_meet(middle, bb(Wide::ONE)), set.sixteenths(middle, bb(Wide::ONE))));
+    let view = View::new(middle, bb(Wide::ONE), Size::new(bb(8), bb(8)))?;
+    bb(JuliaCover::new(view, set)?.row(bb(1), bb(0)..bb(8)).last());
     Ok(())
 }
 

@@ -84,17 +84,9 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both!("coastline", |stage, C, I| curves::coastline::<C, { GROUND[I] }>(stage)),
     both!("copier-gasket", |stage, C| sets::copies::<C>(stage, &attractors::SIERPINSKI_GASKET, &sets::LETTER, &[0, 1, 2, 3, 4, 5, 6], Named::Even)),
     both!("copier-fern", |stage, C| sets::copies::<C>(stage, &attractors::BARNSLEY_FERN, &sets::BOX, &[0, 1, 2, 4, 8], Named::Moss)),
-    both_roomy(both!("rabbit-outline", |stage, C, I| sets::julia::<C, { PIXELS[I] }, 0>(stage, &sets::RABBIT))),
-];
-
-/// Those that are drawn in black and white only: a picture in colour takes more RAM than the largest machine has.
-pub(crate) const MONO_ONLY: &[Scene] = &[
-    roomy(mono("julia-dendrite", |stage| {
-        sets::julia::<BinaryColor, { PIXELS[1] }, { sets::DENDRITE_GRID }>(stage, &sets::DENDRITE)
-    })),
-    roomy(mono("san-marco", |stage| {
-        sets::julia::<BinaryColor, { PIXELS[1] }, { sets::SAN_MARCO_GRID }>(stage, &sets::SAN_MARCO)
-    })),
+    both_roomy(both!("rabbit-outline", |stage, C, I| sets::julia::<C, { PIXELS[I] }>(stage, &sets::RABBIT))),
+    both!("julia-dendrite", |stage, C| sets::covered::<C>(stage, &sets::DENDRITE)),
+    both!("san-marco", |stage, C| sets::covered::<C>(stage, &sets::SAN_MARCO)),
 ];
 
 #[cfg(test)]

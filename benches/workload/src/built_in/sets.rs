@@ -1,8 +1,8 @@
-//! Attractors by the chaos game and by the copier, Julia sets by backward iteration.
+//! Attractors by the chaos game and by the copier, Julia sets by backward iteration and covered.
 
 use attractor::Error;
 use attractor::draw::Ink;
-use attractor::escape::{Complex, JuliaSet, PrunedIteration};
+use attractor::escape::{Complex, JuliaCover, JuliaSet};
 use attractor::ifs::catalogue::Attractor;
 use attractor::ifs::{Affine, ChaosGame, CopiedPath, Density, Ifs};
 use attractor::num::{Real, Unit, Wide};
@@ -182,62 +182,41 @@ pub(super) const RABBIT: Julia = Julia {
 };
 pub(super) const DENDRITE: Julia = Julia {
     c: Complex::new(Wide::ZERO, Wide::ONE),
-    method: Method::Pruned,
+    method: Method::Cover,
     points: None,
     palette: Named::Even,
 };
 pub(super) const SAN_MARCO: Julia = Julia {
     c: Complex::new(Wide::lit("-0.75"), Wide::ZERO),
-    method: Method::Pruned,
+    method: Method::Cover,
     points: None,
     palette: Named::Ocean,
 };
-/// Cells of the grids that the pruned method takes on a display of 128 x 64.
-pub(super) const DENDRITE_GRID: usize = 102 * 102;
-pub(super) const SAN_MARCO_GRID: usize = 136 * 136;
 
-pub(super) fn julia<C: Colour + Ink, const PIXELS: usize, const CELLS: usize>(
+/// One that is covered: nothing is stored.
+pub(super) fn covered<C: Colour + Ink>(stage: &mut Stage<'_>, julia: &Julia) -> Result<(), Failure> {
+    let bytes = size_of::<JuliaSetPicture>() + size_of::<JuliaCover>();
+    let picture = julia.picture()?;
+    let look = (stage.size(), SEED);
+    stage.draw::<C>(bytes, |sink| picture.draw(look, sink, &mut [], &mut |_, _, _| true))
+}
+
+pub(super) fn julia<C: Colour + Ink, const PIXELS: usize>(
     stage: &mut Stage<'_>,
     julia: &Julia,
 ) -> Result<(), Failure> {
-    let walk = if CELLS > 0 { size_of::<PrunedIteration<'_>>() } else { 0 };
-    let bytes = size_of::<JuliaSetPicture>()
-        + walk
-        + size_of::<Density<'_, u16>>()
-        + size_of::<[u16; PIXELS]>()
-        + CELLS;
+    let bytes = size_of::<JuliaSetPicture>() + size_of::<Density<'_, u16>>() + size_of::<[u16; PIXELS]>();
     stage.claim(bytes)?;
-    iterated::<C, PIXELS, CELLS>(stage, julia, bytes)
+    iterated::<C, PIXELS>(stage, julia, bytes)
 }
 
 #[inline(never)]
-fn iterated<C: Colour + Ink, const PIXELS: usize, const CELLS: usize>(
+fn iterated<C: Colour + Ink, const PIXELS: usize>(
     stage: &mut Stage<'_>,
     julia: &Julia,
     bytes: usize,
 ) -> Result<(), Failure> {
     let picture = julia.picture()?;
-    let (look, mut counts, mut hits) = ((stage.size(), SEED), [0; PIXELS], [0; CELLS]);
-    stage.draw::<C>(bytes, |sink| picture.draw(look, sink, (&mut counts, &mut hits), &mut |_, _, _| true))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scenes::{COLOUR, MONO};
-    use embedded_graphics::geometry::Size;
-
-    /// What tests/built_in.rs says of those that are missing.
-    #[test]
-    fn a_pruned_picture_in_colour_takes_more_ram_than_there_is() {
-        let grid = |julia: &Julia, size: Size| {
-            let picture = julia.picture().unwrap();
-            picture.grid(&picture.window(size).unwrap()).pow(2)
-        };
-        for (julia, cells) in [(&DENDRITE, DENDRITE_GRID), (&SAN_MARCO, SAN_MARCO_GRID)] {
-            let in_colour = grid(julia, COLOUR);
-            assert_eq!(grid(julia, MONO), cells);
-            assert!(220 * 220 * 2 + in_colour > 128 << 10, "{in_colour}");
-        }
-    }
+    let (look, mut counts) = ((stage.size(), SEED), [0; PIXELS]);
+    stage.draw::<C>(bytes, |sink| picture.draw(look, sink, &mut counts, &mut |_, _, _| true))
 }

@@ -1,13 +1,15 @@
-//! Points of Julia sets by backward iteration, and the complex square root that each of them takes.
+//! Points of Julia sets by backward iteration, the complex square root that each of them takes, and their covers.
 
 use core::hint::black_box;
 
 use attractor::Error;
-use attractor::escape::{Complex, JuliaSet};
+use attractor::escape::{Complex, JuliaCover, JuliaSet, View};
 use attractor::fixed::types::I3F29;
 use attractor::num::Wide;
+use attractor::picture::Field as _;
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
+use embedded_graphics::geometry::Size;
 
 use super::{Tally, Watch, fold};
 use crate::float::{mul_add, sqrt};
@@ -15,9 +17,8 @@ use crate::inputs::{mixed, table};
 
 const POINTS: u32 = 2048;
 const SEED: u64 = 7;
-/// Cells a side of the grid that prunes, and hits a cell: more points than are counted.
-const SIDE: usize = 64;
-const HITS: u8 = 12;
+/// Pixels a side of the picture that is covered.
+const SIDE: u32 = 64;
 
 /// Douady's rabbit.
 fn rabbit() -> Result<JuliaSet, Error> {
@@ -39,14 +40,14 @@ pub(super) fn plain(watch: &mut Watch<'_>) -> Tally {
 }
 
 #[inline(never)]
-pub(super) fn pruned(watch: &mut Watch<'_>) -> Tally {
-    let Ok(set) = rabbit() else { return Tally::default() };
-    let mut grid = [0; SIDE * SIDE];
+pub(super) fn cover(watch: &mut Watch<'_>) -> Tally {
+    let view = View::new(Complex::default(), const { Wide::lit("4") }, Size::new(SIDE, SIDE));
+    let (Ok(set), Ok(view)) = (rabbit(), view) else { return Tally::default() };
+    let Ok(cover) = JuliaCover::new(view, set) else { return Tally::default() };
     watch.time(|| {
         let mut tally = Tally::default();
-        let Ok(points) = set.pruned_iteration(SIDE, HITS, &mut grid) else { return tally };
-        for p in points {
-            tally.checksum = tally.checksum.rotate_left(1) ^ p.x.to_bits() as u32 ^ p.y.to_bits() as u32;
+        for count in (0..SIDE).flat_map(|y| cover.row(y, 0..SIDE)) {
+            tally.checksum = tally.checksum.rotate_left(1) ^ u32::from(count);
             tally.units += 1;
         }
         tally
@@ -129,13 +130,5 @@ mod tests {
                 (root.re.to_num::<f64>() - exact.0).abs().max((root.im.to_num::<f64>() - exact.1).abs());
             assert!(error < 2.0 * unit, "{x} {y}: {error:e}");
         }
-    }
-
-    #[test]
-    fn pruning_finds_more_than_a_thousand_points_and_ends() {
-        let found = pruned(&mut Watch::new(&mut crate::Blind, 1));
-        assert!(found.units > 1000, "{found:?}");
-        // a second run starts from a clean grid
-        assert_eq!(found, pruned(&mut Watch::new(&mut crate::Blind, 2)));
     }
 }

@@ -199,7 +199,7 @@ const TABLE: &[Kernel] = &[
     alone("offset of a ratio", "call", curve::offset_of_ratio),
     alone("deviate", "call", curve::deviate),
     beside("backward", "point", backward::plain, backward::plain_f32, backward::plain_f64),
-    alone("backward pruned", "point", backward::pruned),
+    alone("julia cover", "pixel of 64x64", backward::cover),
     beside("complex sqrt", "call", backward::root, backward::root_f32, backward::root_f64),
     beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
     beside("fif dyadic level", "level", fif::dyadic_level, fif::dyadic_level_f32, fif::dyadic_level_f64),
