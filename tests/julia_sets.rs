@@ -83,6 +83,17 @@ fn every_column_of_the_segment_is_covered_and_no_row_but_those_by_the_axis() {
     assert!((0..SIDE / 2 - 2).all(|y| (0..SIDE).all(|x| cells[y * SIDE + x] == 0)));
 }
 
+/// 0 belongs to the set of i, and `f'` is 0 there: on a grid with an odd side it is the middle of a pixel.
+#[test]
+fn the_critical_point_of_a_dendrite_is_covered() {
+    for c in [(0.0, 1.0), (-2.0, 0.0)] {
+        let view = View::new(Complex::default(), Wide::lit("4"), Size::new(239, 239)).unwrap();
+        let cover = JuliaCover::new(view, set(c)).unwrap();
+        let row: Vec<u8> = cover.row(119, 0..239).collect();
+        assert!(row[119] > 0, "{c:?}: {row:?}");
+    }
+}
+
 #[test]
 fn a_pixel_is_the_square_by_itself_whatever_part_of_the_row_is_asked_for() {
     for (width, height) in [(96, 48), (97, 49)] {
@@ -122,7 +133,8 @@ fn the_radius_bounds_the_set() {
     }
 }
 
-/// Discs of every size, also those with a middle far away: not one that contains a point of the set is left out.
+/// Discs of every size, also those with a middle far away: not one that contains a point of the set is left
+/// out.
 #[test]
 fn a_disc_round_a_point_of_the_set_may_meet_it() {
     for c in CONSTANTS {
