@@ -2,7 +2,7 @@
 //!
 //! Source: course unit V, section 5.5.4, eq. 6, breadth first from the fixed point `1/2 + sqrt(1/4 - c)`,
 //! with the pruning of H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.3. Every
-//! point belongs to the set; on a grid much finer than what is looked at hardly a place is left out.
+//! point belongs to the set; on a grid much finer than what is looked at hardly a place is left out: of 240 columns of the segment of -2, 3 on a grid of 1920.
 
 use std::collections::VecDeque;
 
@@ -50,7 +50,7 @@ mod tests {
         });
         assert!(count > 1000 && arcs.iter().all(|n| *n > 0), "{arcs:?}");
         let mut columns = [0; 64];
-        julia_points((-2.0, 0.0), 400, 4, |(x, y)| {
+        julia_points((-2.0, 0.0), 4000, 4, |(x, y)| {
             assert!(y.abs() < 1e-7 && x.abs() <= 2.0);
             columns[((x + 2.0) * 15.9) as usize] += 1;
         });
