@@ -1,7 +1,6 @@
 //! What iterators take on a 32-bit machine, checked where they are compiled: the sizes that core's documentation states.
 
 use attractor::curve::{Elbow, Generator, OneVariable, Refined, Subdivision, TwoVariable};
-use attractor::escape::PrunedIteration;
 use attractor::ifs::{CopiedPath, CopiedPoints, Density, Ifs};
 
 /// Order 12 of the Koch curve and depth 12 of a copier may take so much.
@@ -11,7 +10,6 @@ const _: () = {
     assert!(size_of::<Refined<'_, 4, 12>>() <= MOST && size_of::<Refined<'_, 4, 12>>() == 32 * 12 + 72);
     assert!(size_of::<CopiedPath<'_, 4, 12>>() <= MOST && size_of::<CopiedPath<'_, 4, 12>>() == 40 * 12 + 72);
     assert!(size_of::<CopiedPoints<'_, 4, 12>>() == size_of::<CopiedPath<'_, 4, 12>>());
-    assert!(size_of::<PrunedIteration<'_>>() <= MOST);
     assert!(size_of::<Subdivision<'_, Elbow, 16>>() == 12 * 16 + 88);
     assert!(size_of::<Elbow>() == 136 && size_of::<OneVariable>() == 12 && size_of::<TwoVariable>() == 12);
     assert!(size_of::<Generator<4>>() == 64 * 4 + 16 && size_of::<Generator<9>>() == 64 * 9 + 16);

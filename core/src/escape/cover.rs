@@ -47,7 +47,7 @@ impl JuliaSet {
     /// The radius of a disc round 0 that contains `J_c`: `(1 + sqrt(1 + 4 |c|)) / 2`, beyond which every
     /// orbit grows; 2 for `|c| = 2`.
     ///
-    /// Error: at most `2^-26` too large (`the_radius_bounds_the_set` in tests/julia_sets.rs).
+    /// Error: at most `2^-26` too large (tests/julia_sets.rs).
     pub fn radius(&self) -> Wide {
         let (x, y) = self.word();
         let square = |v: i32| u64::from(v.unsigned_abs()) * u64::from(v.unsigned_abs());

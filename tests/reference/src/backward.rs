@@ -2,7 +2,8 @@
 //!
 //! Source: course unit V, section 5.5.4, eq. 6, breadth first from the fixed point `1/2 + sqrt(1/4 - c)`,
 //! with the pruning of H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.3. Every
-//! point belongs to the set; on a grid much finer than what is looked at hardly a place is left out: of 240 columns of the segment of -2, 3 on a grid of 1920.
+//! point belongs to the set; on a grid much finer than what is looked at hardly a place is left out: of 240
+//! columns of the segment of -2, 3 on a grid of 1920.
 
 use std::collections::VecDeque;
 
