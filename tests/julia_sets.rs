@@ -133,7 +133,8 @@ fn the_radius_bounds_the_set() {
     }
 }
 
-/// Discs of every size, also those with a middle far away: not one that contains a point of the set is left out.
+/// Discs of every size, also those with a middle far away: not one that contains a point of the set is left
+/// out.
 #[test]
 fn a_disc_round_a_point_of_the_set_may_meet_it() {
     for c in CONSTANTS {

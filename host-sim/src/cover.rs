@@ -1,7 +1,9 @@
-//! Boxes that meet a Julia set, each decided by itself: nothing is drawn on a grid first, and boxes of every size are treated alike.
+//! Boxes that meet a Julia set, each decided by itself: nothing is drawn on a grid first, and boxes of every
+//! size are treated alike.
 //!
-//! The square around the whole set is divided by four as long as its parts may meet the set; boxes of 1/64 to 1/512 of the square of side 4 are counted, on eight
-//! positions for each size, over which `log N` is averaged. A box counts when one of its 16 squares may meet the set.
+//! The square around the whole set is divided by four as long as its parts may meet the set; boxes of 1/64 to
+//! 1/512 of the square of side 4 are counted, on eight positions for each size, over which `log N` is
+//! averaged. A box counts when one of its 16 squares may meet the set.
 
 use attractor::escape::{Complex, JuliaSet};
 use attractor::num::Wide;

@@ -1,19 +1,22 @@
 //! Where the Julia set `J_c` is: which discs and squares it meets, by discs that are carried forward.
 //!
-//! `z -> z^2 + c` takes the disc of radius `r` round `z` into the disc of radius `r (2 |z| + r)` round `z^2 + c`; every rounding is added to the radius. The
-//! disc is carried on until it tells:
+//! `z -> z^2 + c` takes the disc of radius `r` round `z` into the disc of radius `r (2 |z| + r)` round `z^2 +
+//! c`; every rounding is added to the radius. The disc is carried on until it tells:
 //! - it lies beyond `R = (1 + sqrt(1 + 4 |c|)) / 2`: all of it escapes, it does not meet `J_c`;
-//! - it lies within a disc that it has been before: its orbits stay bounded, it does not meet `J_c`. The earlier disc is kept at doubling distances, as in
-//!   R. P. Brent, "An improved Monte Carlo factorization algorithm", 1980;
+//! - it lies within a disc that it has been before: its orbits stay bounded, it does not meet `J_c`. The
+//!   earlier disc is kept at doubling distances, as in R. P. Brent, "An improved Monte Carlo factorization
+//!   algorithm", 1980;
 //! - its radius reaches 1/2: it may meet `J_c`, for near `J_c` the map drives apart whatever it is given.
 //!
-//! Where `|f'|` is 1, at parabolic points and in Siegel discs, the radius grows by `r^2` alone although nothing is driven apart. Therefore a disc counts only when
-//! `r |(f^n)'|`, its size to first order, grows to `5 r` or 1/48 as well before its middle escapes or it shrinks to `r / 64`; by Schwarz and Pick it is then no farther
-//! from `J_c` than some radii. Neither picture nor grid has to be stored: a square is decided by itself, and exactly as its negative is, since both have
-//! the same image.
+//! Where `|f'|` is 1, at parabolic points and in Siegel discs, the radius grows by `r^2` alone although
+//! nothing is driven apart. Therefore a disc counts only when `r |(f^n)'|`, its size to first order, grows to
+//! `5 r` or 1/48 as well before its middle escapes or it shrinks to `r / 64`; by Schwarz and Pick it is then
+//! no farther from `J_c` than some radii. Neither picture nor grid has to be stored: a square is decided by
+//! itself, and exactly as its negative is, since both have the same image.
 //!
-//! Source: interval arithmetic in midpoints and radii (R. E. Moore, "Interval Analysis", 1966) on the level sets of H.-O. Peitgen, D. Saupe, "The
-//! Science of Fractal Images", 1988, section 4.2. Format: 27 fractional bits.
+//! Source: interval arithmetic in midpoints and radii (R. E. Moore, "Interval Analysis", 1966) on the level
+//! sets of H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.2. Format: 27 fractional
+//! bits.
 
 use core::ops::Range;
 
@@ -34,14 +37,15 @@ const STRETCH: u32 = 5;
 const STRETCHED: u32 = ONE / 48;
 /// A middle beyond this never returns, for all `|c| <= 2`; a step from here stays below 9.
 const FAR: u32 = ONE / 2 * 5;
-/// What a step adds to the radius: each part of the product is cut off by less than a unit, `c` was rounded by half of one, the modulus is low by less than
-/// one and so is the new radius: below 5 units in all.
+/// What a step adds to the radius: each part of the product is cut off by less than a unit, `c` was rounded
+/// by half of one, the modulus is low by less than one and so is the new radius: below 5 units in all.
 const ROUNDING: u64 = 5;
 
 type Point = (i32, i32);
 
 impl JuliaSet {
-    /// The radius of a disc round 0 that contains `J_c`: `(1 + sqrt(1 + 4 |c|)) / 2`, beyond which every orbit grows; 2 for `|c| = 2`.
+    /// The radius of a disc round 0 that contains `J_c`: `(1 + sqrt(1 + 4 |c|)) / 2`, beyond which every
+    /// orbit grows; 2 for `|c| = 2`.
     ///
     /// Error: at most `2^-26` too large (`the_radius_bounds_the_set`).
     pub fn radius(&self) -> Wide {
@@ -55,9 +59,10 @@ impl JuliaSet {
 
     /// Whether `J_c` may meet the disc round `middle`.
     ///
-    /// Domain: all. Result: `true` means that `J_c` is no farther than a few radii. `false` is certain where the middle's orbit escapes or the disc comes to lie in
-    /// itself. Near a parabolic point or a Siegel disc it may also mean that nothing was driven apart in the `4 (64 + 2 / radius)` steps that are taken, at most
-    /// 65,536 (`a_disc_round_a_point_of_the_set_may_meet_it`). Cost: 10 to 100 steps as a rule.
+    /// Domain: all. Result: `true` means that `J_c` is no farther than a few radii. `false` is certain where
+    /// all of the disc escapes or comes to lie in itself. Near a parabolic point or a Siegel disc it may also
+    /// mean that nothing was driven apart in the `4 (64 + 2 / radius)` steps that are taken, at most 65,536
+    /// (`a_disc_round_a_point_of_the_set_may_meet_it`). Cost: 10 to 100 steps as a rule.
     pub fn may_meet(&self, middle: Complex<Wide>, radius: Wide) -> bool {
         match point(middle) {
             Some(z) => Discs::of(self).may_meet(z, up(radius)),
@@ -68,12 +73,14 @@ impl JuliaSet {
         }
     }
 
-    /// How many of the 4 by 4 squares that make up the square round `middle` may meet `J_c`: 0 to 16, a density.
+    /// How many of the 4 by 4 squares that make up the square round `middle` may meet `J_c`: 0 to 16, a
+    /// density.
     ///
-    /// Domain: sides from `2^-20`, below which rounding makes lines thicker, to 4; others count as 4. Result: on a
-    /// grid of 240 by 240 cells from `-2 - 2i` to `2 + 2i` no more than 1 in 100 of the cells that `J_c` meets have no count among themselves and
-    /// their 8 neighbours; of the cells with a count no more than 1 in 100 are more than a cell from `J_c`, 1 in 40 round a Siegel disc; a cell and its
-    /// negative have the same count (`what_backward_orbits_visit_is_covered_and_little_else`).
+    /// Domain: sides from `2^-20`, below which rounding makes lines thicker, to 4; others count as 4. Result:
+    /// on a grid of 240 by 240 cells from `-2 - 2i` to `2 + 2i` no more than 1 in 100 of the cells that `J_c`
+    /// meets have no count among themselves and their 8 neighbours; of the cells with a count no more than 1
+    /// in 100 are more than a cell from `J_c`, 1 in 40 round a Siegel disc; a cell and its negative have the
+    /// same count (`what_backward_orbits_visit_is_covered_and_little_else`).
     pub fn sixteenths(&self, middle: Complex<Wide>, side: Wide) -> u8 {
         let side = up(side.min(WIDEST));
         point(middle).map_or(0, |z| Discs::of(self).sixteenths(z, side))
@@ -92,7 +99,8 @@ fn point(z: Complex<Wide>) -> Option<Point> {
     Some((part(z.re)?, part(z.im)?))
 }
 
-/// To 27 fractional bits, rounded up, at most 16, which reaches from any point to all of the set; and 2 units for that of a middle.
+/// To 27 fractional bits, rounded up, at most 16, which reaches from any point to all of the set; and 2 units
+/// for that of a middle.
 fn up(length: Wide) -> u32 {
     ((length.to_bits() >> 21).clamp(0, 16 * i64::from(ONE) - 3) as u32) + 3
 }
@@ -223,7 +231,8 @@ pub struct JuliaCover {
 }
 
 impl JuliaCover {
-    /// The cover of a set as a view shows it. In a view round 0 whose half pitch is a multiple of `2^-27` each pixel has the value of its negative.
+    /// The cover of a set as a view shows it. In a view round 0 whose half pitch is a multiple of `2^-27`
+    /// each pixel has the value of its negative.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for pixels wider than 4.
@@ -263,7 +272,8 @@ pub struct JuliaCoverRow<'a> {
 }
 
 impl JuliaCoverRow<'_> {
-    /// The number of a pixel's run, and the run's middle less the pixel's in half pitches. The middle of the row lies between runs or in the middle of one.
+    /// The number of a pixel's run, and the run's middle less the pixel's in half pitches. The middle of the
+    /// row lies between runs or in the middle of one.
     fn run_of(&self, column: u32) -> (i32, i32) {
         let width = self.cover.view.size().width as i32; // at most 2^14
         let place = 2 * column as i32 + 1 - width;
