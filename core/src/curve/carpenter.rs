@@ -141,7 +141,7 @@ impl OneVariable {
     /// The curve that becomes longer by `ratio` at each subdivision, on average: its dimension is [`super::dimension_of_ratio`].
     ///
     /// Result: the offset with `mean of sqrt(1 + 4 o^2 R^2) = ratio`. Error: of that ratio below `2^-22`
-    /// (`an_offset_gives_the_ratio_asked_for`). Cost: some 12 thousand square roots, 972 thousand Cortex-M4 instructions (kernel `offset of a ratio`).
+    /// (`an_offset_gives_the_ratio_asked_for`). Cost: some 12 thousand square roots, 891 thousand Cortex-M4 instructions (kernel `offset of a ratio`).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a ratio outside `1 .. 2`.

@@ -19,9 +19,9 @@ use crate::picture::Field;
 /// How the orbits of a deep view are computed.
 ///
 /// Cost of an iteration: 58.3 Cortex-M4 instructions (kernel `dwell 64`) in 64 bits, 259 (kernel `dwell 128`) in 128.
-/// By perturbation a step takes 203 (kernel `perturbed`), in 62 bits 823 (kernel `perturbed long`), and a point of the
+/// By perturbation a step takes 214 (kernel `perturbed`), in 62 bits 864 (kernel `perturbed long`), and a point of the
 /// reference orbit in 12 limbs 8621 (kernel `reference orbit`); but most iterations of a deep view are jumped over: at
-/// a width of 1e-100 a dwell costs 11.9 (kernel `perturbed jumping`) an iteration.
+/// a width of 1e-100 a dwell costs 12.3 (kernel `perturbed jumping`) an iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

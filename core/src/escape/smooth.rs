@@ -56,7 +56,7 @@ impl<P: EscapeTime> Smooth<P> {
     ///
     /// Domain: all. Error: below `2^-10` beside that of the orbit (`fractional_dwell_agrees_with_float`); the orbit is that of the dwell
     /// (`the_orbit_is_that_of_the_dwell`). Cost: the dwell, in words the same number of steps
-    /// once more, about 4 steps and two logarithms; nothing more inside. The home view at 100 iterations takes 1067 Cortex-M4
+    /// once more, about 4 steps and two logarithms; nothing more inside. The home view at 100 iterations takes 653 Cortex-M4
     /// instructions (kernel `fractional dwell`) a pixel, the dwell alone 189 (kernel `dwell of a pixel`).
     pub fn value_at(&self, point: P::Point) -> FractionalDwell {
         let max = self.0.max_dwell();
