@@ -2,7 +2,8 @@
 //!
 //! # Where the coordinates come from
 //! Newton's iteration in 520 fractional bits, started at the published first digits of two Misiurewicz points:
-//! - `M_{4,1}`, `-0.1010963638 + 0.9562865108 i`, solves `z_5 = z_4` for the orbit of 0 (a spiral with three arms);
+//! - `M_{4,1}`, `-0.1010963638 + 0.9562865108 i`, solves `z_5 = z_4` for the orbit of 0 (a spiral with three arms), as do
+//!   `0.3439069960 + 0.7006200202 i` and the real `-1.5436890127`, where the two bands of the needle meet;
 //! - nuclei of small copies of the set: `z_p = 0`, started at `M_{3,1} = -0.2281554936 + 1.1151425080 i`, at `M_{4,2} = -1.2963551382 + 0.4418516057 i`
 //!   and, for the chaotic place, at `M_{4,1}`. A nucleus of period `p` near a Misiurewicz point
 //!   is `~lambda^-p` away from it, its copy `~lambda^-2p` large: the periods are chosen so that the copy fills about a tenth of the view.
@@ -121,6 +122,24 @@ const SEAHORSE: Place = Place {
     kind: Kind::Nucleus(8007),
 };
 
+/// Where the two bands of the real axis meet, a root of `c^3 + 2 c^2 + 2 c + 2`.
+const BANDS: Place = Place {
+    re: "-1.54368901269207636157085597180174798652520329765098",
+    im: "0",
+    width: "1e-30",
+    max: 1000,
+    kind: Kind::Misiurewicz,
+};
+
+/// Right of the cardioid.
+const RIGHT: Place = Place {
+    re: "0.34390699597256808839552244509646392712025143331748",
+    im: "0.70062002023500493132272301205745010644179015660561",
+    width: "1e-30",
+    max: 1000,
+    kind: Kind::Misiurewicz,
+};
+
 /// Fixed point in any number of bits.
 struct Exact {
     bits: u32,
@@ -177,7 +196,7 @@ fn differences<const N: usize>(picture: &DeepMandelbrot<'_, N>, bits: u32) -> (u
 #[test]
 fn the_coordinates_are_what_they_are_said_to_be() {
     let exact = Exact { bits: 32 * LIMBS as u32 };
-    for place in PLACES.iter().chain([&CHAOTIC, &SEAHORSE]) {
+    for place in PLACES.iter().chain([&CHAOTIC, &SEAHORSE, &BANDS, &RIGHT]) {
         let number = |text: &str| exact.number(&text.parse::<Limbs<LIMBS>>().unwrap());
         let c = (number(place.re), number(place.im));
         let (mut z, mut orbit) = ((BigInt::ZERO, BigInt::ZERO), Vec::new());
@@ -316,6 +335,55 @@ fn the_default_arithmetic_is_right_where_it_ends() {
     let (re, im) = (SEAHORSE.re, SEAHORSE.im);
     check::<7>((re, im, &width(-44, 30)), 30, 4000, Arithmetic::Word128, 3);
     check::<7>((re, im, &width(-72, 20)), 20, 14_000, Arithmetic::Word128, 3);
+}
+
+#[test]
+fn the_seam_between_128_bits_and_perturbation_shows_nothing() {
+    const SIDE: u32 = 16;
+    const MAX: u32 = 1000;
+    let side_of = |exponent| Arithmetic::of(exponent, MAX);
+    let seam = (-200..0).find(|e| side_of(*e) == Arithmetic::Word128).unwrap();
+    assert_eq!(side_of(seam - 1), Arithmetic::Perturbed);
+    let mut orbit = [OrbitPoint::default(); MAX as usize];
+    let of = |place: &Place| (place.re, place.im);
+    let mut beyond = 0;
+    for (re, im) in [
+        ("-2", "0"),
+        ("0", "1"),
+        of(&BANDS),
+        of(&RIGHT),
+        of(&PLACES[0]),
+        of(&PLACES[1]),
+        of(&PLACES[2]),
+        of(&PLACES[4]),
+        of(&PLACES[5]),
+        of(&CHAOTIC),
+    ] {
+        for exponent in [seam, seam - 1] {
+            let width = format!("{:e}", f64::from(SIDE) * 1.1 * 2_f64.powi(exponent));
+            let view = DeepView::<LIMBS>::parse(re, im, &width, Size::new(SIDE, SIDE)).unwrap();
+            assert_eq!(view.pitch_exponent(), exponent);
+            let picture = |arithmetic, orbit| DeepMandelbrot::with_arithmetic(view, MAX, arithmetic, orbit);
+            let words = picture(Arithmetic::Word128, &mut []).unwrap();
+            let (by_words, inside, dwells) = differences(&words, 32 * LIMBS as u32);
+            let perturbed = picture(Arithmetic::Perturbed, &mut orbit).unwrap();
+            let (by_perturbation, ..) = differences(&perturbed, 32 * LIMBS as u32);
+            println!(
+                "pitch 2^{exponent}, {}: {by_words} differ in 128 bits, {by_perturbation} by perturbation, \
+                 {inside} inside, {dwells} dwells",
+                &re[..re.len().min(9)]
+            );
+            // beyond the seam 128 bits are not promised anything: a pixel of the 2560 differs
+            let place = format!("{re} 2^{exponent}");
+            assert_eq!(by_perturbation, 0, "{place}");
+            if exponent == seam || re == "-2" {
+                assert_eq!(by_words, 0, "{place}");
+            }
+            beyond += by_words;
+            assert!(dwells > 2 && 3 * inside < 2 * SIDE * SIDE, "{place}: {inside} {dwells}");
+        }
+    }
+    assert!(beyond <= 1, "{beyond}");
 }
 
 #[test]

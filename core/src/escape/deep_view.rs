@@ -9,10 +9,12 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::block::{Block, Number};
-use super::{Complex, MAX_PAN};
+use super::{Complex, MAX_PAN, View};
 use crate::Error;
 use crate::num::{Limbs, Wide};
 use crate::picture::checked_size;
+
+const FOUR: Wide = Wide::lit("4");
 
 /// Bits that a pixel must have behind it: rounding a corner of a pixel then shows nowhere.
 const GUARD: u32 = 8;
@@ -43,13 +45,12 @@ pub struct DeepView<const LIMBS: usize> {
 impl<const LIMBS: usize> DeepView<LIMBS> {
     /// The rectangle around `centre` that is `width` wide; its height follows from the size.
     ///
-    /// Domain: width and height above 0 and at most 4, the centre within 4 of 0 in each part, 8 bits behind the pitch.
+    /// Domain: width and height above 0 and below 4, the centre within 4 of 0 in each part, 8 bits behind the pitch.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] names the width, the height, the part of the centre or the side of the picture; [`Error::Capacity`] says how many
     /// limbs a width as small as this takes.
     pub fn new(centre: Complex<Limbs<LIMBS>>, width: Limbs<LIMBS>, size: Size) -> Result<Self, Error> {
-        const FOUR: Wide = Wide::lit("4");
         let size = checked_size(size)?;
         let out = |what, value, min| Err(Error::OutOfRange { what, index: None, value, min, max: FOUR });
         let wide = width.to_wide();
@@ -218,6 +219,43 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     }
 }
 
+/// The same pixels, where a zoom in 32 bits goes on: centre, width, size and pan are taken over exactly.
+///
+/// Domain: as [`DeepView::new`] and [`DeepView::pan`], in 2 limbs and more. Error: none, and a point of the deep view is
+/// as exact as its limbs: [`View::point`] is the same point rounded to 48 bits (`a_view_goes_on_at_the_same_points`).
+///
+/// ```
+/// use attractor::escape::{DeepView, View};
+/// use embedded_graphics_core::geometry::Size;
+/// let shallow = View::home(Size::new(24, 20))?.pan(3, -2)?;
+/// let deep = DeepView::<12>::try_from(shallow)?;
+/// assert_eq!(deep.width().to_wide(), shallow.width());
+/// assert_eq!(deep.panned(), (3, -2));
+/// # Ok::<(), attractor::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`DeepView::new`] and [`DeepView::pan`]: a [`View`] may be wider than 4.
+impl<const LIMBS: usize> TryFrom<View> for DeepView<LIMBS> {
+    type Error = Error;
+
+    fn try_from(view: View) -> Result<Self, Error> {
+        if LIMBS < 2 {
+            return Err(Error::Capacity { what: "limbs for 48 bits", needed: 2, capacity: LIMBS });
+        }
+        let limbs = |what, value, min| {
+            let out = Error::OutOfRange { what, index: None, value, min, max: FOUR };
+            Limbs::from_wide(value).ok_or(out)
+        };
+        let Complex { re, im } = view.centre();
+        let width = limbs("width of the view", view.width(), Wide::DELTA)?;
+        let re = limbs("real part of the centre", re, -FOUR)?;
+        let im = limbs("imaginary part of the centre", im, -FOUR)?;
+        let (right, up) = view.panned();
+        Self::new(Complex::new(re, im), width, view.size())?.pan(right, up)
+    }
+}
+
 fn half_pitch_block<const LIMBS: usize>(width: &Limbs<LIMBS>, size: Size) -> Block<i64> {
     let Some(highest) = width.highest_bit() else { return Block::<i64>::ZERO };
     // 96 bits of the width over 2 cols
@@ -259,7 +297,67 @@ impl FusedIterator for Pixels {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::escape::View;
+
+    #[test]
+    fn a_view_goes_on_at_the_same_points() {
+        fn check<const LIMBS: usize>(narrow: View) -> u32 {
+            let deep = DeepView::<LIMBS>::try_from(narrow).unwrap();
+            assert_eq!((deep.size(), deep.panned()), (narrow.size(), narrow.panned()));
+            let Size { width, height } = narrow.size();
+            let mut between = 0;
+            for (column, row) in (0..height).flat_map(|row| (0..width).map(move |column| (column, row))) {
+                let (coarse, fine) = (narrow.point(column, row), deep.point(column, row));
+                for (coarse, fine) in [(coarse.re, fine.re), (coarse.im, fine.im)] {
+                    // what is cut off sets the last bit of the narrow point
+                    let floor = Limbs::from_wide(fine.to_wide()).unwrap();
+                    let cut = i64::from(floor != fine);
+                    assert_eq!(coarse.to_bits(), fine.to_wide().to_bits() | cut, "{narrow:?} {column} {row}");
+                    between += u32::from(floor != fine);
+                }
+            }
+            between
+        }
+        let centre = Complex::new(Wide::from_num(-0.7453), Wide::from_bits(31_719_456_789_011));
+        let mut between = 0;
+        for (w, h, width) in
+            [(64, 48, 1 << 46), (7, 100, 1_234_567_891), (240, 5, 240 << 19), (9, 9, 3 << 48)]
+        {
+            let home = View::new(centre, Wide::from_bits(width), Size::new(w, h)).unwrap();
+            for (right, up) in [(0, 0), (1, -1), (-5, 8)] {
+                let narrow = home.pan(right, up).unwrap();
+                between += check::<2>(narrow) + check::<3>(narrow) + check::<12>(narrow);
+            }
+        }
+        assert!(between > 1000, "{between}");
+    }
+
+    #[test]
+    fn a_view_that_a_deep_one_cannot_hold_is_refused() {
+        let size = Size::new(8, 8);
+        let view = |re, im, width| {
+            let centre = Complex::new(Wide::from_num(re), Wide::from_num(im));
+            View::new(centre, Wide::from_num(width), size).unwrap()
+        };
+        for (narrow, part, wrong) in [
+            (view(0, 0, 4), "width of the view", 4),
+            (view(0, 0, 100), "width of the view", 100),
+            (view(-5, 0, 1), "real part of the centre", -5),
+            (view(100, 0, 1), "real part of the centre", 100),
+            (view(0, -8, 1), "imaginary part of the centre", -8),
+            (view(0, 7, 1), "imaginary part of the centre", 7),
+        ] {
+            let error = DeepView::<4>::try_from(narrow).unwrap_err();
+            assert!(
+                matches!(error, Error::OutOfRange { what, value, .. } if what == part && value == wrong),
+                "{error}"
+            );
+        }
+        let panned = view(0, 0, 1).pan(100, 0).unwrap();
+        assert!(DeepView::<4>::try_from(panned).is_err());
+        assert!(DeepView::<2>::try_from(view(-4, 4, 3)).is_ok());
+        let error = DeepView::<1>::try_from(view(0, 0, 1)).unwrap_err();
+        assert_eq!(error, Error::Capacity { what: "limbs for 48 bits", needed: 2, capacity: 1 });
+    }
 
     #[test]
     fn the_grid_is_that_of_the_narrow_view() {

@@ -7,7 +7,7 @@
 //! Format: reference points and distances are blocks, two 30-bit mantissas with one exponent. A step rounds the distance 3 times by `2^-30` of its
 //! size, and so does a jump, whatever its length: after `s` steps and jumps a pixel is shown as if it were moved by less than `4 s 2^-30` of its distance
 //! from the centre (`a_pixel_is_moved_by_less_than_the_bound`). Whether `|z| > 2` is decided on 30 bits: at `c = -2` alone, where an orbit follows the circle
-//! itself, a dwell is that of a circle wider by `2^-29`. Against arbitrary precision: tests/deep_zoom.rs.
+//! itself, a dwell is that of a circle wider by `2^-27`. Against arbitrary precision: tests/deep_zoom.rs.
 //!
 //! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P. Brent, 1980, as in [`super::dwell`]). So does one
 //! that has come near an attracting cycle ([`super::cycle`]): it is looked for after 2048, 4096, ... steps.
@@ -176,6 +176,13 @@ impl<'a, N: Stored> Reference<'a, N> {
     }
 }
 
+/// A point on the circle that is wider than 2 by two units of the last place: an orbit that follows the circle
+/// from within, near `c = -2`, may be rounded beyond 2 long before it escapes.
+#[inline(always)]
+fn rounded_circle<N: Number>() -> N {
+    N::nearest(Block::<i64>::new((1 << (N::BITS - 2)) + 1, 0, 3 - N::BITS))
+}
+
 /// What a step came to.
 enum Event {
     Plain,
@@ -257,7 +264,7 @@ impl<'a, N: Stored> Walk<'a, N> {
         }
         self.at = self.advance();
         self.z = self.at.plus(self.distance);
-        if self.z.is_beyond_two() {
+        if self.z.is_beyond_two() && !self.z.is_less(rounded_circle()) {
             Event::Beyond
         } else if self.points.as_slice().is_empty() || !self.distance.is_less(self.z) {
             self.rebase();
