@@ -48,7 +48,7 @@ pub(crate) fn run(args: &Accuracy) -> Result<(), Fail> {
     writeln!(
         out,
         "\nBounds of fractal interpolation functions (Fif, Dyadic, Surface, Cell) are those at an exact abscissa, \
-         error_bound:\nthe partitions of these rows are dyadic. On any other partition error_bound_at_x bounds the \
+         error_bound:\nthe rows of values have dyadic partitions, and a cell has no abscissa. On any other partition error_bound_at_x bounds the \
          error at x itself."
     )?;
     Ok(())
