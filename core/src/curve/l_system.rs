@@ -96,7 +96,7 @@ impl<'a> LSystem<'a> {
     /// use attractor::{curve::LSystem, num::Wide};
     /// let rules = [('X', "F-[[X]+X]+F[+FX]-X"), ('F', "FF")];
     /// let plant = LSystem::new("X", &rules, Wide::lit("22.5"))?.heading(Wide::lit("90"));
-    /// assert!(plant.path::<5, 8>(5)?.count() > 1000);
+    /// assert!(plant.path::<5, 10>(5)?.count() > 1000);
     /// assert!(LSystem::new("F[+F", &rules, Wide::ONE).is_err());
     /// # Ok::<(), attractor::Error>(())
     /// ```

@@ -221,8 +221,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
 
 /// The same pixels, where a zoom in 32 bits goes on: centre, width, size and pan are taken over exactly.
 ///
-/// Domain: as [`DeepView::new`] and [`DeepView::pan`], in 2 limbs and more. Exact (`a_view_goes_on_at_the_same_points`), and a point of the deep view is
-/// as exact as its limbs: [`View::point`] is the same point rounded to 48 bits (`a_view_goes_on_at_the_same_points`).
+/// Domain: as [`DeepView::new`] and [`DeepView::pan`], in 2 limbs and more. Exact; a point of the deep view is as exact as
+/// its limbs: [`View::point`] is the same point rounded to 48 bits (`a_view_goes_on_at_the_same_points`).
 ///
 /// ```
 /// use attractor::escape::{DeepView, View};
