@@ -56,7 +56,7 @@ fn every_point_is_within_its_bound() {
         ("F|F", &[('F', "F+F--F+F")], 60.0, 6),
         // headings that only grow, round and round: a million turns
         ("X", &[('X', &many), ('F', "FF+F+F")], 360.0 / 7.0, 2),
-        ("X", &[('X', "XXXXXXXXXX"), ('F', "F+F"), ('Y', "F")], 0.001, 3),
+        ("F", &[('F', "F+F")], 0.001, 9),
         ("Y", &[('Y', "YYYYYYYYYYF+")], 0.37, 5),
         // one long straight line: the sine's error adds up
         ("F", &[('F', "FFFFFFFF")], 33.0, 6),
