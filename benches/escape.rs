@@ -7,9 +7,10 @@
 
 use std::hint::black_box;
 
-use attractor::escape::{Complex, Julia, Mandelbrot, Precision, View};
+use attractor::escape::{Arithmetic, Julia, Mandelbrot, View};
+use attractor::num::Complex;
 use attractor::num::Wide;
-use attractor::picture::Field as _;
+use attractor::plane::Field as _;
 use attractor_benches::{MEASUREMENT, SAMPLES, WARM_UP};
 use attractor_reference::{dwell, in_cardioid, in_period_2_bulb, julia_dwell};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -34,8 +35,8 @@ fn home_view(criterion: &mut Criterion) {
 
     let mut group = criterion.benchmark_group("escape/home view");
     group.throughput(Throughput::Elements(iterations));
-    for precision in [Precision::Coarse26, Precision::Fine29] {
-        let picture = picture.with_precision(precision);
+    for precision in [Arithmetic::Word26, Arithmetic::Word29] {
+        let picture = picture.with_arithmetic(precision).unwrap();
         group.bench_function(format!("{precision:?}"), |b| b.iter(|| sum(black_box(&picture))));
     }
     group.bench_function("f64", |b| b.iter(|| exact(black_box(&points))));
@@ -60,8 +61,8 @@ fn interior_orbit(criterion: &mut Criterion) {
 
     let mut group = criterion.benchmark_group("escape/interior orbit");
     group.throughput(Throughput::Elements(MAX.into()));
-    for precision in [Precision::Coarse26, Precision::Fine29] {
-        let julia = julia.with_precision(precision);
+    for precision in [Arithmetic::Word26, Arithmetic::Word29] {
+        let julia = julia.with_arithmetic(precision).unwrap();
         group.bench_function(format!("{precision:?}"), |b| {
             b.iter(|| julia.dwell_at(black_box(complex(START))))
         });

@@ -101,7 +101,7 @@ pub fn words(count: u32) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use attractor::picture::Field as _;
+    use attractor::plane::Field as _;
 
     /// Both sides of the bench of rays do the same work: the mirrors are the same picture.
     #[test]

@@ -3,7 +3,7 @@
 //! Every eighth row of 240 x 240 pixels. The reference follows Algorithm 3 by recursion and computes the camera's frame anew for each ray.
 
 use attractor::fif::Pyramid;
-use attractor::picture::Field as _;
+use attractor::plane::Field as _;
 use attractor_benches::{DEPTH, MEASUREMENT, SAMPLES, WARM_UP, exact_mirror, g_integral, memory, mirror};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 

@@ -21,25 +21,37 @@ fn main() {
 /// The openings of the private files, rooms in the order of their dependence.
 fn methods() -> String {
     let src = Path::new(&env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it")).join("src");
-    let read = |path: &Path| fs::read_to_string(path).unwrap_or_default();
     let mut page = String::from(
         "What each file computes, by which formula, from which source and in which format: what the kernels say of themselves.\n",
     );
-    for room in ["num", "fif", "ifs", "curve", "escape", "trace", "draw"] {
-        let mods = read(&src.join(room).join("mod.rs"));
+    for room in ["num", "plane", "fif", "ifs", "curve", "escape", "trace", "draw"] {
         writeln!(page, "\n# {room}").expect("a string takes all");
-        let private = mods.lines().filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'));
-        for name in private {
-            // `#[cfg(test)]` stands above helpers of tests
-            if mods.contains(&format!("#[cfg(test)]\nmod {name};")) {
-                continue;
-            }
-            let opening = opening(&read(&src.join(room).join(name).with_extension("rs")));
-            writeln!(page, "\n## {room}: {}\n\n{opening}", name.replace('_', " "))
-                .expect("a string takes all");
-        }
+        describe(&src.join(room), room, &mut page);
     }
     page
+}
+
+/// The openings of a room's private files and of its sub-rooms.
+fn describe(room: &Path, heading: &str, page: &mut String) {
+    let read = |path: &Path| fs::read_to_string(path).unwrap_or_default();
+    let mods = read(&room.join("mod.rs"));
+    let private = |line: &'_ str| {
+        let line = line.strip_prefix("pub(crate) ").unwrap_or(line);
+        Some(String::from(line.strip_prefix("mod ")?.strip_suffix(';')?))
+    };
+    for name in mods.lines().filter_map(private) {
+        // `#[cfg(test)]` stands above helpers of tests
+        if mods.contains(&format!("#[cfg(test)]\nmod {name};")) {
+            continue;
+        }
+        let (sub_room, file) = (room.join(&name), room.join(&name).with_extension("rs"));
+        let file = if sub_room.is_dir() { sub_room.join("mod.rs") } else { file };
+        let heading = format!("{heading}: {}", name.replace('_', " "));
+        writeln!(page, "\n## {heading}\n\n{}", opening(&read(&file))).expect("a string takes all");
+        if sub_room.is_dir() {
+            describe(&sub_room, &heading, page);
+        }
+    }
 }
 
 /// The paragraphs at the top of a file. Links name what means nothing elsewhere: their words stay.

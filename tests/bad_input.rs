@@ -1,12 +1,13 @@
 //! What core's constructors refuse, with the error's type and, because people read it, its exact text.
 
 use attractor::Error;
-use attractor::escape::{Complex, Julia, MAX_DWELL, Mandelbrot, View};
+use attractor::escape::{Julia, MAX_DWELL, Mandelbrot, View};
 use attractor::fif::{Cell, Factor, Fif, Knot, Pyramid};
 use attractor::ifs::catalogue::SIERPINSKI_CARPET;
 use attractor::ifs::{Affine, Ifs};
+use attractor::num::Complex;
 use attractor::num::{Alias, Real, Scaling, Unit, Vec3, Wide};
-use attractor::picture::{Bounds2, Point2, Window};
+use attractor::plane::{Bounds2, Point2, Window};
 use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
 use embedded_graphics::geometry::Size;
 
@@ -347,7 +348,7 @@ fn a_picture_is_not_too_wide_for_its_camera() {
 /// Places outside the picture once overflowed.
 #[test]
 fn there_is_nothing_outside_a_picture() {
-    use attractor::picture::Field as _;
+    use attractor::plane::Field as _;
     with_caster(|caster| {
         let picture = caster(Size::new(16, 16), 40.0).expect("a picture");
         assert!(picture.hit(8, 8).is_some());

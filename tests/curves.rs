@@ -7,7 +7,7 @@ use attractor::curve::{
 };
 use attractor::ifs;
 use attractor::num::{Real, Unit, Wide};
-use attractor::picture::{Point2, Step};
+use attractor::plane::{PathElement, Point2};
 use attractor_reference::koch::Show;
 use attractor_reference::random_curve::{self, Law};
 use attractor_reference::{copier, koch as reference};
@@ -21,12 +21,12 @@ fn xy(p: Point2) -> (f64, f64) {
 }
 
 /// The points of one stroke.
-fn stroke(steps: impl Iterator<Item = Step>) -> Vec<Point2> {
+fn stroke(steps: impl Iterator<Item = PathElement>) -> Vec<Point2> {
     steps
         .enumerate()
         .map(|(i, step)| match step {
-            Step::MoveTo(p) if i == 0 => p,
-            Step::LineTo(p) if i > 0 => p,
+            PathElement::MoveTo(p) if i == 0 => p,
+            PathElement::LineTo(p) if i > 0 => p,
             other => panic!("{other:?} at {i}"),
         })
         .collect()
@@ -240,7 +240,7 @@ fn an_image_of_the_copier_is_within_two_to_the_minus_20() {
             let want = copier::super_copier(&maps, &shape, order);
             largest = largest.max(worst(system.copier::<12>(&points, order).unwrap().points(), &want));
             let strokes = system.copier::<12>(&points, order).unwrap().path();
-            assert_eq!(strokes.filter(|s| matches!(s, Step::MoveTo(_))).count() * 3, want.len());
+            assert_eq!(strokes.filter(|s| matches!(s, PathElement::MoveTo(_))).count() * 3, want.len());
         }
         println!("{}: {:.3} units of 2^-24 at order {most}", attractor.name, largest / ULP);
         assert!(largest < 16.0 * ULP, "{}: {largest:e}", attractor.name);

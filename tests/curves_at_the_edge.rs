@@ -6,7 +6,7 @@ use attractor::curve::{
     Subdivision, TwoVariable, catalogue, dimension_of_ratio, dimension_of_spectrum, koch,
 };
 use attractor::num::{Angle, Real, Unit, Wide};
-use attractor::picture::{Point2, Step};
+use attractor::plane::{PathElement, Point2};
 use proptest::prelude::*;
 
 fn point(x: f64, y: f64) -> Point2 {
@@ -71,7 +71,7 @@ fn knots_farther_apart_than_a_coordinate_reaches_are_refused() {
     let far = [point(-64.0, 0.0), point(-63.0, 0.0), point(65.0, 0.0)];
     let stop = Stop::Parameter(Parameter::from_num(0.5));
     let middle = Subdivision::<_, 4>::new(&law, &near, stop).unwrap().nth(1).unwrap();
-    let Step::LineTo(middle) = middle else { panic!("{middle:?}") };
+    let PathElement::LineTo(middle) = middle else { panic!("{middle:?}") };
     let r = RandomFunction::new(1).at(Parameter::from_num(0.5)).to_num::<f64>();
     assert!((middle.y.to_num::<f64>() - 12.8 * r).abs() < 1e-5, "{middle:?}");
     let refused = Subdivision::<_, 4>::new(&law, &far, stop).unwrap_err();

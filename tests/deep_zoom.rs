@@ -14,9 +14,10 @@
 //! `the_coordinates_are_what_they_are_said_to_be` follows the orbits and checks both equations to the last digits.
 
 use attractor::Error;
-use attractor::escape::{Arithmetic, Complex, DeepMandelbrot, DeepView, OrbitPoint};
+use attractor::escape::{Arithmetic, DeepMandelbrot, DeepView, OrbitPoint};
+use attractor::num::Complex;
 use attractor::num::Limbs;
-use attractor::picture::Field;
+use attractor::plane::Field;
 use embedded_graphics::geometry::Size;
 use num_bigint::{BigInt, Sign};
 

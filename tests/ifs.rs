@@ -1,7 +1,7 @@
 //! The chaos game against the exact moments of its measure.
 
 use attractor::ifs::catalogue;
-use attractor::picture::Point2;
+use attractor::plane::Point2;
 use attractor_tests::accuracy::exact_moments;
 
 const COUNT: usize = 1_000_000;

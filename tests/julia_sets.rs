@@ -1,8 +1,9 @@
 //! Covers of Julia sets beside the points of backward orbits.
 
-use attractor::escape::{Complex, JuliaCover, JuliaSet, View};
+use attractor::escape::{JuliaCover, JuliaSet, View};
+use attractor::num::Complex;
 use attractor::num::Wide;
-use attractor::picture::Field;
+use attractor::plane::Field;
 use attractor_reference::julia_points;
 use embedded_graphics::geometry::Size;
 

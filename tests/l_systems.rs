@@ -3,7 +3,7 @@
 use attractor::Error;
 use attractor::curve::{Generator, LSystem, MAX_LETTERS, MAX_RULES, Turtle, turn_over};
 use attractor::num::Wide;
-use attractor::picture::Step;
+use attractor::plane::PathElement;
 use attractor_reference::l_system::{demands, rewritten, strokes};
 use proptest::prelude::*;
 
@@ -18,8 +18,8 @@ fn drawn<const O: usize, const B: usize>(turtle: Turtle<'_, O, B>) -> Vec<Vec<(f
     let step = turtle.step().to_num::<f64>();
     let mut strokes: Vec<Vec<(f64, f64)>> = Vec::new();
     for each in turtle {
-        let (Step::MoveTo(p) | Step::LineTo(p)) = each;
-        if matches!(each, Step::MoveTo(_)) {
+        let (PathElement::MoveTo(p) | PathElement::LineTo(p)) = each;
+        if matches!(each, PathElement::MoveTo(_)) {
             strokes.push(Vec::new());
         }
         let point = (p.x.to_num::<f64>() / step, p.y.to_num::<f64>() / step);

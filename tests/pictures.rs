@@ -2,7 +2,7 @@
 
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Unit, Vec3, Wide};
-use attractor::picture::Field as _;
+use attractor::plane::Field as _;
 use attractor::trace::{
     Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling, Statistics,
 };

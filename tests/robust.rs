@@ -11,11 +11,12 @@ mod systems;
 use std::cell::Cell as Counter;
 
 use attractor::draw::Stroke;
-use attractor::escape::{Complex, Julia, Mandelbrot, View};
+use attractor::escape::{Julia, Mandelbrot, View};
 use attractor::fif::{Cell, Factor, Fif, Knot, Pyramid, Surface};
 use attractor::ifs::{Affine, Ifs};
+use attractor::num::Complex;
 use attractor::num::{Alias, Angle, Real, Scaling, Unit, Vec3, Wide};
-use attractor::picture::{Bounds2, Field, Point2, Step, Window};
+use attractor::plane::{Bounds2, Field, PathElement, Point2, Window};
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::SeedableRng;
 use attractor::trace::{
@@ -381,7 +382,9 @@ fn windows_and_strokes_anywhere() {
                     assert!(Rectangle::new(Point::zero(), window.size()).contains_pixel(pixel));
                 }
             }
-            let path = steps.iter().map(|(p, pen)| if *pen { Step::LineTo(*p) } else { Step::MoveTo(*p) });
+            let path = steps
+                .iter()
+                .map(|(p, pen)| if *pen { PathElement::LineTo(*p) } else { PathElement::MoveTo(*p) });
             let mut target = Target(target, 0);
             let Ok(drawn) = Stroke::new(path, window, BinaryColor::On).at(at).draw(&mut target);
             assert_eq!(drawn, target.1);

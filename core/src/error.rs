@@ -102,6 +102,13 @@ pub enum Error {
         /// What is.
         what: &'static str,
     },
+    /// A choice that exists, but not here.
+    Unsupported {
+        /// What was chosen.
+        what: &'static str,
+        /// What there is to choose from.
+        allowed: &'static str,
+    },
     /// A character of a word that does not belong there.
     Character {
         /// What word.
@@ -159,6 +166,9 @@ impl fmt::Display for Error {
             ),
             Self::Malformed { what, position } => write!(f, "this is no {what}: look at byte {position}"),
             Self::Degenerate { what } => write!(f, "{what} is zero"),
+            Self::Unsupported { what, allowed } => {
+                write!(f, "this {what} is not to be had here: there are {allowed}")
+            }
             Self::Character { what, index, position, letter, reason } => {
                 match index {
                     Some(index) => write!(f, "{what} [{index}]")?,
@@ -212,6 +222,10 @@ mod tests {
             (Error::NotJoined { knot: 1 }, "the maps on both sides of knot 1 disagree there"),
             (Error::Malformed { what: "number", position: 4 }, "this is no number: look at byte 4"),
             (Error::Degenerate { what: "direction of the light" }, "direction of the light is zero"),
+            (
+                Error::Unsupported { what: "arithmetic", allowed: "Word26 and Word29" },
+                "this arithmetic is not to be had here: there are Word26 and Word29",
+            ),
         ];
         for (error, text) in cases {
             assert_eq!(error.to_string(), text);

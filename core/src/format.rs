@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use defmt::{Debug2Format, Format, Formatter};
 
-use crate::{curve, escape, fif, ifs, num, picture, trace};
+use crate::{curve, escape, fif, ifs, num, plane, trace};
 
 macro_rules! as_debug {
     ($([$($generics:tt)*] $type:ty;)*) => {$(
@@ -20,10 +20,10 @@ as_debug! {
     [T: Debug] num::Vec3<T>;
     [const LIMBS: usize] num::Limbs<LIMBS>;
     [] num::Reciprocal;
-    [] picture::Point2;
-    [] picture::Step;
-    [] picture::Bounds2;
-    [] picture::Window;
+    [] plane::Point2;
+    [] plane::PathElement;
+    [] plane::Bounds2;
+    [] plane::Window;
     [] fif::Knot;
     [] fif::Cell;
     [const N: usize, const D: usize] fif::Fif<N, D>;
@@ -39,7 +39,7 @@ as_debug! {
     [] curve::LineToLine;
     [] curve::OneVariable;
     [] curve::TwoVariable;
-    [T: Debug] escape::Complex<T>;
+    [T: Debug] num::Complex<T>;
     [] escape::View;
     [const LIMBS: usize] escape::DeepView<LIMBS>;
     [] escape::Mandelbrot;

@@ -9,7 +9,7 @@
 //! | room | what it knows |
 //! | --- | --- |
 //! | [num] | formats, wide products, roots, trigonometry, vectors |
-//! | [picture] | the three kinds of picture, windows onto the plane |
+//! | [plane] | points, paths and fields: the three kinds of picture; windows onto the plane |
 //! | [fif] | fractal interpolation functions: evaluation, calculus, bounds, tensor-product surfaces |
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
 //! | [curve] | curves by refinement: Koch, Hilbert and their relatives; random curves: elbows, Carpenter's subdivision |
@@ -29,7 +29,7 @@
 //! | `serde` | `Serialize` and `Deserialize` for values and descriptions; a type whose constructor checks something is read back through it, so that none is invalid |
 //! | `micromath` | a camera from f32 angles |
 //!
-//! Read back through their constructors: [`picture::Window`], [`escape::View`], [`escape::DeepView`], [`escape::Mandelbrot`], [`escape::Julia`], [`escape::JuliaSet`],
+//! Read back through their constructors: [`plane::Window`], [`escape::View`], [`escape::DeepView`], [`escape::Mandelbrot`], [`escape::Julia`], [`escape::JuliaSet`],
 //! [`ifs::Ifs`]. Not read back, as they keep only what they computed: [`fif::Fif`], [`curve::Generator`], [`trace::Camera`], [`trace::Light`] and the laws of random
 //! curves; store the knots, points and vectors they are made from. Written only: [`Error`], [`trace::Hit`] and the entries of the catalogues, which borrow their names.
 //!
@@ -63,7 +63,7 @@ pub mod ifs;
 #[cfg(any(doc, test))]
 pub mod methods;
 pub mod num;
-pub mod picture;
+pub mod plane;
 #[cfg(test)]
 mod promised;
 #[cfg(feature = "serde")]

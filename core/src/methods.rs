@@ -12,7 +12,7 @@ mod tests {
             "# fif",
             "# ifs",
             "# curve",
-            "## escape: dwell",
+            "## escape: orbit: dwell",
             "# trace",
             "## draw: line",
         ] {

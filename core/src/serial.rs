@@ -11,10 +11,11 @@ use serde::de::{Deserialize, Deserializer, Error as _, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 use crate::Error;
-use crate::escape::{Complex, DeepView, Julia, JuliaSet, Mandelbrot, Precision, View};
+use crate::escape::{Arithmetic, DeepView, Julia, JuliaSet, Mandelbrot, View};
 use crate::ifs::{Affine, Ifs};
+use crate::num::Complex;
 use crate::num::{Limbs, Unit, Wide};
-use crate::picture::{Bounds2, Window};
+use crate::plane::{Bounds2, Window};
 
 /// A constructor's numbers, one a field, and the two ways.
 macro_rules! numbers {
@@ -63,15 +64,15 @@ numbers! { DeepViewNumbers [const LIMBS] of DeepView<LIMBS> {
 numbers! { MandelbrotNumbers of Mandelbrot {
     view: View = |m| *m.view(),
     max_dwell: u32 = Mandelbrot::max_dwell,
-    precision: Precision = Mandelbrot::precision,
-}, |n| Ok(Mandelbrot::new(n.view, n.max_dwell)?.with_precision(n.precision)) }
+    arithmetic: Arithmetic = Mandelbrot::arithmetic,
+}, |n| Mandelbrot::new(n.view, n.max_dwell)?.with_arithmetic(n.arithmetic) }
 
 numbers! { JuliaNumbers of Julia {
     view: View = |j| *j.view(),
     constant: Complex<Wide> = Julia::constant,
     max_dwell: u32 = Julia::max_dwell,
-    precision: Precision = Julia::precision,
-}, |n| Ok(Julia::new(n.view, n.constant, n.max_dwell)?.with_precision(n.precision)) }
+    arithmetic: Arithmetic = Julia::arithmetic,
+}, |n| Julia::new(n.view, n.constant, n.max_dwell)?.with_arithmetic(n.arithmetic) }
 
 numbers! { JuliaSetNumbers of JuliaSet {
     constant: Complex<Wide> = |j| {
@@ -133,7 +134,7 @@ mod tests {
     use super::*;
     use crate::ifs::catalogue;
     use crate::num::{Real, Vec3};
-    use crate::picture::{Point2, Step};
+    use crate::plane::{PathElement, Point2};
     use crate::{curve, draw, escape, fif, ifs, trace};
 
     /// Written, read and the same; what was written.
@@ -160,7 +161,7 @@ mod tests {
     #[test]
     fn values_and_plain_descriptions_come_back() {
         there_and_back(point(1.5, -2.0));
-        there_and_back(Step::LineTo(point(0.25, 3.0)));
+        there_and_back(PathElement::LineTo(point(0.25, 3.0)));
         there_and_back(Bounds2 { min: point(0.0, 0.0), max: point(1.0, 2.0) });
         there_and_back(Vec3::new(Real::ONE, Real::ZERO, Real::MIN));
         there_and_back(complex(-0.75, 0.1));
@@ -179,8 +180,8 @@ mod tests {
         let middle = curve::Parameter::ONE / 2;
         there_and_back(curve::Part { from, to, middle, level: 1, span: Real::ONE });
         there_and_back(escape::Dwell { count: 3, max: 100 });
-        there_and_back(escape::Period(4));
-        there_and_back(escape::Precision::Fine29);
+        there_and_back(escape::Period::new(4));
+        there_and_back(escape::Arithmetic::Word29);
         there_and_back(escape::Arithmetic::PerturbedLong);
         there_and_back(escape::Connectedness::Dust(7));
         there_and_back(escape::SimpleCase::Segment);
@@ -206,7 +207,7 @@ mod tests {
         let view =
             View::new(complex(-0.7453, 0.1127), Wide::from_num(0.0065), size).unwrap().pan(-3, 4).unwrap();
         there_and_back(view);
-        there_and_back(Mandelbrot::new(view, 100).unwrap().with_precision(Precision::Fine29));
+        there_and_back(Mandelbrot::new(view, 100).unwrap().with_arithmetic(Arithmetic::Word29));
         there_and_back(Julia::new(view, complex(-0.8, 0.156), 1000).unwrap());
         there_and_back(JuliaSet::new(complex(-0.8, 0.156)).unwrap());
         there_and_back(DeepView::<12>::parse("0", "1", "1e-60", size).unwrap().pan(5, -6).unwrap());

@@ -4,7 +4,7 @@
 //! the staircase. Boxes below 8 cells feel the cells, those above a 64th of the picture feel its rim.
 
 use attractor::ifs::{Affine, Ifs, MAX_MAPS};
-use attractor::picture::{Bounds2, Point2, Step};
+use attractor::plane::{Bounds2, PathElement, Point2};
 
 /// The most images of a set that are opened for one grid.
 const MOST_IMAGES: u64 = 1 << 26;
@@ -92,11 +92,11 @@ impl Grid {
     }
 
     /// Marks what a path passes, every half cell along its segments; single points are steps without a line.
-    pub(crate) fn follow(&mut self, steps: impl Iterator<Item = Step>) {
+    pub(crate) fn follow(&mut self, steps: impl Iterator<Item = PathElement>) {
         let mut pen = (0.0, 0.0);
         for step in steps {
             let to = float_of(end(step));
-            if let Step::LineTo(_) = step {
+            if let PathElement::LineTo(_) = step {
                 let (dx, dy) = (to.0 - pen.0, to.1 - pen.1);
                 let marks = (2.0 * dx.hypot(dy) / self.cell) as i64;
                 for i in 1..=marks {
@@ -193,7 +193,7 @@ fn mean_log_count(cells: &[(i64, i64)], side: i64, grid: i64) -> f64 {
 }
 
 /// The box round a path; none when it has too many pieces or no point at all.
-pub(crate) fn bounds(steps: impl Iterator<Item = Step>) -> Option<Bounds2> {
+pub(crate) fn bounds(steps: impl Iterator<Item = PathElement>) -> Option<Bounds2> {
     let mut bounds: Option<Bounds2> = None;
     for (i, step) in steps.enumerate() {
         if i > MOST_PIECES {
@@ -218,8 +218,8 @@ fn diagonal(bounds: &Bounds2) -> f64 {
     (x1 - x0).hypot(y1 - y0)
 }
 
-const fn end(step: Step) -> Point2 {
-    let (Step::MoveTo(p) | Step::LineTo(p)) = step;
+const fn end(step: PathElement) -> Point2 {
+    let (PathElement::MoveTo(p) | PathElement::LineTo(p)) = step;
     p
 }
 
@@ -241,14 +241,14 @@ mod tests {
         const SIDE: usize = 1024;
         let bounds = Bounds2 { min: point(0.0, 0.0), max: point(1.0, 1.0) };
         let mut grid = Grid::empty(&bounds, SIDE as i64);
-        grid.follow([Step::MoveTo(point(0.0, 0.0)), Step::LineTo(point(1.0, 1.0))].into_iter());
+        grid.follow([PathElement::MoveTo(point(0.0, 0.0)), PathElement::LineTo(point(1.0, 1.0))].into_iter());
         assert_eq!(grid.cells(false).len(), SIDE);
         let slope =
             |grid: &Grid, boundary| crate::fit::Fit::of(&grid.counts(boundary).unwrap()).unwrap().slope;
         assert!((slope(&grid, false) - 1.0).abs() < 0.02, "{}", slope(&grid, false));
         for i in 0..SIDE {
             let y = (i as f64 + 0.5) / SIDE as f64;
-            grid.follow([Step::MoveTo(point(0.0, y)), Step::LineTo(point(1.0, y))].into_iter());
+            grid.follow([PathElement::MoveTo(point(0.0, y)), PathElement::LineTo(point(1.0, y))].into_iter());
         }
         // boxes across the rim count in full
         let square = slope(&grid, false);

@@ -4,7 +4,7 @@ use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use attractor::picture::MAX_SIDE;
+use attractor::plane::MAX_SIDE;
 use clap::{Args, Parser, Subcommand};
 use embedded_graphics::geometry::Size;
 

@@ -5,7 +5,8 @@
 //! 1/512 of the square of side 4 are counted, on eight positions for each size, over which `log N` is
 //! averaged. A box counts when one of its 16 squares may meet the set.
 
-use attractor::escape::{Complex, JuliaSet};
+use attractor::escape::JuliaSet;
+use attractor::num::Complex;
 use attractor::num::Wide;
 
 /// Positions of the grid of boxes for each size.

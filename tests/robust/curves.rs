@@ -5,7 +5,7 @@ use attractor::curve::{
     Subdivision, TwoVariable, dimension_of_ratio, dimension_of_spectrum, koch,
 };
 use attractor::num::{Real, Unit, Wide};
-use attractor::picture::{Point2, Step};
+use attractor::plane::{PathElement, Point2};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -24,10 +24,10 @@ fn polyline() -> impl Strategy<Value = Vec<[Wide; 2]>> {
 }
 
 /// How many steps a path has at most, and that it is one: the pen is put down first, and nothing is drawn with the pen up.
-fn walk(path: impl Iterator<Item = Step>, most: usize) -> usize {
+fn walk(path: impl Iterator<Item = PathElement>, most: usize) -> usize {
     let mut count = 0;
     for (i, step) in path.enumerate() {
-        assert!(i > 0 || matches!(step, Step::MoveTo(_)), "a path begins with {step:?}");
+        assert!(i > 0 || matches!(step, PathElement::MoveTo(_)), "a path begins with {step:?}");
         assert!(i < most, "more than {most} steps");
         count = i + 1;
     }

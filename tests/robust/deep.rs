@@ -2,11 +2,12 @@
 
 use attractor::draw::{Equalised, gradients};
 use attractor::escape::{
-    Arithmetic, Canvas, Complex, DeepMandelbrot, DeepView, Distance, Filled, Interior, Mandelbrot,
-    OrbitPoint, Smooth, View,
+    Arithmetic, Buffered, DeepMandelbrot, DeepView, Distance, Filled, Interior, Mandelbrot, OrbitPoint,
+    Smooth, View,
 };
+use attractor::num::Complex;
 use attractor::num::{Limbs, Wide};
-use attractor::picture::Field;
+use attractor::plane::Field;
 use embedded_graphics::geometry::Size;
 use proptest::prelude::*;
 
@@ -94,7 +95,7 @@ fn buffers_and_colourings_of_any_view() {
             part_of_a_row(&Interior(set), y, at[0], 1);
         }
         let mut counts = vec![0_u16; pixels];
-        let mut canvas = Canvas::new(set, &mut counts).expect("a count a pixel");
+        let mut canvas = Buffered::new(set, &mut counts).expect("a count a pixel");
         let shown: Vec<_> = (0..size.height).flat_map(|y| canvas.row(y, 0..size.width)).collect();
         assert_eq!(shown, plain);
         let _ = canvas.pan(by.0, by.1);
@@ -105,7 +106,7 @@ fn buffers_and_colourings_of_any_view() {
         for i in 0..pixels as u32 {
             let (x, y) = (i.wrapping_mul(at[1] | 1) % size.width, i % size.height);
             // filling changes what has no edge of its own, never the outside into something else than the inside
-            let (got, exact) = (filled.dwell_at(x, y), plain[(y * size.width + x) as usize]);
+            let (got, exact) = (filled.at(x, y), plain[(y * size.width + x) as usize]);
             assert!(got == exact || got.is_inside(), "{got:?} for {exact:?} at {x}, {y}");
         }
         let mut histogram = vec![0_u32; max as usize];

@@ -2,7 +2,7 @@
 
 use attractor::ifs::{Affine, Density, Ifs};
 use attractor::num::{Alias, Real, Unit};
-use attractor::picture::{Field, Point2, Window};
+use attractor::plane::{Field, Point2, Window};
 use embedded_graphics::geometry::Size;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -61,7 +61,7 @@ fn densities_of_any_points() {
     let description = (vec(point(), 0..300), (point(), point()), size(), any::<[u32; 3]>(), 0..70_000_usize);
     fuzz(description, 5, |(points, (a, b), wanted, at, length)| {
         let corner = |f: fn(Real, Real) -> Real| Point2::new(f(a.x, b.x), f(a.y, b.y));
-        let bounds = attractor::picture::Bounds2 { min: corner(Real::min), max: corner(Real::max) };
+        let bounds = attractor::plane::Bounds2 { min: corner(Real::min), max: corner(Real::max) };
         let Ok(window) = Window::stretch(bounds, wanted) else { return false };
         let Size { width, height } = window.size();
         // a buffer of the wrong length is refused

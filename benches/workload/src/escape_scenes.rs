@@ -3,9 +3,10 @@
 use attractor::draw::Level;
 use attractor::draw::{Cycled, Equalised, Ink, Inside, Lifted, Palette, Ramp, gradients, hex};
 use attractor::escape::{
-    Complex, DeepMandelbrot, DeepView, Distance, FractionalDwell, Interior, Julia, JuliaSet, Mandelbrot,
-    OrbitPoint, Period, Smooth, View,
+    DeepMandelbrot, DeepView, Distance, FractionalDwell, Interior, Julia, JuliaSet, Mandelbrot, OrbitPoint,
+    Period, Smooth, View,
 };
+use attractor::num::Complex;
 use attractor::num::Wide;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
@@ -73,7 +74,12 @@ pub(crate) fn periods<C: Colour + Ink>(
 ) -> Result<(), Failure> {
     let view = view(stage, const { Wide::lit("-0.3") }, const { Wide::lit("0.75") }, Wide::ONE)?;
     let palette = Inside::new(Ramp::of_periods(palette), paper);
-    field::<C, _, _>(stage, Interior(Mandelbrot::new(view, 1000)?), |period: Period| palette.rgb(period), 0)
+    field::<C, _, _>(
+        stage,
+        Interior(Mandelbrot::new(view, 1000)?),
+        |period: Option<Period>| palette.rgb(period),
+        0,
+    )
 }
 
 /// A filled-in set, all of it.

@@ -3,15 +3,17 @@
 //! To add one: write a function that builds its objects, [claims](Stage::claim) their RAM and [shows](Stage::show) them, and add a line to
 //! [`ALL`]. The function takes the size from the stage, so that one function serves several lines.
 
+use core::iter::FusedIterator;
 use core::ops::Range;
 
 use attractor::draw::{CourseUnit, Dots, Grey, Ink, Inside, Lifted, Palette, Picture, Stroke, gradients};
-use attractor::escape::{Complex, Dwell, Mandelbrot, View};
+use attractor::escape::{Dwell, Mandelbrot, View};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::ifs::Ifs;
 use attractor::ifs::catalogue::BARNSLEY_FERN;
+use attractor::num::Complex;
 use attractor::num::{Angle, Real, Wide, sin_cos};
-use attractor::picture::{Bounds2, Field, Point2, Window};
+use attractor::plane::{Bounds2, Field, Point2, Window, along};
 use attractor::trace::RayCaster;
 use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
@@ -179,53 +181,63 @@ struct Rp2040(Mandelbrot);
 
 impl Field for Rp2040 {
     type Value = Dwell;
-    type Row<'a> = Rp2040Row<'a>;
 
     fn size(&self) -> Size {
         Size::new(640, 480)
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> Rp2040Row<'_> {
-        const DOWN: i64 = Wide::lit("2").to_bits();
+    fn at(&self, x: u32, y: u32) -> Dwell {
         // the numerator is a multiple of 128: 3 2^48 / 640 = 3 2^41 / 5
+        self.0.dwell_at(Complex::new(Wide::from_bits(LEFT + FIFTHS * i64::from(x) / 5), Self::ordinate(y)))
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Dwell> {
         let across = FIFTHS * i64::from(x.start);
-        Rp2040Row {
-            set: &self.0,
-            columns: x,
-            re: LEFT + across / 5,
-            fifths: across % 5,
-            im: Wide::from_bits((DOWN >> 1) - DOWN * i64::from(y) / 480),
-        }
+        let abscissae = Abscissae { columns: x, re: LEFT + across / 5, fifths: across % 5 };
+        let im = Self::ordinate(y);
+        along(abscissae, move |re| self.0.dwell_at(Complex::new(re, im)))
+    }
+}
+
+impl Rp2040 {
+    fn ordinate(y: u32) -> Wide {
+        const DOWN: i64 = Wide::lit("2").to_bits();
+        Wide::from_bits((DOWN >> 1) - DOWN * i64::from(y) / 480)
     }
 }
 
 const LEFT: i64 = Wide::lit("-2").to_bits();
 const FIFTHS: i64 = Wide::lit("3").to_bits() >> 7;
 
-/// The real part is carried along as a quotient and its remainder in fifths of a bit.
-struct Rp2040Row<'a> {
-    set: &'a Mandelbrot,
+/// The real parts of a row, each carried along as a quotient and its remainder in fifths of a bit.
+struct Abscissae {
     columns: Range<u32>,
     re: i64,
     fifths: i64,
-    im: Wide,
 }
 
-impl Iterator for Rp2040Row<'_> {
-    type Item = Dwell;
+impl Iterator for Abscissae {
+    type Item = Wide;
 
-    fn next(&mut self) -> Option<Dwell> {
+    fn next(&mut self) -> Option<Wide> {
         self.columns.next()?;
-        let dwell = self.set.dwell_at(Complex::new(Wide::from_bits(self.re), self.im));
+        let re = Wide::from_bits(self.re);
         self.re += FIFTHS / 5;
         self.fifths += FIFTHS % 5;
         if self.fifths >= 5 {
             self.fifths -= 5;
             self.re += 1;
         }
-        Some(dwell)
+        Some(re)
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.columns.size_hint()
     }
 }
+
+impl ExactSizeIterator for Abscissae {}
+impl FusedIterator for Abscissae {}
 
 fn rp2040<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     let set = Mandelbrot::new(View::home(stage.size())?, 1000)?;

@@ -16,20 +16,20 @@ use super::displacement::{
 use super::gaussian::{Deviate, Parameter, RandomFunction};
 use crate::Error;
 use crate::num::{self, Real, Unit, sqrt};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// The graph of a function `h(t)`: `x` of a point is `t`, `y` is `h`. Size: 136 bytes.
 ///
 /// ```
 /// use attractor::curve::{LineToLine, Stop, Subdivision};
 /// use attractor::num::{Real, Unit};
-/// use attractor::picture::{Point2, Step};
+/// use attractor::plane::{Point2, PathElement};
 ///
 /// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
 /// let law = LineToLine::new(const { Unit::lit("0.25") }, 7)?;
 /// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
-/// let steps: Vec<Step> = curve.collect();
-/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// let steps: Vec<PathElement> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&PathElement::LineTo(KNOTS[1])));
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -113,13 +113,13 @@ impl Displacement for LineToLine {
 /// ```
 /// use attractor::curve::{OneVariable, Stop, Subdivision};
 /// use attractor::num::{Real, Unit};
-/// use attractor::picture::{Point2, Step};
+/// use attractor::plane::{Point2, PathElement};
 ///
 /// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
 /// let law = OneVariable::new(const { Unit::lit("0.25") }, 7)?;
 /// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
-/// let steps: Vec<Step> = curve.collect();
-/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// let steps: Vec<PathElement> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&PathElement::LineTo(KNOTS[1])));
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -202,13 +202,13 @@ impl Displacement for OneVariable {
 /// ```
 /// use attractor::curve::{TwoVariable, Stop, Subdivision};
 /// use attractor::num::{Real, Unit};
-/// use attractor::picture::{Point2, Step};
+/// use attractor::plane::{Point2, PathElement};
 ///
 /// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
 /// let law = TwoVariable::new(const { Unit::lit("0.25") }, 7)?;
 /// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
-/// let steps: Vec<Step> = curve.collect();
-/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// let steps: Vec<PathElement> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&PathElement::LineTo(KNOTS[1])));
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

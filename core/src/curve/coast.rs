@@ -6,7 +6,7 @@
 //! Projection: equirectangular about 65 degrees north, 18.5 degrees west, one unit a degree of latitude, so that a degree of longitude is `cos 65 = 0.4226`.
 
 use crate::num::Real;
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// How many points the outline has, the first repeated at its end.
 pub const COUNT: usize = OUTLINE.len() + 1;

@@ -6,7 +6,7 @@
 use super::gaussian::{Deviate, Parameter};
 use crate::Error;
 use crate::num::{self, Real, Unit, Wide, exp_minus};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// How often a part between two knots can be halved at most: the parameter has 32 fractional bits.
 pub(super) const LEVELS: usize = 32;

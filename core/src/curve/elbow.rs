@@ -15,21 +15,21 @@ use super::displacement::{
 use super::gaussian::RandomFunction;
 use crate::Error;
 use crate::num::{Real, Unit, sqrt};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// The law of the random elbow. Size: 136 bytes.
 ///
 /// ```
 /// use attractor::curve::{Elbow, Stop, Subdivision};
 /// use attractor::num::{Real, Unit};
-/// use attractor::picture::{Point2, Step};
+/// use attractor::plane::{Point2, PathElement};
 ///
 /// const KNOTS: [Point2; 3] = [Point2::lit("0", "0"), Point2::lit("1", "0.5"), Point2::lit("2", "0")];
 /// // Brownian motion has a spectrum of 1/f^2
 /// let law = Elbow::new(const { Unit::lit("0.25") }, const { Real::lit("2") }, 7)?;
 /// let curve = Subdivision::<_, 20>::new(&law, &KNOTS, Stop::Length(const { Real::lit("0.05") }))?;
-/// let steps: Vec<Step> = curve.collect();
-/// assert!(steps.len() > 40 && steps.contains(&Step::LineTo(KNOTS[1])));
+/// let steps: Vec<PathElement> = curve.collect();
+/// assert!(steps.len() > 40 && steps.contains(&PathElement::LineTo(KNOTS[1])));
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -7,7 +7,7 @@
 
 use super::generator::{Generator, ONE};
 use crate::num::{Angle, Real, Wide, sin_cos};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// `2^30 / 3`, rounded.
 const THIRD: i32 = 357_913_941;

@@ -20,7 +20,7 @@
 
 use crate::Error;
 use crate::num::{Angle, Real, Wide, sin_cos};
-use crate::picture::{Point2, Step};
+use crate::plane::{PathElement, Point2};
 
 /// The most rules of an L-system.
 pub const MAX_RULES: usize = 16;
@@ -129,7 +129,7 @@ impl<'a> LSystem<'a> {
     /// The word after `order` rewritings, drawn: one stroke for each run of lines.
     ///
     /// Result: the walk begins at `(0, 0)`. Its steps are as long as [`Turtle::step`] says, short enough for no walk of that many to leave the disc of radius 64; a
-    /// [`crate::picture::Window`] brings it to a display. Nothing where the word draws nothing.
+    /// [`crate::plane::Window`] brings it to a display. Nothing where the word draws nothing.
     /// Error: of each coordinate below `2^-21`, whatever the word, its length or its angle (tests/l_systems.rs)
     /// (`l_systems.rs`: `every_point_is_within_its_bound`).
     /// Cost: the walk ends after [`MAX_LETTERS`] letters at most; stack and time of this call grow with the rules and the order alone.
@@ -323,12 +323,12 @@ impl<const ORDERS: usize, const BRANCHES: usize> Turtle<'_, ORDERS, BRANCHES> {
 }
 
 impl<const ORDERS: usize, const BRANCHES: usize> Iterator for Turtle<'_, ORDERS, BRANCHES> {
-    type Item = Step;
+    type Item = PathElement;
 
-    fn next(&mut self) -> Option<Step> {
+    fn next(&mut self) -> Option<PathElement> {
         if self.pen == Pen::Put {
             self.pen = Pen::Down;
-            return Some(Step::LineTo(self.here.point()));
+            return Some(PathElement::LineTo(self.here.point()));
         }
         loop {
             match command(self.letter()?) {
@@ -336,10 +336,10 @@ impl<const ORDERS: usize, const BRANCHES: usize> Iterator for Turtle<'_, ORDERS,
                     let from = self.here;
                     self.forward();
                     if self.pen == Pen::Down {
-                        return Some(Step::LineTo(self.here.point()));
+                        return Some(PathElement::LineTo(self.here.point()));
                     }
                     self.pen = Pen::Put;
-                    return Some(Step::MoveTo(from.point()));
+                    return Some(PathElement::MoveTo(from.point()));
                 }
                 Some(Command::Move) => {
                     self.forward();

@@ -11,7 +11,7 @@
 use super::generator::{Cell, Generator, hypotenuse, oriented};
 use crate::Error;
 use crate::num::{Real, Wide, product, product_u};
-use crate::picture::{Point2, Step};
+use crate::plane::{PathElement, Point2};
 
 /// Segments of the base are shorter than this.
 const LONGEST: u64 = 32;
@@ -228,18 +228,18 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
         })
     }
 
-    fn step(&mut self, p: [i64; 2]) -> Step {
+    fn step(&mut self, p: [i64; 2]) -> PathElement {
         if self.pen == Pen::Down {
-            Step::LineTo(point(p))
+            PathElement::LineTo(point(p))
         } else {
             self.pen = Pen::Down;
-            Step::MoveTo(point(p))
+            PathElement::MoveTo(point(p))
         }
     }
 
     /// The next step when the run is over. Apart, so that the loop over a run keeps its registers.
     #[inline(never)]
-    fn next_run(&mut self) -> Option<Step> {
+    fn next_run(&mut self) -> Option<PathElement> {
         let adaptive = self.shortest > 0;
         loop {
             let child;
@@ -269,7 +269,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
                     }
                     [last] if self.pen == Pen::Down && self.generator.marker().is_none() => {
                         self.pen = Pen::Done;
-                        return Some(Step::LineTo(*last));
+                        return Some(PathElement::LineTo(*last));
                     }
                     _ => return None,
                 };
@@ -325,13 +325,13 @@ fn scaled(length: u32, ratio: u32) -> u32 {
 }
 
 impl<const S: usize, const DEPTH: usize> Iterator for Refined<'_, S, DEPTH> {
-    type Item = Step;
+    type Item = PathElement;
 
     #[inline]
-    fn next(&mut self) -> Option<Step> {
+    fn next(&mut self) -> Option<PathElement> {
         match self.run.next() {
             // the first segment of a run is drawn when it is entered
-            Some(cell) => Some(Step::LineTo(point(self.drawn.place(cell.show)))),
+            Some(cell) => Some(PathElement::LineTo(point(self.drawn.place(cell.show)))),
             None => self.next_run(),
         }
     }
@@ -349,11 +349,11 @@ mod tests {
 
     #[test]
     fn order_0_is_the_base_and_order_1_the_generator() {
-        let refined = |order| -> std::vec::Vec<Step> {
+        let refined = |order| -> std::vec::Vec<PathElement> {
             koch::GENERATOR.refined::<4>(&koch::SEGMENT, order).unwrap().collect()
         };
         let [a, b] = koch::SEGMENT;
-        assert_eq!(refined(0), [Step::MoveTo(a), Step::LineTo(b)]);
+        assert_eq!(refined(0), [PathElement::MoveTo(a), PathElement::LineTo(b)]);
         let third =
             |x: i32, y: f64| Point2::new(Real::from_num(f64::from(x) / 6.0 + 1e-9), Real::from_num(y));
         let top = Point2::new(Real::from_num(0.5), Real::from_num(3.0_f64.sqrt() / 6.0 + 3e-8));
@@ -361,7 +361,7 @@ mod tests {
         let points: std::vec::Vec<Point2> = refined(1)
             .into_iter()
             .map(|s| match s {
-                Step::MoveTo(p) | Step::LineTo(p) => p,
+                PathElement::MoveTo(p) | PathElement::LineTo(p) => p,
             })
             .collect();
         for (got, want) in points.iter().zip(expected) {

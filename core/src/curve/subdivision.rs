@@ -8,7 +8,7 @@ use super::displacement::{Displacement, LEVELS as MAX_LEVELS, Part};
 use super::gaussian::Parameter;
 use crate::Error;
 use crate::num::{Real, Wide};
-use crate::picture::{Point2, Step};
+use crate::plane::{PathElement, Point2};
 
 /// When a part is short enough to be drawn as a straight line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -206,10 +206,10 @@ fn positive(what: &'static str, bits: i64, value: Wide) -> Result<u64, Error> {
 }
 
 impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVELS> {
-    type Item = Step;
+    type Item = PathElement;
 
     #[inline]
-    fn next(&mut self) -> Option<Step> {
+    fn next(&mut self) -> Option<PathElement> {
         let mut end = self.first()?;
         loop {
             if self.partial {
@@ -233,11 +233,11 @@ impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVEL
         }
         if self.drawing {
             self.end = self.advance(&end);
-            Some(Step::LineTo(end.point))
+            Some(PathElement::LineTo(end.point))
         } else {
             self.drawing = true;
             self.end = Some(end);
-            Some(Step::MoveTo(self.from))
+            Some(PathElement::MoveTo(self.from))
         }
     }
 }
@@ -260,12 +260,12 @@ mod tests {
     #[test]
     fn a_law_of_your_own_needs_one_function() {
         let quarter = Stop::Parameter(Parameter::from_num(0.25));
-        let points: std::vec::Vec<Step> =
+        let points: std::vec::Vec<PathElement> =
             Subdivision::<_, 2>::new(&Left, &koch::SEGMENT, quarter).unwrap().collect();
         let at = |x: f64, y: f64| Point2::new(Real::from_num(x), Real::from_num(y));
         let expected = [at(0.0, 0.0), at(0.1875, 0.25), at(0.5, 0.25), at(0.8125, 0.25), at(1.0, 0.0)];
-        assert!(points.iter().skip(1).eq(&expected.map(Step::LineTo)[1..]));
-        assert_eq!(points.first(), Some(&Step::MoveTo(expected[0])));
+        assert!(points.iter().skip(1).eq(&expected.map(PathElement::LineTo)[1..]));
+        assert_eq!(points.first(), Some(&PathElement::MoveTo(expected[0])));
     }
 
     #[test]

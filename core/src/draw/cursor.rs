@@ -4,7 +4,7 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::Point;
 
 use crate::draw::{Ink, Palette, Picture};
-use crate::picture::Field;
+use crate::plane::Field;
 
 /// Draws a [`Picture`] downwards, one row a call, and can stop and go on at every row.
 ///
@@ -13,7 +13,7 @@ use crate::picture::Field;
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture, RowCursor};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::Gray8, prelude::*};
 ///
 /// let picture = Picture::new(from_fn(Size::new(4, 3), |x, y| (x * y) as u8), Grey);

@@ -4,7 +4,7 @@ use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
 use crate::Error;
 use crate::draw::{Level, Leveled, Palette};
-use crate::picture::Field;
+use crate::plane::Field;
 
 /// Another palette at the equalised level of one picture; black inside the set.
 ///

@@ -1,6 +1,5 @@
 //! A field with a palette: an image that is computed while it is drawn.
 
-use core::fmt;
 use core::iter::FusedIterator;
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -12,7 +11,7 @@ use embedded_graphics_core::primitives::Rectangle;
 
 use crate::draw::clip::visible;
 use crate::draw::{Ink, Palette};
-use crate::picture::Field;
+use crate::plane::Field;
 
 /// A [`Field`] seen through a [`Palette`] in the colour type `C`, which follows from the display.
 ///
@@ -23,7 +22,7 @@ use crate::picture::Field;
 ///
 /// ```
 /// use attractor::draw::{Picture, hex};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::Rgb565, prelude::*};
 ///
 /// let checkers = from_fn(Size::new(5, 2), |x, y| (x + y) % 2 == 0);
@@ -54,7 +53,7 @@ impl<F, P, C> Picture<F, P, C> {
     ///
     /// ```
     /// use attractor::draw::{Grey, Picture};
-    /// use attractor::picture::from_fn;
+    /// use attractor::plane::from_fn;
     /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
     ///
     /// let flat = from_fn(Size::new(8, 1), |_, _| 96_u8);
@@ -87,9 +86,21 @@ impl<F, P, C> Picture<F, P, C> {
 }
 
 impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
-    /// The colours of row `y` in the columns `x`, as far as they lie inside the picture; none of a row
-    /// outside.
-    pub fn colors(&self, y: u32, x: Range<u32>) -> Option<Colors<'_, F, P, C>> {
+    /// The colours of row `y` in the columns `x`, from left to right, as far as they lie inside the picture; none of a row outside.
+    ///
+    /// `nth` evaluates only the pixel it returns, as far as the field keeps that promise of [`Field::row`].
+    ///
+    /// ```
+    /// use attractor::draw::{Grey, Picture};
+    /// use attractor::plane::from_fn;
+    /// use embedded_graphics::{pixelcolor::Gray8, prelude::*};
+    ///
+    /// let picture = Picture::<_, _, Gray8>::new(from_fn(Size::new(9, 9), |x, y| (10 * y + x) as u8), Grey);
+    /// let mut row = picture.colors(4, 3..99).expect("row 4 of 9");
+    /// assert_eq!((row.next(), row.len(), row.nth(4)), (Some(Gray8::new(43)), 5, Some(Gray8::new(48))));
+    /// assert!(picture.colors(9, 0..9).is_none());
+    /// ```
+    pub fn colors(&self, y: u32, x: Range<u32>) -> Option<impl ExactSizeIterator<Item = C> + FusedIterator> {
         let size = self.field.size();
         if y >= size.height {
             return None;
@@ -180,29 +191,16 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> GetPixel for Picture<F, P, C> {
     }
 }
 
-/// The colours of a row, from left to right. [`Picture::colors`] makes it.
-///
-/// `nth` evaluates only the pixel it returns, as far as the field keeps that promise of [`Field::Row`].
-///
-/// ```
-/// use attractor::draw::{Grey, Picture};
-/// use attractor::picture::from_fn;
-/// use embedded_graphics::{pixelcolor::Gray8, prelude::*};
-///
-/// let picture = Picture::<_, _, Gray8>::new(from_fn(Size::new(9, 9), |x, y| (10 * y + x) as u8), Grey);
-/// let mut row = picture.colors(4, 3..99).expect("row 4 of 9");
-/// assert_eq!((row.next(), row.len(), row.nth(4)), (Some(Gray8::new(43)), 5, Some(Gray8::new(48))));
-/// assert!(picture.colors(9, 0..9).is_none());
-/// ```
-pub struct Colors<'a, F: Field + 'a, P, C> {
-    values: F::Row<'a>,
+/// The colours of a row, from left to right.
+struct Colors<'a, V, P, C> {
+    values: V,
     remaining: u32,
     palette: &'a P,
     at: Point,
     color: PhantomData<fn() -> C>,
 }
 
-impl<'a, F: Field + 'a, P: Palette<F::Value>, C: Ink> Iterator for Colors<'a, F, P, C> {
+impl<V: Iterator, P: Palette<V::Item>, C: Ink> Iterator for Colors<'_, V, P, C> {
     type Item = C;
 
     #[inline]
@@ -237,25 +235,16 @@ impl<'a, F: Field + 'a, P: Palette<F::Value>, C: Ink> Iterator for Colors<'a, F,
     }
 }
 
-impl<'a, F: Field + 'a, P: Palette<F::Value>, C: Ink> ExactSizeIterator for Colors<'a, F, P, C> {}
+impl<V: Iterator, P: Palette<V::Item>, C: Ink> ExactSizeIterator for Colors<'_, V, P, C> {}
 
-impl<'a, F: Field + 'a, P: Palette<F::Value>, C: Ink> FusedIterator for Colors<'a, F, P, C> {}
-
-impl<'a, F: Field + 'a, P, C> fmt::Debug for Colors<'a, F, P, C> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Colors")
-            .field("at", &self.at)
-            .field("remaining", &self.remaining)
-            .finish_non_exhaustive()
-    }
-}
+impl<V: Iterator, P: Palette<V::Item>, C: Ink> FusedIterator for Colors<'_, V, P, C> {}
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::draw::testing::{Counted, Driver, Frame, Manner};
     use crate::draw::{Grey, RowCursor};
-    use crate::picture::from_fn;
+    use crate::plane::from_fn;
     use embedded_graphics::Drawable;
     use embedded_graphics::draw_target::DrawTargetExt;
     use embedded_graphics::image::{Image, ImageDrawableExt};

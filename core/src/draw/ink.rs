@@ -23,7 +23,7 @@ use embedded_graphics_core::pixelcolor::{
 ///
 /// ```
 /// use attractor::draw::{Gradient, Ink, Picture, dithered, hex, luma};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{image::Image, pixelcolor::{PixelColor, Rgb888, RgbColor}, prelude::*};
 /// # mod driver {
 /// #     use embedded_graphics::{pixelcolor::{PixelColor, raw::RawU2}, prelude::*};
@@ -288,7 +288,7 @@ mod tests {
     fn the_colours_of_a_driver_are_wrapped_and_converted() {
         use crate::draw::testing::Frame;
         use crate::draw::{Picture, hex};
-        use crate::picture::from_fn;
+        use crate::plane::from_fn;
         use embedded_graphics::draw_target::DrawTargetExt;
         use embedded_graphics_core::geometry::Size;
         use embedded_graphics_core::image::ImageDrawable;

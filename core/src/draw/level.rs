@@ -154,20 +154,20 @@ impl Leveled for FractionalDwell {
 }
 
 /// The level is the share of the longest period; a point without one is off the scale, and black. Use it with [`Ramp`](crate::draw::Ramp).
-impl Leveled for Period {
+impl Leveled for Option<Period> {
     #[inline]
     fn level(&self) -> Level {
-        Level::ratio(self.0, MAX_PERIOD)
+        Level::ratio(self.count(), MAX_PERIOD)
     }
 
     #[inline]
     fn count(&self) -> u32 {
-        self.0
+        self.map_or(0, Period::length)
     }
 
     #[inline]
     fn is_inside(&self) -> bool {
-        self.0 == 0
+        self.is_none()
     }
 }
 

@@ -15,7 +15,7 @@
 //!
 //! ```
 //! use attractor::draw::{Grey, Picture};
-//! use attractor::picture::from_fn;
+//! use attractor::plane::from_fn;
 //! use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
 //!
 //! // dark on the left, bright on the right
@@ -68,7 +68,7 @@ pub use cursor::RowCursor;
 pub use cycle::{Cycled, Ramp};
 pub use equalised::Equalised;
 pub use gradient::Gradient;
-pub use image::{Colors, Picture};
+pub use image::Picture;
 pub use ink::{Ink, bayer, dithered, luma};
 pub use level::{Level, Leveled};
 pub use mono::{Inverted, Luminance};

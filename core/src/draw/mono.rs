@@ -18,7 +18,7 @@ use crate::draw::Palette;
 ///
 /// ```
 /// use attractor::draw::{Grey, Luminance, Picture};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
 ///
 /// let middle = from_fn(Size::new(8, 4), |_, _| 128_u8);
@@ -64,7 +64,7 @@ fn light(channel: u8) -> u32 {
 ///
 /// ```
 /// use attractor::draw::{Grey, Inverted, Picture};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
 ///
 /// let wedge = from_fn(Size::new(8, 2), |x, _| (x * 36) as u8);

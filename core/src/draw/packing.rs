@@ -21,7 +21,7 @@ use embedded_graphics_core::pixelcolor::{
 ///
 /// ```
 /// use attractor::draw::{Grey, Packing, Picture};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{pixelcolor::{Gray4, GrayColor}, prelude::*};
 ///
 /// /// Two pixels a byte, the left one in the low half.
@@ -85,7 +85,7 @@ impl<C: Copy> Packing<C> for Lines {
 ///
 /// ```
 /// use attractor::draw::{Picture, hex};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{pixelcolor::{Rgb565, Rgb666}, prelude::*};
 ///
 /// let orange = |_: bool| hex(0xff8000);
@@ -137,7 +137,7 @@ pixel_bytes! {
 ///
 /// ```
 /// use attractor::draw::{Picture, hex};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{pixelcolor::Rgb565, prelude::*};
 ///
 /// let picture = Picture::<_, _, Rgb565>::new(from_fn(Size::new(3, 2), |_, _| ()), |()| hex(0xff8000));
@@ -167,7 +167,7 @@ impl<C: IntoStorage<Storage = u16>> Packing<C> for PixelWords {
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{pixelcolor::BinaryColor, prelude::*};
 ///
 /// let bars = from_fn(Size::new(10, 1), |x, _| x % 4 < 2);
@@ -210,7 +210,7 @@ where
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{pixelcolor::BinaryColor, prelude::*};
 ///
 /// let stairs = from_fn(Size::new(3, 9), |x, y| x <= y);

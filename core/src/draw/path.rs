@@ -8,7 +8,7 @@ use embedded_graphics_core::{Drawable, Pixel};
 
 use crate::draw::clip::{Spans, common, spans};
 use crate::draw::line::Line;
-use crate::picture::{Step, Window};
+use crate::plane::{PathElement, Window};
 
 /// Draws an iterator of [`Step`], one pixel wide, as seen through a [`Window`].
 ///
@@ -22,12 +22,12 @@ use crate::picture::{Step, Window};
 /// ```
 /// use attractor::draw::Stroke;
 /// use attractor::num::Real;
-/// use attractor::picture::{Bounds2, Point2, Step, Window};
+/// use attractor::plane::{Bounds2, Point2, PathElement, Window};
 /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
 ///
 /// let p = |x: i32, y: i32| Point2::new(Real::from_num(x), Real::from_num(y));
 /// let window = Window::stretch(Bounds2 { min: p(0, 0), max: p(8, 4) }, Size::new(9, 5)).unwrap();
-/// let hat = [Step::MoveTo(p(-2, -2)), Step::LineTo(p(4, 4)), Step::LineTo(p(8, 0))];
+/// let hat = [PathElement::MoveTo(p(-2, -2)), PathElement::LineTo(p(4, 4)), PathElement::LineTo(p(8, 0))];
 ///
 /// let mut display = MockDisplay::new();
 /// let drawn = Stroke::new(hat.into_iter(), window, BinaryColor::On).draw(&mut display)?;
@@ -62,7 +62,7 @@ impl<I, C> Stroke<I, C> {
     }
 }
 
-impl<I: Iterator<Item = Step>, C: PixelColor> Stroke<I, C> {
+impl<I: Iterator<Item = PathElement>, C: PixelColor> Stroke<I, C> {
     /// Draws the path and uses the iterator up: for one that cannot be cloned, or for a portion a tick. A
     /// portion that goes on from the one before begins with a `MoveTo` its last point. Returns the number of
     /// pixels drawn.
@@ -97,7 +97,7 @@ impl<I, C> Dimensions for Stroke<I, C> {
     }
 }
 
-impl<I: Iterator<Item = Step> + Clone, C: PixelColor> Drawable for Stroke<I, C> {
+impl<I: Iterator<Item = PathElement> + Clone, C: PixelColor> Drawable for Stroke<I, C> {
     type Color = C;
     /// How many pixels were drawn.
     type Output = u32;
@@ -121,7 +121,7 @@ struct Pixels<I> {
     line: Line,
 }
 
-impl<I: Iterator<Item = Step>> Iterator for Pixels<I> {
+impl<I: Iterator<Item = PathElement>> Iterator for Pixels<I> {
     type Item = Point;
 
     fn next(&mut self) -> Option<Point> {
@@ -130,8 +130,8 @@ impl<I: Iterator<Item = Step>> Iterator for Pixels<I> {
                 return Some(point);
             }
             let (p, draws) = match self.steps.next()? {
-                Step::MoveTo(p) => (p, false),
-                Step::LineTo(p) => (p, true),
+                PathElement::MoveTo(p) => (p, false),
+                PathElement::LineTo(p) => (p, true),
             };
             let (x, y) = self.window.raster(p);
             let to = (x + self.offset.0, y + self.offset.1);
@@ -152,7 +152,7 @@ mod tests {
     use super::*;
     use crate::draw::testing::{Frame, point};
     use crate::num::Real;
-    use crate::picture::{Bounds2, Point2};
+    use crate::plane::{Bounds2, Point2};
     use embedded_graphics::mock_display::MockDisplay;
     use embedded_graphics::pixelcolor::BinaryColor;
     use embedded_graphics_core::geometry::Size;
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn joints_are_drawn_once() {
         let steps = [(1, 9), (8, 9), (8, 9), (8, 2), (3, 2)];
-        let path = steps.iter().map(|&(x, y)| Step::LineTo(point(x, y)));
+        let path = steps.iter().map(|&(x, y)| PathElement::LineTo(point(x, y)));
         let mut display = MockDisplay::new(); // refuses to draw a pixel twice
         let drawn = Stroke::new(path, window(10), BinaryColor::On).draw(&mut display).unwrap();
         display.assert_pattern(&[
@@ -188,13 +188,13 @@ mod tests {
     #[test]
     fn a_move_lifts_the_pen() {
         let steps = [
-            Step::MoveTo(point(1, 9)),
-            Step::LineTo(point(3, 9)),
-            Step::MoveTo(point(5, 9)),
-            Step::LineTo(point(5, 9)),
-            Step::MoveTo(point(7, 9)),
-            Step::MoveTo(point(8, 9)),
-            Step::LineTo(point(9, 9)),
+            PathElement::MoveTo(point(1, 9)),
+            PathElement::LineTo(point(3, 9)),
+            PathElement::MoveTo(point(5, 9)),
+            PathElement::LineTo(point(5, 9)),
+            PathElement::MoveTo(point(7, 9)),
+            PathElement::MoveTo(point(8, 9)),
+            PathElement::LineTo(point(9, 9)),
         ];
         let mut display = MockDisplay::new();
         let stroke = Stroke::new(steps.into_iter(), window(10), BinaryColor::On).at(Point::new(2, 0));
@@ -214,10 +214,10 @@ mod tests {
         for count in 1..120 {
             let corners: Vec<Point2> = (0..count % 9 + 1).map(|_| point(next(), next())).collect();
             let mut display = Xor { set: [false; SIDE * SIDE] };
-            let there = corners.iter().copied().map(Step::LineTo);
+            let there = corners.iter().copied().map(PathElement::LineTo);
             let drawn = Stroke::new(there, window(SIDE as i32), BinaryColor::On).draw(&mut display);
             pixels += drawn.unwrap();
-            let back = corners.iter().rev().copied().map(Step::LineTo);
+            let back = corners.iter().rev().copied().map(PathElement::LineTo);
             let erased = Stroke::new(back, window(SIDE as i32), BinaryColor::On).draw(&mut display);
             assert_eq!(erased, drawn);
             assert!(display.set.iter().all(|set| !set), "{corners:?}");
@@ -255,8 +255,8 @@ mod tests {
 
     #[test]
     fn a_smaller_target_shows_a_part_of_the_same_pixels() {
-        let star: Vec<Step> =
-            (0..40).map(|i| Step::LineTo(point((i * 37) % 101 - 18, (i * 53) % 97 - 16))).collect();
+        let star: Vec<PathElement> =
+            (0..40).map(|i| PathElement::LineTo(point((i * 37) % 101 - 18, (i * 53) % 97 - 16))).collect();
         let stroke = Stroke::new(star.iter().copied(), window(64), BinaryColor::On);
         let mut whole = Frame::new(Size::new(64, 64), BinaryColor::Off);
         stroke.draw(&mut whole).unwrap();
@@ -274,12 +274,14 @@ mod tests {
         let high = Point2::new(Real::from_bits(6), Real::from_bits(-6));
         let window = Window::stretch(Bounds2 { min: low, max: high }, Size::new(64, 64)).unwrap();
         let ends = [Real::MIN, Real::ZERO, Real::MAX];
-        let corners = ends.iter().flat_map(|&x| ends.iter().map(move |&y| Step::LineTo(Point2::new(x, y))));
+        let corners =
+            ends.iter().flat_map(|&x| ends.iter().map(move |&y| PathElement::LineTo(Point2::new(x, y))));
         let mut frame = Frame::new(Size::new(64, 64), BinaryColor::Off);
         Stroke::new(corners, window, BinaryColor::On).draw(&mut frame).unwrap();
         // straight through: a horizontal line from end to end of the numbers
         let y = Real::from_bits(-7);
-        let line = [Step::MoveTo(Point2::new(Real::MIN, y)), Step::LineTo(Point2::new(Real::MAX, y))];
+        let line =
+            [PathElement::MoveTo(Point2::new(Real::MIN, y)), PathElement::LineTo(Point2::new(Real::MAX, y))];
         assert_eq!(Stroke::new(line.into_iter(), window, BinaryColor::On).draw(&mut frame), Ok(64));
     }
 

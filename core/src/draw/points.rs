@@ -9,7 +9,7 @@ use embedded_graphics_core::primitives::Rectangle;
 use embedded_graphics_core::{Drawable, Pixel};
 
 use crate::draw::{Ink, Palette};
-use crate::picture::{Point2, Window};
+use crate::plane::{Point2, Window};
 
 /// Draws an iterator of [`Point2`] in one colour, as seen through a [`Window`].
 ///
@@ -21,7 +21,7 @@ use crate::picture::{Point2, Window};
 /// ```
 /// use attractor::draw::Dots;
 /// use attractor::num::Real;
-/// use attractor::picture::{Bounds2, Point2, Window};
+/// use attractor::plane::{Bounds2, Point2, Window};
 /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
 ///
 /// let p = |x: i32, y: i32| Point2::new(Real::from_num(x), Real::from_num(y));
@@ -63,7 +63,7 @@ impl<I: Iterator<Item = Point2>, C: PixelColor> Dots<I, C> {
     /// ```
     /// use attractor::draw::Dots;
     /// use attractor::ifs::{Ifs, Walk, catalogue};
-    /// use attractor::picture::Window;
+    /// use attractor::plane::Window;
     /// use attractor::rand_xoshiro::Xoshiro128PlusPlus;
     /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
     ///
@@ -126,7 +126,7 @@ impl<I: Iterator<Item = Point2> + Clone, C: PixelColor> Drawable for Dots<I, C> 
 /// ```
 /// use attractor::draw::{ColoredDots, Ramp, hex};
 /// use attractor::ifs::catalogue::SIERPINSKI_GASKET;
-/// use attractor::picture::Window;
+/// use attractor::plane::Window;
 /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::Rgb565, prelude::*};
 ///
 /// let gasket = SIERPINSKI_GASKET.ifs::<3>()?;
@@ -242,7 +242,7 @@ mod tests {
     use super::*;
     use crate::draw::Grey;
     use crate::draw::testing::{Frame, point};
-    use crate::picture::Bounds2;
+    use crate::plane::Bounds2;
     use embedded_graphics::mock_display::MockDisplay;
     use embedded_graphics::pixelcolor::BinaryColor;
     use embedded_graphics_core::geometry::Size;
@@ -313,7 +313,7 @@ mod tests {
     #[test]
     fn dots_and_strokes_agree_on_the_last_coordinate() {
         use crate::draw::Stroke;
-        use crate::picture::Step;
+        use crate::plane::PathElement;
         // the window's columns 5 to 7 have no coordinate
         let corner = Point::new(i32::MAX - 4, i32::MAX - 6);
         let place = Rectangle::new(corner, Size::new(5, 7));
@@ -324,7 +324,7 @@ mod tests {
         assert_eq!(Dots::new(row(), window(), BinaryColor::On).at(corner).draw(&mut dots), Ok(8));
         assert_eq!(dots.seen.split_off(5), dots.seen);
         let mut stroke = Corner { place, seen: std::vec::Vec::new() };
-        let path = Stroke::new(row().map(Step::LineTo), window(), BinaryColor::On).at(corner);
+        let path = Stroke::new(row().map(PathElement::LineTo), window(), BinaryColor::On).at(corner);
         assert_eq!(path.draw(&mut stroke), Ok(5));
         assert_eq!(dots.seen, stroke.seen);
         assert_eq!(dots.seen.last(), Some(&Point::new(i32::MAX, i32::MAX - 1)));

@@ -10,14 +10,14 @@ use embedded_graphics_core::primitives::Rectangle;
 use crate::Error;
 use crate::draw::clip::part;
 use crate::draw::{Ink, Lines, LsbPages, MsbRows, Packing, Palette, Picture, PixelBytes, PixelWords};
-use crate::picture::Field;
+use crate::plane::Field;
 
 impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
     /// Rows of colours, in a buffer of one row.
     ///
     /// ```
     /// use attractor::draw::{Grey, Picture};
-    /// use attractor::picture::from_fn;
+    /// use attractor::plane::from_fn;
     /// use embedded_graphics::{pixelcolor::{Gray8, GrayColor}, prelude::*};
     /// # struct Spi;
     /// # impl Spi { fn write(&mut self, _: u32, _: &[Gray8]) -> Result<(), BusError> { Ok(()) } }
@@ -89,7 +89,7 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
     ///
     /// ```
     /// use attractor::draw::{Grey, MsbRows, Picture};
-    /// use attractor::picture::from_fn;
+    /// use attractor::plane::from_fn;
     /// use embedded_graphics::{pixelcolor::Gray4, prelude::*};
     ///
     /// let picture = Picture::<_, _, Gray4>::new(from_fn(Size::new(9, 2), |x, _| x as u8 * 17), Grey);
@@ -144,7 +144,7 @@ fn front<'b, C, K: Packing<C>>(
 ///
 /// ```
 /// use attractor::draw::{Grey, MsbRows, Picture, Strips};
-/// use attractor::picture::from_fn;
+/// use attractor::plane::from_fn;
 /// use embedded_graphics::{pixelcolor::BinaryColor, prelude::*, primitives::Rectangle};
 ///
 /// let picture = Picture::<_, _, BinaryColor>::new(from_fn(Size::new(64, 64), |x, y| x == y), Grey);

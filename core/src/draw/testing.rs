@@ -4,7 +4,6 @@ extern crate std;
 
 use core::cell::Cell;
 use core::convert::Infallible;
-use core::ops::Range;
 use std::vec::Vec;
 
 use embedded_graphics_core::Pixel;
@@ -14,7 +13,7 @@ use embedded_graphics_core::pixelcolor::PixelColor;
 use embedded_graphics_core::primitives::{PointsIter, Rectangle};
 
 use crate::num::Real;
-use crate::picture::{Field, Point2};
+use crate::plane::{Field, Point2};
 
 /// The point of the plane with these integer coordinates.
 pub(super) fn point(x: i32, y: i32) -> Point2 {
@@ -39,38 +38,15 @@ impl Counted {
 
 impl Field for Counted {
     type Value = u8;
-    type Row<'a> = CountedRow<'a>;
 
     fn size(&self) -> Size {
         self.size
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> CountedRow<'_> {
-        assert!(
-            y < self.size.height && x.start <= x.end && x.end <= self.size.width,
-            "asked beyond the field"
-        );
-        CountedRow { field: self, y, x }
-    }
-}
-
-pub(super) struct CountedRow<'a> {
-    field: &'a Counted,
-    y: u32,
-    x: Range<u32>,
-}
-
-impl Iterator for CountedRow<'_> {
-    type Item = u8;
-
-    fn next(&mut self) -> Option<u8> {
-        self.nth(0)
-    }
-
-    fn nth(&mut self, n: usize) -> Option<u8> {
-        let x = self.x.nth(n)?;
-        self.field.evaluated.set(self.field.evaluated.get() + 1);
-        Some(Counted::value(x, self.y))
+    fn at(&self, x: u32, y: u32) -> u8 {
+        assert!(x < self.size.width && y < self.size.height, "asked beyond the field");
+        self.evaluated.set(self.evaluated.get() + 1);
+        Self::value(x, y)
     }
 }
 

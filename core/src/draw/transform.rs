@@ -36,7 +36,7 @@ mod tests {
     use super::*;
     use crate::draw::Grey;
     use crate::draw::testing::point;
-    use crate::picture::{Bounds2, Step, Window};
+    use crate::plane::{Bounds2, PathElement, Window};
     use embedded_graphics::mock_display::MockDisplay;
     use embedded_graphics::pixelcolor::BinaryColor;
     use embedded_graphics_core::Drawable;
@@ -69,6 +69,6 @@ mod tests {
         let row = (0..4).map(|x| point(x, 0));
         check(Dots::new(row.clone(), window(), BinaryColor::On));
         check(ColoredDots::new(row.clone().map(|p| (p, 255_u8)), window(), Grey));
-        check(Stroke::new(row.map(Step::LineTo), window(), BinaryColor::On));
+        check(Stroke::new(row.map(PathElement::LineTo), window(), BinaryColor::On));
     }
 }

@@ -5,45 +5,54 @@ extern crate std;
 use embedded_graphics_core::geometry::Size;
 use std::vec::Vec;
 
-use super::dwell::tests::orbit;
-use super::view::narrow;
-use super::{Complex, Distance, Dwell, FractionalDwell, Julia, Mandelbrot, Precision, Smooth, View};
+use crate::escape::Arithmetic;
+use crate::escape::Distance;
+use crate::escape::FractionalDwell;
+use crate::escape::Smooth;
+use crate::escape::orbit::dwell::tests::orbit;
+use crate::escape::set::julia::Julia;
+use crate::escape::set::mandelbrot::Mandelbrot;
+use crate::escape::value::Dwell;
+use crate::escape::view::shallow::View;
+use crate::escape::view::shallow::narrow;
+use crate::num::Complex;
 use crate::num::{Real, Wide};
 
 /// A pixel of a picture in 32-bit words, and the orbit whose dwell it shows.
-pub(super) struct Pixel {
-    pub(super) dwell: Dwell,
-    pub(super) smooth: FractionalDwell,
+pub(crate) struct Pixel {
+    pub(crate) dwell: Dwell,
+    pub(crate) smooth: FractionalDwell,
     /// In units of the plane, as the pitch.
-    pub(super) distance: Option<f64>,
-    pub(super) pitch: f64,
+    pub(crate) distance: Option<f64>,
+    pub(crate) pitch: f64,
     /// From the first point to the first one beyond 2, none inside.
-    pub(super) orbit: Vec<(f64, f64)>,
-    pub(super) c: (f64, f64),
+    pub(crate) orbit: Vec<(f64, f64)>,
+    pub(crate) c: (f64, f64),
     /// What the derivative gains at each step.
-    pub(super) gain: f64,
+    pub(crate) gain: f64,
 }
 
-/// Every pixel of the home view and others, of the Mandelbrot set and of a Julia set, in both precisions, about the limit where the default changes.
-pub(super) fn every_pixel(mut check: impl FnMut(&Pixel)) {
+/// Every pixel of the home view and others, of the Mandelbrot set and of a Julia set, in both arithmetics, about the limit where the default changes.
+pub(crate) fn every_pixel(mut check: impl FnMut(&Pixel)) {
     let point = |re: f64, im: f64| Complex::new(Wide::from_num(re), Wide::from_num(im));
     let view = |re, im, width| View::new(point(re, im), Wide::from_num(width), Size::new(96, 72)).unwrap();
     let views = [View::home(Size::new(150, 125)).unwrap(), view(-0.75, 0.1, 0.3), view(-1.25, 0.02, 0.2)];
     let seed = point(-0.8, 0.156);
     for (max, view) in [255, 256, 257].into_iter().flat_map(|max| views.map(|view| (max, view))) {
         let (set, julia) = (Mandelbrot::new(view, max).unwrap(), Julia::new(view, seed, max).unwrap());
-        assert_eq!(set.precision() == Precision::Coarse26, max <= 256);
+        assert_eq!(set.arithmetic() == Arithmetic::Word26, max <= 256);
         let Size { width, height } = view.size();
         for at in (0..height).flat_map(|y| view.line(y, 0..width)) {
             let Some((x, y)) = narrow(at) else { continue };
-            for precision in [Precision::Coarse26, Precision::Fine29] {
-                let (set, julia) = (set.with_precision(precision), julia.with_precision(precision));
+            for arithmetic in [Arithmetic::Word26, Arithmetic::Word29] {
+                let (set, julia) =
+                    (set.with_arithmetic(arithmetic).unwrap(), julia.with_arithmetic(arithmetic).unwrap());
                 // the conjugate, as in the picture
                 let upper = (x, y.wrapping_abs());
                 let values = (set.dwell_at(at), Smooth(set).value_at(at), Distance(set).value_at(at));
-                check(&pixel(values, (upper, upper), 1.0, &view, precision));
+                check(&pixel(values, (upper, upper), 1.0, &view, arithmetic));
                 let values = (julia.dwell_at(at), Smooth(julia).value_at(at), Distance(julia).value_at(at));
-                check(&pixel(values, ((x, y), narrow(seed).unwrap()), 0.0, &view, precision));
+                check(&pixel(values, ((x, y), narrow(seed).unwrap()), 0.0, &view, arithmetic));
             }
         }
     }
@@ -54,12 +63,12 @@ fn pixel(
     (z, c): ((i32, i32), (i32, i32)),
     gain: f64,
     view: &View,
-    precision: Precision,
+    arithmetic: Arithmetic,
 ) -> Pixel {
     let unit = 2_f64.powi(-29);
     let mut points = Vec::new();
     if !dwell.is_inside() {
-        let orbit = orbit(z, c, precision == Precision::Coarse26);
+        let orbit = orbit(z, c, arithmetic == Arithmetic::Word26);
         points.extend(orbit.map(|z| z.map(|v| v as f64 * unit)).map(|[x, y]| (x, y)));
         assert_eq!(dwell.count as usize + 1, points.len());
     }
@@ -71,19 +80,19 @@ fn pixel(
 
 /// How two pictures differ.
 #[derive(Debug, Default)]
-pub(super) struct Difference {
+pub(crate) struct Difference {
     /// Pixels whose dwell differs.
-    pub(super) pixels: u32,
+    pub(crate) pixels: u32,
     /// Pixels that are inside in one picture and outside in the other.
-    pub(super) sides: u32,
+    pub(crate) sides: u32,
     /// The greatest difference of a dwell.
-    pub(super) greatest: u32,
+    pub(crate) greatest: u32,
     /// Pixels inside in the second: a picture of nothing proves nothing.
-    pub(super) inside: u32,
+    pub(crate) inside: u32,
 }
 
 impl Difference {
-    pub(super) fn of(cols: u32, rows: u32, max: u32, mut pixel: impl FnMut(u32, u32) -> (u32, u32)) -> Self {
+    pub(crate) fn of(cols: u32, rows: u32, max: u32, mut pixel: impl FnMut(u32, u32) -> (u32, u32)) -> Self {
         let mut difference = Self::default();
         for (x, y) in (0..rows).flat_map(|y| (0..cols).map(move |x| (x, y))) {
             let (got, want) = pixel(x, y);
@@ -97,7 +106,7 @@ impl Difference {
 }
 
 /// `min(iterations until |z| > 2, max)` in `f64`.
-pub(super) fn dwell_float((mut x, mut y): (f64, f64), c: (f64, f64), max: u32) -> u32 {
+pub(crate) fn dwell_float((mut x, mut y): (f64, f64), c: (f64, f64), max: u32) -> u32 {
     for n in 0..max {
         if x * x + y * y > 4.0 {
             return n;
@@ -159,7 +168,7 @@ impl Big {
 }
 
 /// The dwell of the orbit of 0 under `z^2 + c`.
-pub(super) fn dwell_248(c: Complex<Wide>, max: u32) -> u32 {
+pub(crate) fn dwell_248(c: Complex<Wide>, max: u32) -> u32 {
     if c.re.abs() > 4 || c.im.abs() > 4 {
         return 0;
     }

@@ -10,7 +10,7 @@ use rand_core::Rng;
 use super::Fif;
 use super::function::Map;
 use crate::num::{FRACTION, Real, mul_high_u, real_from, twice_high};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// An endless iterator of points of the graph; `x` is the unit abscissa in `[0, 1]`.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@
 use super::Fif;
 use super::function::Map;
 use crate::num::{FRACTION, ONE, Polynomial, Real, Scaling, Wide, mul_high_u, real_from, twice_high};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// A composition of maps: `(u, y) -> (start + width u, scaling y + q(u))` in the unit abscissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

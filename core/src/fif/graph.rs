@@ -4,7 +4,7 @@ use core::iter::FusedIterator;
 
 use super::Fif;
 use crate::num::Real;
-use crate::picture::{Point2, Step};
+use crate::plane::{PathElement, Point2};
 
 /// A path through equally spaced points of the graph; `x` is the unit abscissa in `[0, 1]`.
 ///
@@ -12,7 +12,7 @@ use crate::picture::{Point2, Step};
 /// use attractor::draw::Stroke;
 /// use attractor::fif::{Fif, Knot};
 /// use attractor::num::Scaling;
-/// use attractor::picture::{Bounds2, Point2, Window};
+/// use attractor::plane::{Bounds2, Point2, Window};
 /// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
 ///
 /// const KNOTS: [Knot; 3] = [Knot::lit("0", "0"), Knot::lit("1", "1"), Knot::lit("2", "0")];
@@ -41,15 +41,15 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 }
 
 impl<const N: usize, const D: usize> Iterator for Graph<'_, N, D> {
-    type Item = Step;
+    type Item = PathElement;
 
-    fn next(&mut self) -> Option<Step> {
+    fn next(&mut self) -> Option<PathElement> {
         if self.next > self.last {
             return None;
         }
         let (u, y) = self.fif.at_fraction(self.next, self.last);
         let point = Point2::new(Real::from_bits((u >> 39) as i32), y);
-        let step = if self.next == 0 { Step::MoveTo(point) } else { Step::LineTo(point) };
+        let step = if self.next == 0 { PathElement::MoveTo(point) } else { PathElement::LineTo(point) };
         self.next += 1;
         Some(step)
     }

@@ -6,7 +6,7 @@
 //! And `s1 = (|(a + d, b - c)| + |(a - d, b + c)|) / 2`: the conformal and the anticonformal part.
 
 use crate::num::{self, Real, Unit, Wide, mul_high_u, quotient, sqrt};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 const ONE: i64 = 1 << 30;
 /// The square of [`ONE`].

@@ -16,7 +16,7 @@ use super::affine::{Affine, hypotenuse};
 use super::disc::Disc;
 use super::system::Ifs;
 use crate::num::Real;
-use crate::picture::{Bounds2, Point2};
+use crate::plane::{Bounds2, Point2};
 
 /// The longest address that is opened: the capacity of the stack, which holds one entry for each letter.
 const DEPTH: usize = 128;

@@ -10,7 +10,7 @@ use rand_xoshiro::Xoshiro128PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use super::system::Ifs;
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 impl<const N: usize> Ifs<N> {
     /// The endless orbit of a random walk on the attractor, after a warm-up of as many steps as the contraction factor asks for, at most 1024.

@@ -12,7 +12,7 @@ use super::affine::Affine;
 use super::system::Ifs;
 use crate::Error;
 use crate::num::{self, Real, Unit};
-use crate::picture::{Point2, Step};
+use crate::plane::{PathElement, Point2};
 
 /// A composed map, and which of the system's maps is composed with it next.
 #[derive(Debug, Clone, Copy, Default)]
@@ -206,11 +206,11 @@ impl<const N: usize, const DEPTH: usize> Iterator for CopiedPoints<'_, N, DEPTH>
 pub struct CopiedPath<'a, const N: usize, const DEPTH: usize>(Copier<'a, N, DEPTH>);
 
 impl<const N: usize, const DEPTH: usize> Iterator for CopiedPath<'_, N, DEPTH> {
-    type Item = Step;
+    type Item = PathElement;
 
     #[inline]
-    fn next(&mut self) -> Option<Step> {
-        self.0.next().map(|(begins, p)| if begins { Step::MoveTo(p) } else { Step::LineTo(p) })
+    fn next(&mut self) -> Option<PathElement> {
+        self.0.next().map(|(begins, p)| if begins { PathElement::MoveTo(p) } else { PathElement::LineTo(p) })
     }
 }
 
@@ -224,8 +224,8 @@ mod tests {
         let fern = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();
         let shape = [Point2::new(Real::MIN, Real::MAX), Point2::new(Real::ONE, Real::ZERO)];
         assert!(fern.copier::<0>(&shape, 0).unwrap().points().eq(shape));
-        let steps: heapless::Vec<Step, 8> = fern.copier::<3>(&shape, 0).unwrap().path().collect();
-        assert_eq!(steps.as_slice(), [Step::MoveTo(shape[0]), Step::LineTo(shape[1])]);
+        let steps: heapless::Vec<PathElement, 8> = fern.copier::<3>(&shape, 0).unwrap().path().collect();
+        assert_eq!(steps.as_slice(), [PathElement::MoveTo(shape[0]), PathElement::LineTo(shape[1])]);
     }
 
     #[test]

@@ -5,13 +5,11 @@
 //! for measures that span decades (S. Draves, E. Reckase, "The Fractal Flame Algorithm", 2003, section on log-density display).
 //! A second buffer keeps the last map that hit each pixel. Left out: anti-aliasing, decay of old hits.
 
-use core::ops::Range;
-
 use embedded_graphics_core::geometry::Size;
 
 use crate::Error;
 use crate::num::{log2, reciprocal};
-use crate::picture::{Bounds2, Field, Point2, Window, from, part};
+use crate::plane::{Bounds2, Field, Point2, Window, from, part};
 
 /// A saturating counter of hits: `u8` or `u16`, or one of your own.
 pub trait Counter: Copy {
@@ -52,7 +50,7 @@ impl Counter for u16 {
 /// ```
 /// use attractor::draw::{Inside, Picture, gradients, hex};
 /// use attractor::ifs::{Density, catalogue};
-/// use attractor::picture::Window;
+/// use attractor::plane::Window;
 /// use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::Rgb888, prelude::*};
 ///
 /// let fern = catalogue::BARNSLEY_FERN.ifs::<4>()?;
@@ -298,54 +296,18 @@ pub struct Toned<'a, C> {
 
 impl<C: Counter> Field for Toned<'_, C> {
     type Value = Hits;
-    type Row<'r>
-        = TonedRow<'r, C>
-    where
-        Self: 'r;
 
     fn size(&self) -> Size {
         self.size
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-        let start = y.wrapping_mul(self.size.width) as usize;
-        let range = start.wrapping_add(x.start as usize)..start.wrapping_add(x.end as usize);
-        TonedRow {
-            counts: self.counts.get(range.clone()).unwrap_or_default().iter(),
-            maps: self.maps.get(range).unwrap_or_default().iter(),
-            scale: self.scale,
-        }
-    }
-}
-
-/// A row of [`Toned`].
-#[derive(Debug, Clone)]
-pub struct TonedRow<'a, C> {
-    counts: core::slice::Iter<'a, C>,
-    maps: core::slice::Iter<'a, u8>,
-    scale: Scale,
-}
-
-impl<C: Counter> Iterator for TonedRow<'_, C> {
-    type Item = Hits;
-
-    fn next(&mut self) -> Option<Hits> {
-        self.nth(0)
-    }
-
-    fn nth(&mut self, n: usize) -> Option<Hits> {
-        let count = self.counts.nth(n)?.count();
-        let map = self.maps.nth(n).copied().unwrap_or(0);
+    fn at(&self, x: u32, y: u32) -> Hits {
+        let index = y.wrapping_mul(self.size.width).wrapping_add(x) as usize;
+        let count = self.counts.get(index).map_or(0, |count| count.count());
         let tone = if count == 0 { 0 } else { self.scale.tone(count) };
-        Some(Hits { count, tone, map })
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        self.counts.size_hint()
+        Hits { count, tone, map: self.maps.get(index).copied().unwrap_or(0) }
     }
 }
-
-impl<C: Counter> ExactSizeIterator for TonedRow<'_, C> {}
 
 #[cfg(test)]
 mod tests {

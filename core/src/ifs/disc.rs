@@ -9,7 +9,7 @@
 use super::affine::{Affine, hypotenuse};
 use crate::Error;
 use crate::num::{Real, Unit, Wide, nth, ratio};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// How far from the axes an invariant disc may reach: half the range of [`Real`].
 pub(super) const REACH: i64 = 64 << 24;

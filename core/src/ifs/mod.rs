@@ -39,7 +39,7 @@ mod system;
 pub use affine::Affine;
 pub use chaos::{ChaosGame, Walk, WithMaps};
 pub use copier::{CopiedPath, CopiedPoints, Copier};
-pub use density::{Counter, Density, Hits, Toned, TonedRow};
+pub use density::{Counter, Density, Hits, Toned};
 pub use disc::Disc;
 pub use moments::Moments;
 pub use system::{Ifs, MAX_MAPS};

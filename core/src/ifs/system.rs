@@ -12,7 +12,7 @@ use super::affine::Affine;
 use super::disc::{Contractions, Disc};
 use crate::Error;
 use crate::num::{Alias, Unit, Wide};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// The largest number of maps in a system.
 pub const MAX_MAPS: usize = 256;

@@ -17,10 +17,10 @@
 //! **A constant: `lit`.** The decimal is read at compile time and rounded to nearest; one that is no number, or does not fit, does not compile.
 //!
 //! ```
-//! use attractor::escape::Complex;
+//! use attractor::num::Complex;
 //! use attractor::fif::Knot;
 //! use attractor::num::{Real, Scaling, Vec3, Wide};
-//! use attractor::picture::Point2;
+//! use attractor::plane::Point2;
 //!
 //! const WIDTH: Wide = Wide::lit("0.0065");
 //! const SLOPE: Scaling = Scaling::lit("-0.85");
@@ -51,6 +51,7 @@
 //! **A float:** `Real::from_num(x)` for `x: f32` works, and on a processor without an FPU costs what converting takes. On the host it is convenient; the examples
 //! in this documentation use it where the number does not matter.
 
+mod complex;
 mod decimal;
 mod exponential;
 mod limbs;
@@ -64,6 +65,7 @@ mod trig;
 mod vector;
 mod wide;
 
+pub use complex::Complex;
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;
 pub use limbs::Limbs;

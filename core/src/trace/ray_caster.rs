@@ -18,7 +18,7 @@ use super::sampling::{Filter, Pattern, Sampling};
 use super::statistics::{Statistics, Uncounted};
 use crate::Error;
 use crate::num::{Unit, Vec3, Wide, nth, unit};
-use crate::picture::{Field, checked_size};
+use crate::plane::{Field, along, checked_size};
 
 /// Half a unit of a ray's direction, 60 fractional bits.
 const HALF: i64 = 1 << 31;
@@ -34,7 +34,7 @@ pub struct Tone(pub u16);
 /// ```
 /// use attractor::fif::{Cell, Fif, Knot, Pyramid};
 /// use attractor::num::{Real, Scaling, Vec3, Wide};
-/// use attractor::picture::Field;
+/// use attractor::plane::Field;
 /// use attractor::trace::{Camera, HeightField, Material, RayCaster};
 /// use embedded_graphics_core::geometry::Size;
 ///
@@ -74,7 +74,7 @@ impl<'a> RayCaster<'a> {
     /// A picture of `size` pixels with one sample each, diffuse, lit from the upper left front, under [`Environment::SKY`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a size of 0 or above [`crate::picture::MAX_SIDE`], or where the view is so wide that a ray's direction leaves ±4.
+    /// [`Error::OutOfRange`] for a size of 0 or above [`crate::plane::MAX_SIDE`], or where the view is so wide that a ray's direction leaves ±4.
     pub fn new(surface: HeightField<'a>, camera: Camera, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
@@ -255,58 +255,50 @@ fn narrow(direction: i64) -> i32 {
     (direction >> 32) as i32
 }
 
-/// The tones of one row from left to right.
-#[derive(Debug, Clone)]
-pub struct Row<'a, 'b> {
-    caster: &'b RayCaster<'a>,
-    y: u32,
-    x: Range<u32>,
-    direction: [i64; 3],
-    /// The columns in which the surface can be seen.
-    visible: Range<u32>,
-}
-
-impl<'a> Field for RayCaster<'a> {
+impl Field for RayCaster<'_> {
     type Value = Tone;
-    type Row<'b>
-        = Row<'a, 'b>
-    where
-        Self: 'b;
 
     fn size(&self) -> Size {
         self.size
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> Row<'a, '_> {
+    fn at(&self, x: u32, y: u32) -> Tone {
+        let visible = self.outline.columns(y, self.size.width).contains(&x);
+        self.pixel(x, y, self.direction(x, y), visible)
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Tone> {
         // what lies outside the picture has no pixels
         let (y, width) = (y.min(self.size.height.saturating_sub(1)), self.size.width);
         let x = x.start.min(width)..x.end.min(width);
-        Row {
-            caster: self,
-            y,
-            direction: self.direction(x.start, y),
-            x,
-            visible: self.outline.columns(y, self.size.width),
-        }
+        let visible = self.outline.columns(y, width);
+        let directions = Directions { caster: self, direction: self.direction(x.start, y), columns: x };
+        along(directions, move |(x, direction)| self.pixel(x, y, direction, visible.contains(&x)))
     }
 }
 
-impl Iterator for Row<'_, '_> {
-    type Item = Tone;
+/// The columns of a row, each with the direction through the centre of its pixel.
+struct Directions<'a, 'b> {
+    caster: &'b RayCaster<'a>,
+    columns: Range<u32>,
+    direction: [i64; 3],
+}
+
+impl Iterator for Directions<'_, '_> {
+    type Item = (u32, [i64; 3]);
 
     #[inline]
-    fn next(&mut self) -> Option<Tone> {
-        let x = self.x.next()?;
-        let tone = self.caster.pixel(x, self.y, self.direction, self.visible.contains(&x));
+    fn next(&mut self) -> Option<Self::Item> {
+        let pixel = (self.columns.next()?, self.direction);
         for (c, r) in self.direction.iter_mut().zip(self.caster.right) {
             *c += r;
         }
-        Some(tone)
+        Some(pixel)
     }
 
-    fn nth(&mut self, n: usize) -> Option<Tone> {
-        let skipped = n.min(self.x.len()) as u32;
-        self.x.start += skipped;
+    fn nth(&mut self, n: usize) -> Option<Self::Item> {
+        let skipped = n.min(self.columns.len()) as u32;
+        self.columns.start += skipped;
         for (c, r) in self.direction.iter_mut().zip(self.caster.right) {
             *c += r * i64::from(skipped);
         }
@@ -314,9 +306,9 @@ impl Iterator for Row<'_, '_> {
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        self.x.size_hint()
+        self.columns.size_hint()
     }
 }
 
-impl ExactSizeIterator for Row<'_, '_> {}
-impl FusedIterator for Row<'_, '_> {}
+impl ExactSizeIterator for Directions<'_, '_> {}
+impl FusedIterator for Directions<'_, '_> {}

@@ -4,7 +4,8 @@
 //! `BinaryColor` by a palette that is turned round, and `color_converted` does the rest.
 
 use attractor::draw::{Grey, Palette, Picture};
-use attractor::escape::{Complex, Dwell, Julia, View};
+use attractor::escape::{Dwell, Julia, View};
+use attractor::num::Complex;
 use attractor::num::Wide;
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb888};

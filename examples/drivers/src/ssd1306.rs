@@ -5,7 +5,7 @@
 
 use attractor::draw::Dots;
 use attractor::ifs::catalogue;
-use attractor::picture::Window;
+use attractor::plane::Window;
 use display_interface::DisplayError;
 use embedded_graphics::pixelcolor::BinaryColor;
 use embedded_graphics::prelude::*;

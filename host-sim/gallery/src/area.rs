@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use attractor::Error;
 use attractor::draw::Level;
-use attractor::picture::{Field, Step, Window};
+use attractor::plane::{Field, PathElement, Window};
 use embedded_graphics::geometry::{Point, Size};
 
 /// Levels of a whole display, row by row; none outside. The level grows towards the top.
@@ -25,7 +25,7 @@ pub const fn ground_words(size: Size) -> usize {
 impl<'a> Area<'a> {
     /// The area of a path through `window`, whose first pixel lies at `corner` of a display of `size`.
     pub(crate) fn of(
-        steps: impl Iterator<Item = Step>,
+        steps: impl Iterator<Item = PathElement>,
         window: &Window,
         (size, corner): (Size, Point),
         turns: &'a mut [u32],
@@ -40,8 +40,8 @@ impl<'a> Area<'a> {
         let mut pen = None;
         for step in steps {
             let (p, draws) = match step {
-                Step::MoveTo(p) => (p, false),
-                Step::LineTo(p) => (p, true),
+                PathElement::MoveTo(p) => (p, false),
+                PathElement::LineTo(p) => (p, true),
             };
             let to = window.raster(p);
             if let Some(from) = pen.filter(|_| draws) {
@@ -69,16 +69,17 @@ impl<'a> Area<'a> {
 
 impl Field for Area<'_> {
     type Value = Option<Level>;
-    type Row<'r>
-        = AreaRow<'r>
-    where
-        Self: 'r;
 
     fn size(&self) -> Size {
         self.size
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> AreaRow<'_> {
+    /// What lies left of the pixel decides: a row costs as much.
+    fn at(&self, x: u32, y: u32) -> Option<Level> {
+        self.row(y, x..x + 1).next().flatten()
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Option<Level>> {
         let row = y.wrapping_sub(self.corner.y.unsigned_abs());
         let lies_inside = row < self.inner.height;
         let mut area = AreaRow {
@@ -96,8 +97,7 @@ impl Field for Area<'_> {
 }
 
 /// A row of an [`Area`].
-#[derive(Debug)]
-pub(crate) struct AreaRow<'a> {
+struct AreaRow<'a> {
     turns: &'a [u32],
     level: Level,
     /// Of the next column.
@@ -132,4 +132,10 @@ impl Iterator for AreaRow<'_> {
         self.step();
         Some(self.inside.then_some(self.level))
     }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.columns as usize, Some(self.columns as usize))
+    }
 }
+
+impl ExactSizeIterator for AreaRow<'_> {}

@@ -6,7 +6,7 @@ use attractor::Error;
 use attractor::draw::{Level, Stroke, hex};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Wide};
-use attractor::picture::{Bounds2, Field, Point2, Step, Window};
+use attractor::plane::{Bounds2, Field, PathElement, Point2, Window};
 use embedded_graphics::Pixel;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::pixelcolor::Rgb888;
@@ -126,7 +126,7 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
 
     /// The graph, eight points a column. A rough function reaches further within an eighth of a column than at any abscissa with the bits of a number: each point
     /// brings the extremes of its cell along, the images of those of the whole.
-    fn graph(&self, columns: u32) -> impl Iterator<Item = Step> + Clone {
+    fn graph(&self, columns: u32) -> impl Iterator<Item = PathElement> + Clone {
         let steps = columns.saturating_mul(8).max(1);
         let (from, to) = self.fif.domain();
         let width = i128::from(to.to_bits()) - i128::from(from.to_bits());
@@ -141,8 +141,8 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
             // an address too long to be followed: intervals hardly narrower than the domain
             let extremes =
                 self.extremes.map(|p| if right - left <= cell { composite.image(p) } else { point });
-            let first = if i == 0 { Step::MoveTo(point) } else { Step::LineTo(point) };
-            [first, Step::LineTo(extremes[0]), Step::LineTo(extremes[1])]
+            let first = if i == 0 { PathElement::MoveTo(point) } else { PathElement::LineTo(point) };
+            [first, PathElement::LineTo(extremes[0]), PathElement::LineTo(extremes[1])]
         })
     }
 
@@ -268,7 +268,7 @@ impl<'a, const N: usize, const D: usize> Ground<'a, N, D> {
         })
     }
 
-    fn at(&self, x: i32, y: i32) -> Place {
+    fn place(&self, x: i32, y: i32) -> Place {
         let corner = self.chart.corner;
         let Some(&curve) = usize::try_from(x - corner.x).ok().and_then(|column| self.curve.get(column))
         else {
@@ -295,31 +295,12 @@ impl<'a, const N: usize, const D: usize> Ground<'a, N, D> {
 
 impl<const N: usize, const D: usize> Field for Ground<'_, N, D> {
     type Value = Place;
-    type Row<'r>
-        = GroundRow<'r, N, D>
-    where
-        Self: 'r;
 
     fn size(&self) -> Size {
         self.chart.size
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-        GroundRow { ground: self, y: y as i32, x }
-    }
-}
-
-/// A row of the ground.
-struct GroundRow<'a, const N: usize, const D: usize> {
-    ground: &'a Ground<'a, N, D>,
-    y: i32,
-    x: Range<u32>,
-}
-
-impl<const N: usize, const D: usize> Iterator for GroundRow<'_, N, D> {
-    type Item = Place;
-
-    fn next(&mut self) -> Option<Place> {
-        Some(self.ground.at(self.x.next()? as i32, self.y))
+    fn at(&self, x: u32, y: u32) -> Place {
+        self.place(x as i32, y as i32)
     }
 }

@@ -3,7 +3,7 @@
 use attractor::Error;
 use attractor::ifs::{CopiedPath, Ifs};
 use attractor::num::Real;
-use attractor::picture::{Bounds2, Point2, Window};
+use attractor::plane::{Bounds2, Point2, Window};
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::primitives::Rectangle;
 

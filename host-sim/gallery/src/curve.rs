@@ -3,7 +3,7 @@
 use attractor::Error;
 use attractor::curve::{Generator, Refined};
 use attractor::num::Real;
-use attractor::picture::{Point2, Window};
+use attractor::plane::{Point2, Window};
 use embedded_graphics::geometry::Size;
 
 use crate::area::Area;

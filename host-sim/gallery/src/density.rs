@@ -1,12 +1,9 @@
 //! The density of an attractor with a margin around it.
 
-use core::iter::{Chain, RepeatN, repeat_n};
-use core::ops::Range;
-
 use attractor::Error;
 use attractor::draw::{Level, Leveled as _};
-use attractor::ifs::{Density, Hits, Toned, TonedRow};
-use attractor::picture::{Field, Point2, Window};
+use attractor::ifs::{Density, Hits, Toned};
+use attractor::plane::{Field, Point2, Window};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
 
@@ -23,27 +20,15 @@ pub(crate) struct Framed<'a> {
 
 impl Field for Framed<'_> {
     type Value = Hits;
-    type Row<'r>
-        = Chain<Chain<RepeatN<Hits>, TonedRow<'r, u16>>, RepeatN<Hits>>
-    where
-        Self: 'r;
 
     fn size(&self) -> Size {
         self.size
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
+    fn at(&self, x: u32, y: u32) -> Hits {
+        let (x, y) = (x.wrapping_sub(self.margin), y.wrapping_sub(self.margin));
         let inner = self.density.size();
-        let (left, right) = (self.margin, self.margin + inner.width);
-        let inside = |edge: u32| edge.clamp(left, right) - left;
-        let columns =
-            if (left..left + inner.height).contains(&y) { inside(x.start)..inside(x.end) } else { 0..0 };
-        let width = columns.end - columns.start;
-        let before = if width > 0 { left.saturating_sub(x.start) } else { x.end - x.start };
-        let after = x.end - x.start - width - before;
-        let nothing = |count: u32| repeat_n(Hits::default(), count as usize);
-        let row = self.density.row(y.saturating_sub(left).min(inner.height.saturating_sub(1)), columns);
-        nothing(before).chain(row).chain(nothing(after))
+        if x < inner.width && y < inner.height { self.density.at(x, y) } else { Hits::default() }
     }
 }
 

@@ -3,7 +3,7 @@
 use attractor::Error;
 use attractor::draw::Level;
 use attractor::ifs::Ifs;
-use attractor::picture::Window;
+use attractor::plane::Window;
 use embedded_graphics::Pixel;
 use embedded_graphics::geometry::Size;
 

@@ -2,9 +2,10 @@
 
 use attractor::Error;
 use attractor::draw::Level;
-use attractor::escape::{BackwardIteration, Complex, JuliaCover, JuliaSet, View};
+use attractor::escape::{BackwardIteration, JuliaCover, JuliaSet, View};
+use attractor::num::Complex;
 use attractor::num::{Real, Wide};
-use attractor::picture::{Point2, Step, Window};
+use attractor::plane::{PathElement, Point2, Window};
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor as _};
@@ -46,7 +47,7 @@ impl JuliaSetPicture {
     /// Those of [`Window::fit`].
     pub fn window(&self, size: Size) -> Result<Window, Error> {
         let scouts = self.set.seeded_backward_iteration(1).take(SCOUTS);
-        let extent = Extent::of(scouts.map(Step::MoveTo))?;
+        let extent = Extent::of(scouts.map(PathElement::MoveTo))?;
         // the set is its own image under z -> -z; a scout may stop short of the farthest point
         let most = |a: Real, b: Real| a.abs().max(b.abs()).saturating_add(Real::lit("0.01"));
         let mut bounds = extent.bounds;

@@ -2,7 +2,7 @@
 
 use attractor::Error;
 use attractor::curve::{LSystem, Turtle};
-use attractor::picture::Window;
+use attractor::plane::Window;
 use embedded_graphics::geometry::Size;
 
 use crate::page::{Display, Extent, Watch, inner, paper};

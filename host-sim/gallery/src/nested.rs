@@ -5,7 +5,7 @@ use core::ops::Range;
 use attractor::draw::Level;
 use attractor::fif::Fif;
 use attractor::num::Real;
-use attractor::picture::Point2;
+use attractor::plane::Point2;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::primitives::Rectangle;
 

@@ -5,7 +5,7 @@ use core::convert::Infallible;
 use attractor::Error;
 use attractor::draw::{Ink, Palette, Picture, RowCursor, hex};
 use attractor::num::Real;
-use attractor::picture::{Bounds2, Field, Point2, Step, Window};
+use attractor::plane::{Bounds2, Field, PathElement, Point2, Window};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::pixelcolor::Rgb888;
@@ -85,12 +85,12 @@ pub(crate) struct Extent {
 
 impl Extent {
     /// Walks the path once.
-    pub(crate) fn of(steps: impl Iterator<Item = Step>) -> Result<Self, Error> {
+    pub(crate) fn of(steps: impl Iterator<Item = PathElement>) -> Result<Self, Error> {
         let corner = |limit| Point2::new(limit, limit);
         let mut bounds = Bounds2 { min: corner(Real::MAX), max: corner(Real::MIN) };
         let mut points = 0;
         for step in steps {
-            let (Step::MoveTo(p) | Step::LineTo(p)) = step;
+            let (PathElement::MoveTo(p) | PathElement::LineTo(p)) = step;
             bounds.min = Point2::new(bounds.min.x.min(p.x), bounds.min.y.min(p.y));
             bounds.max = Point2::new(bounds.max.x.max(p.x), bounds.max.y.max(p.y));
             points += 1;

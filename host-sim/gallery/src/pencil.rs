@@ -1,7 +1,7 @@
 //! A path on paper: the ground of a closed path, a line whose colour changes along it.
 
 use attractor::draw::{Level, Stroke};
-use attractor::picture::{Step, Window};
+use attractor::plane::{PathElement, Window};
 use embedded_graphics::geometry::Point;
 
 use crate::area::Area;
@@ -33,7 +33,7 @@ impl Pencil {
     /// The line of a path of so many points, in one pass; whether it was finished.
     pub(crate) fn line<D: Display>(
         &self,
-        steps: impl Iterator<Item = Step>,
+        steps: impl Iterator<Item = PathElement>,
         points: u32,
         (window, corner): (Window, Point),
         target: &mut D,
@@ -44,9 +44,9 @@ impl Pencil {
         let mut last = None;
         for hue in 0..HUES {
             // each portion goes on where the one before ended
-            let pen = last.map(Step::MoveTo);
+            let pen = last.map(PathElement::MoveTo);
             let part = steps.by_ref().take(portion as usize).inspect(|step| {
-                let (Step::MoveTo(p) | Step::LineTo(p)) = step;
+                let (PathElement::MoveTo(p) | PathElement::LineTo(p)) = step;
                 last = Some(*p);
             });
             let color = solid::<D::Color>(self.palette.at(self.hue(hue)));

@@ -2,7 +2,7 @@
 
 use attractor::Error;
 use attractor::curve::{Displacement, Parameter, Stop, Subdivision};
-use attractor::picture::{Point2, Step, Window};
+use attractor::plane::{PathElement, Point2, Window};
 use embedded_graphics::geometry::Size;
 
 use crate::area::Area;
@@ -74,8 +74,8 @@ impl<'a, L: Displacement + Clone, const LEVELS: usize> RandomCurvePicture<'a, L,
         if self.filled {
             // what is open is closed below: the ground under a graph
             let (min, max) = (extent.bounds.min, extent.bounds.max);
-            let below = [max.x, min.x].map(|x| Step::LineTo(Point2::new(x, min.y)));
-            let below = below.into_iter().chain(self.knots.first().map(|p| Step::LineTo(*p)));
+            let below = [max.x, min.x].map(|x| PathElement::LineTo(Point2::new(x, min.y)));
+            let below = below.into_iter().chain(self.knots.first().map(|p| PathElement::LineTo(*p)));
             let below = below.filter(|_| !self.pencil.closed);
             let area = Area::of(self.walk(stop)?.chain(below), &window, (size, corner), turns)?;
             if !self.pencil.area(&area, target, watch) {

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use attractor::draw::{Inside, Leveled, Ramp};
 use attractor::escape::{Distance, EscapeTime, FractionalDwell, Interior, Smooth};
-use attractor::picture::Field;
+use attractor::plane::Field;
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 

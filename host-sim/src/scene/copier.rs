@@ -5,7 +5,7 @@ use std::io::Write;
 
 use attractor::curve::koch;
 use attractor::ifs::{Ifs, MAX_MAPS, catalogue};
-use attractor::picture::Point2;
+use attractor::plane::Point2;
 use attractor_gallery::Copies;
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;

@@ -6,7 +6,7 @@ use std::io::Write;
 use attractor::Error;
 use attractor::curve::{Generator, Refined, catalogue, koch};
 use attractor::num::{Angle, Real, Wide};
-use attractor::picture::{Point2, Step};
+use attractor::plane::{PathElement, Point2};
 use attractor_gallery::{CurvePicture, Pencil, ground_words};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
@@ -105,7 +105,7 @@ impl CurveScene {
     pub(super) fn trail(&self) -> Trail<'_> {
         let finer_than = |length: Real| {
             let path = self.generator.refined_to::<DEPTH>(&self.base, length)?;
-            Ok(Box::new(path) as Box<dyn Iterator<Item = Step>>)
+            Ok(Box::new(path) as Box<dyn Iterator<Item = PathElement>>)
         };
         let theory = Theory::new(
             self.generator.dimension().to_num(),
@@ -140,12 +140,12 @@ impl CurveScene {
 
 /// `x,y` of the first points of a path.
 pub(super) fn vertices(
-    path: impl Iterator<Item = Step>,
+    path: impl Iterator<Item = PathElement>,
     points: u32,
     out: &mut dyn Write,
 ) -> Result<(), Fail> {
     writeln!(out, "x,y")?;
-    for Step::MoveTo(p) | Step::LineTo(p) in path.take(points as usize) {
+    for PathElement::MoveTo(p) | PathElement::LineTo(p) in path.take(points as usize) {
         writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
     }
     Ok(())

@@ -3,9 +3,10 @@
 use std::io::Write;
 
 use attractor::Error;
-use attractor::escape::{Complex, DeepMandelbrot, DeepView, OrbitPoint};
+use attractor::escape::{DeepMandelbrot, DeepView, OrbitPoint};
+use attractor::num::Complex;
 use attractor::num::Limbs;
-use attractor::picture::Field as _;
+use attractor::plane::Field as _;
 use embedded_graphics::geometry::Size;
 
 use super::escape::Keys;

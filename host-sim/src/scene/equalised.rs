@@ -5,12 +5,9 @@
 //! the last time by the whole picture.
 
 use std::convert::Infallible;
-use std::iter::Copied;
-use std::ops::Range;
-use std::slice;
 
 use attractor::draw::{Equalised, Level, Leveled, Palette, Picture};
-use attractor::picture::Field;
+use attractor::plane::Field;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
@@ -75,19 +72,13 @@ impl<V: Leveled + Copy> Known<V> {
 
 impl<V: Copy> Field for Known<V> {
     type Value = V;
-    type Row<'a>
-        = Copied<slice::Iter<'a, V>>
-    where
-        Self: 'a;
 
     fn size(&self) -> Size {
         Size::new(self.width, self.values.len() as u32 / self.width)
     }
 
-    fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-        let start = (y * self.width) as usize;
-        let row = self.values.get(start + x.start as usize..start + x.end as usize);
-        row.unwrap_or_default().iter().copied()
+    fn at(&self, x: u32, y: u32) -> V {
+        self.values[(y * self.width + x) as usize]
     }
 }
 
@@ -110,15 +101,14 @@ mod tests {
 
     impl Field for Slow {
         type Value = u32;
-        type Row<'a> = std::vec::IntoIter<u32>;
 
         fn size(&self) -> Size {
             SIZE
         }
 
-        fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-            self.computed.set(self.computed.get() + x.end - x.start);
-            x.map(|x| (x * 7 + y * y) % 97).collect::<Vec<_>>().into_iter()
+        fn at(&self, x: u32, y: u32) -> u32 {
+            self.computed.set(self.computed.get() + 1);
+            (x * 7 + y * y) % 97
         }
     }
 
@@ -138,7 +128,7 @@ mod tests {
         let mut counts = [0; 97];
         let equalised = Equalised::new(&slow, &mut counts, |level| Named::Dusk.at(level)).unwrap();
         for p in display.bounding_box().points() {
-            let value = slow.row(p.y as u32, p.x as u32..p.x as u32 + 1).next().unwrap();
+            let value = slow.at(p.x as u32, p.y as u32);
             assert_eq!(display.get_pixel(p), equalised.rgb(value), "{p}");
         }
     }

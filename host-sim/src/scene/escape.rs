@@ -3,9 +3,10 @@
 use std::io::Write;
 
 use attractor::Error;
-use attractor::escape::{Complex, MAX_DWELL, View};
+use attractor::escape::{MAX_DWELL, View};
+use attractor::num::Complex;
 use attractor::num::{Limbs, Wide};
-use attractor::picture::MAX_SIDE;
+use attractor::plane::MAX_SIDE;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use serde::Deserialize;

@@ -8,7 +8,7 @@
 
 use attractor::curve::{Parameter, Stop, Subdivision};
 use attractor::num::Real;
-use attractor::picture::{Point2, Step};
+use attractor::plane::{PathElement, Point2};
 
 use super::law::Law;
 use crate::fail::Fail;
@@ -34,7 +34,9 @@ impl Law {
         let step = Stop::Parameter(Parameter::from_bits(1 << 32 >> levels));
         let all = Subdivision::<_, 20>::new(self, &knots, step).map_err(Fail::new)?;
         let points: Vec<(f64, f64)> = all
-            .map(|(Step::MoveTo(p) | Step::LineTo(p))| (p.x.to_num::<f64>(), p.y.to_num::<f64>()))
+            .map(|(PathElement::MoveTo(p) | PathElement::LineTo(p))| {
+                (p.x.to_num::<f64>(), p.y.to_num::<f64>())
+            })
             .collect();
         let curve = |i: usize| {
             let from = f64::from(first) + i as f64;

@@ -3,7 +3,8 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::escape::{Complex, Julia, JuliaSet};
+use attractor::escape::{Julia, JuliaSet};
+use attractor::num::Complex;
 use attractor::num::Wide;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;

@@ -3,9 +3,10 @@
 use std::convert::Infallible;
 use std::io::Write;
 
-use attractor::escape::{Complex, JuliaSet};
+use attractor::escape::JuliaSet;
+use attractor::num::Complex;
 use attractor::num::Wide;
-use attractor::picture::Field as _;
+use attractor::plane::Field as _;
 use attractor_gallery::{JuliaSetPicture, Method};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;

@@ -3,7 +3,7 @@
 use attractor::Error;
 use attractor::curve::{Displacement, Elbow, LineToLine, OneVariable, Part, TwoVariable};
 use attractor::num::{Real, Unit};
-use attractor::picture::Point2;
+use attractor::plane::Point2;
 use serde::Deserialize;
 use toml::Spanned;
 

@@ -1,6 +1,6 @@
 //! Moving about in a scene, as a window's keys and mouse ask for it.
 
-use attractor::escape::Complex;
+use attractor::num::Complex;
 use attractor::num::Limbs;
 use embedded_graphics::geometry::{Point, Size};
 

@@ -1,7 +1,7 @@
 //! Points of a scene file: `[[x, y], ...]`.
 
 use attractor::num::Real;
-use attractor::picture::Point2;
+use attractor::plane::Point2;
 use toml::Spanned;
 
 use crate::fail::Fail;

@@ -6,7 +6,7 @@ use std::io::Write;
 use attractor::Error;
 use attractor::curve::{Stop, Subdivision, coast, koch};
 use attractor::num::Real;
-use attractor::picture::{Point2, Step};
+use attractor::plane::{PathElement, Point2};
 use attractor_gallery::{Pencil, RandomCurvePicture, ground_words};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
@@ -127,7 +127,7 @@ impl RandomCurve {
         // as often as the parameter allows: few parts need it
         let finer_than = |length: Real| {
             let curve = Subdivision::<_, 31>::new(&self.law, &self.knots, Stop::Length(length))?;
-            Ok(Box::new(curve) as Box<dyn Iterator<Item = Step>>)
+            Ok(Box::new(curve) as Box<dyn Iterator<Item = PathElement>>)
         };
         let theory = self.law.similarity();
         Trail { finer_than: Box::new(finer_than), theory, boundary: None, law: Some(&self.law) }

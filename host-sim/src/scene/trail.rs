@@ -2,13 +2,13 @@
 
 use attractor::Error;
 use attractor::num::Real;
-use attractor::picture::Step;
+use attractor::plane::PathElement;
 
 use super::law::Law;
 use crate::theory::Theory;
 
 /// Steps whose pieces are shorter than a length, in scene units.
-type FinerThan<'a> = dyn Fn(Real) -> Result<Box<dyn Iterator<Item = Step> + 'a>, Error> + 'a;
+type FinerThan<'a> = dyn Fn(Real) -> Result<Box<dyn Iterator<Item = PathElement> + 'a>, Error> + 'a;
 
 /// A set in the plane that is traced rather than covered.
 pub(crate) struct Trail<'a> {

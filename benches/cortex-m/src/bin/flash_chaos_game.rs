@@ -6,7 +6,7 @@ use core::hint::black_box as bb;
 
 use attractor::draw::Dots;
 use attractor::ifs::catalogue::BARNSLEY_FERN;
-use attractor::picture::Window;
+use attractor::plane::Window;
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::pixelcolor::Rgb565;
 use embedded_graphics::prelude::*;

@@ -7,7 +7,7 @@ use core::hint::black_box as bb;
 use attractor::draw::Stroke;
 use attractor::fif::{Fif, Knot};
 use attractor::num::{Real, Scaling, Wide};
-use attractor::picture::{Bounds2, Point2, Window};
+use attractor::plane::{Bounds2, Point2, Window};
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::pixelcolor::Rgb565;
 use embedded_graphics::prelude::*;

@@ -5,7 +5,8 @@
 use core::hint::black_box as bb;
 
 use attractor::draw::{CourseUnit, Picture};
-use attractor::escape::{Complex, Mandelbrot, View};
+use attractor::escape::{Mandelbrot, View};
+use attractor::num::Complex;
 use attractor::num::Wide;
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::image::Image;

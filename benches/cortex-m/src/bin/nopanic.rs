@@ -9,11 +9,11 @@
 use core::hint::black_box as bb;
 
 use attractor::Error;
-use attractor::escape::Complex;
 use attractor::fif::{Cell, Factor, Fif, Knot, Pyramid, Surface};
 use attractor::ifs::{Ifs, catalogue};
+use attractor::num::Complex;
 use attractor::num::{self, Angle, Real, Scaling, Unit, Wide};
-use attractor::picture::{Field, Point2, Window};
+use attractor::plane::{Field, Point2, Window};
 use attractor_cortex_m::{entry, semihosting};
 use embedded_graphics::prelude::*;
 

@@ -9,12 +9,13 @@ use attractor::draw::{
     PixelBytes, RowCursor, Strips, Stroke, gradients,
 };
 use attractor::escape::{
-    Arithmetic, Canvas, Complex, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
-    Mandelbrot, OrbitPoint, Precision, Smooth, View,
+    Arithmetic, Buffered, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
+    Mandelbrot, OrbitPoint, Smooth, View,
 };
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
+use attractor::num::Complex;
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
-use attractor::picture::{Bounds2, Field, Point2, Window, from_fn};
+use attractor::plane::{Bounds2, Field, Point2, Window, from_fn};
 use attractor::trace::{
     Camera, Environment, Filter, HeightField, Light, Material, Ray, RayCaster, Sampling, Statistics,
 };
@@ -43,7 +44,7 @@ fn escape() -> Result<(), Error> {
     bb((view.point(bb(0), bb(0)), view.pitch(), view.width(), view.centre()));
     let set = Mandelbrot::new(view, bb(100))?;
     bb((set.dwell_at(c), set.row(bb(0), bb(0)..bb(100)).last(), set.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
-    bb(set.with_precision(bb(Precision::Fine29)).dwell_at(c));
+    bb(set.with_arithmetic(bb(Arithmetic::Word29)).dwell_at(c));
     let julia = Julia::new(view, c, bb(100))?;
     bb((
         julia.dwell_at(c),
@@ -52,7 +53,7 @@ fn escape() -> Result<(), Error> {
     ));
     bb((view.size(), view.pan(bb(1), bb(1))?, set.view(), set.max_dwell(), set.precision()));
     bb((julia.view(), julia.constant(), julia.max_dwell(), julia.precision()));
-    bb(julia.with_precision(bb(Precision::Coarse26)).dwell_at(c).is_inside());
+    bb(julia.with_arithmetic(bb(Arithmetic::Word26)).dwell_at(c).is_inside());
     colorings(set, c)?;
     colorings(julia, c)?;
     deep()
@@ -69,12 +70,12 @@ fn colorings<P: EscapeTime + Copy>(picture: P, point: P::Point) -> Result<(), Er
     let interior = Interior(picture);
     bb((interior.value_at(point), interior.row(row().0, row().1).nth(bb(3))));
     let mut counts = [0; 600];
-    let mut canvas = Canvas::new(picture, bb(&mut counts[..]))?;
+    let mut canvas = Buffered::new(picture, bb(&mut counts[..]))?;
     canvas.pan(bb(1), bb(-1))?;
     bb((canvas.computed(), canvas.row(row().0, row().1).nth(bb(3))));
     let mut bits = [0; 150];
     let filled = Filled::new(picture, bb(&mut bits[..]))?;
-    bb((Filled::<P>::bytes(bb(Size::new(1, 1))), filled.dwell_at(bb(1), bb(1))));
+    bb((Filled::<P>::bytes(bb(Size::new(1, 1))), filled.at(bb(1), bb(1))));
     bb(filled.row(row().0, row().1).nth(bb(3)));
     let mut below = [0; 100];
     let palette = draw::Equalised::new(&smooth, &mut below, gradients::FIRE)?;
@@ -178,7 +179,7 @@ fn on<C: draw::Ink + From<BinaryColor>>() -> Result<(), Error> {
     let Ok(_) = ColoredDots::<_, _, C>::new(coloured.clone(), window, gradients::DUSK).draw(&mut display);
     let moved = ColoredDots::<_, _, C>::new(coloured, window, gradients::DUSK).at(bb(Point::zero()));
     let Ok(_) = moved.with_dither_origin(bb(Point::zero())).draw_once(&mut display);
-    let path = points.map(attractor::picture::Step::LineTo);
+    let path = points.map(attractor::plane::PathElement::LineTo);
     let Ok(_) = Stroke::new(path, window, white).at(bb(Point::zero())).draw(&mut display);
     Ok(())
 }

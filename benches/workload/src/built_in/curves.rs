@@ -8,7 +8,7 @@ use attractor::curve::{
 };
 use attractor::draw::Ink;
 use attractor::num::{Real, Unit, Wide};
-use attractor::picture::Point2;
+use attractor::plane::Point2;
 use attractor_gallery::{CurvePicture, LSystemPicture, Named, Pencil, RandomCurvePicture};
 
 use crate::sink::{Colour, Failure, Stage};

@@ -2,11 +2,12 @@
 
 use attractor::Error;
 use attractor::draw::Ink;
-use attractor::escape::{Complex, JuliaCover, JuliaSet};
+use attractor::escape::{JuliaCover, JuliaSet};
 use attractor::ifs::catalogue::Attractor;
 use attractor::ifs::{Affine, ChaosGame, CopiedPath, Density, Ifs};
+use attractor::num::Complex;
 use attractor::num::{Real, Unit, Wide};
-use attractor::picture::Point2;
+use attractor::plane::Point2;
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor_gallery::{Copies, IfsPicture, JuliaSetPicture, Method, Named, Shading};
 

@@ -3,10 +3,11 @@
 use core::hint::black_box;
 
 use attractor::Error;
-use attractor::escape::{Complex, JuliaCover, JuliaSet, View};
+use attractor::escape::{JuliaCover, JuliaSet, View};
 use attractor::fixed::types::I3F29;
+use attractor::num::Complex;
 use attractor::num::Wide;
-use attractor::picture::Field as _;
+use attractor::plane::Field as _;
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 use embedded_graphics::geometry::Size;

@@ -8,7 +8,7 @@ use attractor::curve::{
     Subdivision, TwoVariable, koch,
 };
 use attractor::num::{Real, Unit, Wide};
-use attractor::picture::Step;
+use attractor::plane::PathElement;
 
 use super::{Tally, Watch, fold};
 use crate::float::mul_add;
@@ -18,10 +18,10 @@ use crate::inputs::{mixed, table};
 const ORDER: usize = 6;
 
 /// Walks a path to its end, from the same start in each run.
-fn walk(watch: &mut Watch<'_>, path: &(impl Iterator<Item = Step> + Clone)) -> Tally {
+fn walk(watch: &mut Watch<'_>, path: &(impl Iterator<Item = PathElement> + Clone)) -> Tally {
     watch.time(|| {
         let mut tally = Tally::default();
-        for Step::MoveTo(p) | Step::LineTo(p) in path.clone() {
+        for PathElement::MoveTo(p) | PathElement::LineTo(p) in path.clone() {
             tally.checksum = tally.checksum.rotate_left(1) ^ p.x.to_bits() as u32 ^ p.y.to_bits() as u32;
             tally.units += 1;
         }

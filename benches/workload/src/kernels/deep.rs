@@ -6,9 +6,9 @@ use core::hint::black_box;
 
 use attractor::Error;
 use attractor::escape::{
-    Arithmetic, DeepMandelbrot, DeepView, Distance, Interior, Mandelbrot, OrbitPoint, Smooth, View,
+    Arithmetic, DeepMandelbrot, DeepView, Distance, Interior, Mandelbrot, OrbitPoint, Period, Smooth, View,
 };
-use attractor::picture::Field;
+use attractor::plane::Field;
 use embedded_graphics::geometry::Size;
 
 use super::{Tally, Watch};
@@ -130,7 +130,7 @@ pub(super) fn distance(watch: &mut Watch<'_>) -> Tally {
 
 #[inline(never)]
 pub(super) fn period(watch: &mut Watch<'_>) -> Tally {
-    pixels(watch, Interior, |period| period.0)
+    pixels(watch, Interior, |period| period.map_or(0, Period::length))
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@
 use core::hint::black_box;
 
 use attractor::Error;
-use attractor::escape::{Complex, Mandelbrot, Precision, View};
+use attractor::escape::{Arithmetic, Mandelbrot, View};
+use attractor::num::Complex;
 use attractor::num::Wide;
 use embedded_graphics::geometry::Size;
 
@@ -15,14 +16,14 @@ use super::{Tally, Watch};
 const MAX: u32 = 1000;
 const POINTS: usize = 32;
 
-fn set(precision: Precision) -> Result<Mandelbrot, Error> {
-    Ok(Mandelbrot::new(View::home(Size::new(240, 240))?, MAX)?.with_precision(precision))
+fn set(arithmetic: Arithmetic) -> Result<Mandelbrot, Error> {
+    Mandelbrot::new(View::home(Size::new(240, 240))?, MAX)?.with_arithmetic(arithmetic)
 }
 
 /// Points of a grid of pitch `2^-6` whose orbits are long and end.
 fn points() -> [Complex<Wide>; POINTS] {
     let mut points = [Complex::new(Wide::ZERO, Wide::ZERO); POINTS];
-    let Ok(set) = set(Precision::Fine29) else { return points };
+    let Ok(set) = set(Arithmetic::Word29) else { return points };
     let grid = (0..128 * 128).map(|i| {
         let part = |offset: i32, k: i32| Wide::from_bits(i64::from(k - offset) << 42);
         Complex::new(part(128, i % 128), part(0, i / 128))
@@ -34,9 +35,9 @@ fn points() -> [Complex<Wide>; POINTS] {
     points
 }
 
-fn dwells(watch: &mut Watch<'_>, precision: Precision) -> Tally {
+fn dwells(watch: &mut Watch<'_>, arithmetic: Arithmetic) -> Tally {
     let points = points();
-    let Ok(set) = set(precision) else { return Tally::default() };
+    let Ok(set) = set(arithmetic) else { return Tally::default() };
     watch.time(|| {
         let mut tally = Tally::default();
         for c in black_box(&points) {
@@ -50,12 +51,12 @@ fn dwells(watch: &mut Watch<'_>, precision: Precision) -> Tally {
 
 #[inline(never)]
 pub(super) fn fine(watch: &mut Watch<'_>) -> Tally {
-    dwells(watch, Precision::Fine29)
+    dwells(watch, Arithmetic::Word29)
 }
 
 #[inline(never)]
 pub(super) fn coarse(watch: &mut Watch<'_>) -> Tally {
-    dwells(watch, Precision::Coarse26)
+    dwells(watch, Arithmetic::Word26)
 }
 
 /// The textbook's loop: two squares, one product, three sums, one comparison.
@@ -124,7 +125,7 @@ mod tests {
     fn the_grid_has_enough_points_with_long_orbits() {
         let points = points();
         assert!(points.iter().all(|c| c.re != Wide::ZERO || c.im != Wide::ZERO));
-        let total: u32 = points.iter().map(|c| set(Precision::Fine29).unwrap().dwell_at(*c).count).sum();
+        let total: u32 = points.iter().map(|c| set(Arithmetic::Word29).unwrap().dwell_at(*c).count).sum();
         assert!(total > 32 * 200, "{total}");
     }
 

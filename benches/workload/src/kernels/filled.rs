@@ -2,10 +2,11 @@
 
 use attractor::Error;
 use attractor::escape::{
-    Arithmetic, Complex, DeepMandelbrot, DeepView, Dwell, Filled, Julia, Mandelbrot, OrbitPoint, View,
+    Arithmetic, DeepMandelbrot, DeepView, Dwell, Filled, Julia, Mandelbrot, OrbitPoint, View,
 };
+use attractor::num::Complex;
 use attractor::num::Wide;
-use attractor::picture::Field;
+use attractor::plane::Field;
 use embedded_graphics::geometry::Size;
 
 use super::{Tally, Watch};

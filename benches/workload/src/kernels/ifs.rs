@@ -6,7 +6,7 @@ use attractor::Error;
 use attractor::ifs::catalogue::BARNSLEY_FERN;
 use attractor::ifs::{ChaosGame, Counter, Density, Hits};
 use attractor::num::{Alias, Real};
-use attractor::picture::{Bounds2, Field, Point2, Step, Window};
+use attractor::plane::{Bounds2, Field, PathElement, Point2, Window};
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -214,7 +214,7 @@ pub(super) fn copied_path(watch: &mut Watch<'_>) -> Tally {
     };
     watch.time(|| {
         let mut tally = Tally::default();
-        for Step::MoveTo(p) | Step::LineTo(p) in copier.clone().path() {
+        for PathElement::MoveTo(p) | PathElement::LineTo(p) in copier.clone().path() {
             tally.checksum = tally.checksum.rotate_left(1) ^ p.x.to_bits() as u32 ^ p.y.to_bits() as u32;
             tally.units += 1;
         }

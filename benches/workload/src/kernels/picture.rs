@@ -2,7 +2,7 @@
 
 use embedded_graphics::geometry::Size;
 
-use attractor::picture::Field as _;
+use attractor::plane::Field as _;
 
 use super::trace::with_pyramid;
 use super::{Tally, Watch};

@@ -230,7 +230,7 @@ mod tests {
     use crate::surface::{g_integral, mirror};
     use attractor::fif::{Cell, Pyramid};
     use attractor::num::Wide;
-    use attractor::picture::Field as _;
+    use attractor::plane::Field as _;
     use embedded_graphics::geometry::Size;
 
     #[test]

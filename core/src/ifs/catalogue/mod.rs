@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn the_pieces_of_a_curve_join_end_to_end() {
         use crate::num::Real;
-        use crate::picture::Point2;
+        use crate::plane::Point2;
         let (start, end) = (Point2::default(), Point2::new(Real::ONE, Real::ZERO));
         for curve in [&KOCH_CURVE, &LEVY_C_CURVE, &PENTIGREE, &TERDRAGON] {
             let mut pen = start;

@@ -1,0 +1,101 @@
+//! The orbit of a point in 32-bit words, for who looks at more of it than its dwell.
+
+use crate::escape::orbit::arithmetic::Arithmetic;
+use crate::escape::orbit::block_float::BlockFloat;
+use crate::escape::orbit::cardioid;
+use crate::escape::orbit::cycle::{self, Path};
+use crate::escape::orbit::dwell::{FRACTION, Fine, Point29, Rounding, is_beyond};
+use crate::escape::orbit::ending::{Ending, Steps, follow};
+use crate::escape::orbit::upper::Upper;
+use crate::escape::value::Dwell;
+use crate::num::Complex;
+use crate::num::Wide;
+
+/// The orbit of a point: where it starts, the constant, and how it is rounded: as where the dwell is counted.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WordOrbit {
+    pub(crate) z: Point29,
+    pub(crate) c: Point29,
+    pub(crate) arithmetic: Arithmetic,
+}
+
+impl Steps for WordOrbit {
+    #[inline]
+    fn step(&mut self) {
+        self.z = self.arithmetic.next(self.z, self.c);
+    }
+
+    #[inline]
+    fn z(&self) -> BlockFloat {
+        block(self.z)
+    }
+
+    fn c(&self) -> BlockFloat {
+        block(self.c)
+    }
+}
+
+impl Path for WordOrbit {
+    fn run(&mut self, steps: u32) -> bool {
+        (0..steps).all(|_| self.next())
+    }
+
+    #[inline]
+    fn next(&mut self) -> bool {
+        if is_beyond(self.z) {
+            return false;
+        }
+        // |c| <= 2: no point beyond 2 wraps into the disc but 6, at c = 2
+        self.z = Fine::step(self.z, self.c);
+        !is_beyond(self.z)
+    }
+
+    fn z(&self) -> BlockFloat {
+        block(self.z)
+    }
+
+    fn off(&self, other: &Self) -> BlockFloat {
+        // each within 2
+        block((self.z.0.wrapping_sub(other.z.0), self.z.1.wrapping_sub(other.z.1)))
+    }
+
+    fn blur(&self) -> Upper {
+        self.step_error()
+    }
+
+    fn step_error(&self) -> Upper {
+        // below a unit in each part
+        Upper::power(1 - FRACTION as i32)
+    }
+}
+
+fn block((x, y): Point29) -> BlockFloat {
+    BlockFloat::<i32>::new(i64::from(x), i64::from(y), -(FRACTION as i32))
+}
+
+/// A point beyond 2 is no word: 20 fractional bits, as many of them as a block holds.
+fn beyond(z: Complex<Wide>, c: Complex<Wide>, gain: BlockFloat) -> Ending {
+    let block = |v: Complex<Wide>| BlockFloat::<i32>::new(v.re.to_bits() >> 28, v.im.to_bits() >> 28, -20);
+    Ending { steps: 0, z: block(z), c: block(c), derivative: BlockFloat::<i32>::ONE, gain }
+}
+
+/// The cycle that an orbit is drawn to, by formula where there is one.
+pub(crate) fn period(orbit: WordOrbit, max: u32) -> Option<u32> {
+    if is_beyond(orbit.c) {
+        return None;
+    }
+    cardioid::period(orbit.c).or_else(|| cycle::period(orbit, max))
+}
+
+/// How the orbit of `z` under the constant `c` ends; none inside. Without an orbit the start is beyond 2 already.
+pub(crate) fn ending<const DERIVATIVE: bool>(
+    dwell: Dwell,
+    orbit: Option<WordOrbit>,
+    (z, c): (Complex<Wide>, Complex<Wide>),
+    gain: BlockFloat,
+) -> Option<Ending> {
+    if dwell.is_inside() {
+        return None;
+    }
+    Some(orbit.map_or_else(|| beyond(z, c, gain), |orbit| follow::<DERIVATIVE, _>(orbit, dwell.count, gain)))
+}

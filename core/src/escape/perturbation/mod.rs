@@ -1,0 +1,4 @@
+//! Perturbation: one orbit in wide numbers, and for each pixel its small distance from it.
+
+pub(crate) mod jumps;
+pub(crate) mod reference;

@@ -1,0 +1,48 @@
+//! What the escape-time pictures have in common, for the types that colour them in another way or draw them faster.
+
+use core::iter::FusedIterator;
+use core::ops::Range;
+
+use crate::Error;
+use crate::escape::orbit::ending::Ending;
+use crate::escape::value::{Dwell, Period};
+use crate::plane::{Field, along};
+
+/// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`](crate::escape::Mandelbrot), [`Julia`](crate::escape::Julia) and
+/// [`DeepMandelbrot`](crate::escape::DeepMandelbrot).
+pub trait EscapeTime: Field<Value = Dwell> {
+    /// What an orbit belongs to: a point of the plane, or in a deep view the column and row of a pixel.
+    type Point: Copy;
+
+    /// The point in the middle of a pixel.
+    fn point_at(&self, column: u32, row: u32) -> Self::Point;
+    /// The points of a part of a row, from left to right.
+    fn line(
+        &self,
+        row: u32,
+        columns: Range<u32>,
+    ) -> impl ExactSizeIterator<Item = Self::Point> + FusedIterator {
+        along(columns, move |column| self.point_at(column, row))
+    }
+    /// The dwell of a point that does not escape.
+    fn max_dwell(&self) -> u32;
+    /// The dwell at a point.
+    fn dwell_at(&self, point: Self::Point) -> Dwell;
+    /// Where the orbit of a point is when it escapes; none where it does not.
+    fn ending(&self, point: Self::Point) -> Option<Ending>;
+    /// The same with the derivative by the point.
+    fn ending_with_derivative(&self, point: Self::Point) -> Option<Ending>;
+    /// The cycle that the orbit of a point is drawn to; none where it escapes or no cycle shows.
+    fn period_at(&self, point: Self::Point) -> Option<Period>;
+    /// The distance of two neighbouring pixels: `mantissa 2^exponent`, the mantissa at least `2^28`.
+    fn pitch(&self) -> (u32, i32);
+    /// The row above this one that shows the conjugate points, and has the same dwells to the last bit.
+    fn mirror_image(&self, row: u32) -> Option<u32>;
+    /// The same picture, moved by whole pixels to the right and up.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] where the view ends.
+    fn panned(self, right: i32, up: i32) -> Result<Self, Error>
+    where
+        Self: Sized;
+}

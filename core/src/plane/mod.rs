@@ -1,0 +1,29 @@
+//! What kernels show, on the plane: points, paths and fields, and the window through which a display looks at it.
+//!
+//! There are three kinds of picture, each lazy and without a buffer:
+//!
+//! - *points*: an `Iterator<Item = Point2>` (chaos game, sampled attractors);
+//! - *path*: an `Iterator<Item = PathElement>` of move-to and line-to (graphs of functions, Koch curves);
+//! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster); a closure becomes one with [`from_fn()`].
+//!
+//! A path:
+//!
+#![doc = include_str!("../../docs/curve.md")]
+//! A field:
+//!
+#![doc = include_str!("../../docs/escape.md")]
+
+mod field;
+mod from_fn;
+mod path;
+mod point;
+mod size;
+mod window;
+
+pub use field::{Field, along};
+pub use from_fn::{FromFn, from_fn};
+pub use path::PathElement;
+pub use point::{Bounds2, Point2};
+pub use size::{MAX_SIDE, checked_size};
+pub use window::Window;
+pub(crate) use window::{from, part};
