@@ -4,7 +4,7 @@
 //!
 //! `attractor` is a `no_std` kernel without allocation, without `unsafe`, without a panicking path and without floating
 //! point: it gives the same bits on a Cortex-M4, a Cortex-M0, RISC-V and the desktop. Everything it computes is one of three kinds of
-//! [picture]: points, a path, or a field of values; [draw] puts any of them on any `embedded-graphics` display.
+//! [picture](plane): points, a path, or a field of values; [draw] puts any of them on any `embedded-graphics` display.
 //!
 //! | room | what it knows |
 //! | --- | --- |

@@ -10,7 +10,7 @@ use crate::draw::clip::{Spans, common, spans};
 use crate::draw::line::Line;
 use crate::plane::{PathElement, Window};
 
-/// Draws an iterator of [`Step`], one pixel wide, as seen through a [`Window`].
+/// Draws an iterator of [`PathElement`], one pixel wide, as seen through a [`Window`].
 ///
 /// Lines run from pixel to pixel, so any coordinates of the plane are welcome; they are clipped to the window and to the target without
 /// moving a pixel. A point where two lines meet is drawn once, a line that ends in the pixel where it began draws nothing more; where a

@@ -10,11 +10,11 @@ use crate::escape::Distance;
 use crate::escape::FractionalDwell;
 use crate::escape::Smooth;
 use crate::escape::orbit::dwell::tests::orbit;
+use crate::escape::orbit::narrow::narrow;
 use crate::escape::set::julia::Julia;
 use crate::escape::set::mandelbrot::Mandelbrot;
 use crate::escape::value::Dwell;
 use crate::escape::view::shallow::View;
-use crate::escape::view::shallow::narrow;
 use crate::num::Complex;
 use crate::num::{Real, Wide};
 

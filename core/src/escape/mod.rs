@@ -35,4 +35,5 @@ pub use set::julia::Julia;
 pub use set::mandelbrot::Mandelbrot;
 pub use value::{Dwell, MAX_DWELL, MAX_PERIOD, Period};
 pub use view::deep::DeepView;
-pub use view::shallow::{MAX_PAN, View};
+pub use view::raster::MAX_PAN;
+pub use view::shallow::View;

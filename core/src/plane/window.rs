@@ -29,7 +29,7 @@ impl Window {
     /// Shows `bounds` on all of `size`, stretched if the aspect ratios differ (graphs of functions).
     ///
     /// # Errors
-    /// [`Error::Degenerate`] for an empty box, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`].
+    /// [`Error::Degenerate`] for an empty box, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`](super::MAX_SIDE).
     pub fn stretch(bounds: Bounds2, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let Bounds2 { min, max } = bounds;
@@ -44,7 +44,7 @@ impl Window {
     /// Shows all of `bounds`, centred, with square pixels: the shorter direction is widened, so that a line or a point may be shown.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] for a box that ends before it begins, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`].
+    /// [`Error::Degenerate`] for a box that ends before it begins, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`](super::MAX_SIDE).
     pub fn fit(bounds: Bounds2, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let axes = [(bounds.min.x, bounds.max.x, size.width), (bounds.min.y, bounds.max.y, size.height)];

@@ -37,6 +37,7 @@ use crate::plane::Field;
 ///
 /// ```
 /// use attractor::escape::{Filled, Mandelbrot, View};
+/// use attractor::plane::Field;
 /// use embedded_graphics_core::geometry::Size;
 /// let picture = Mandelbrot::new(View::home(Size::new(24, 20))?, 1000)?;
 /// let mut bits = [0; Filled::<Mandelbrot>::bytes(Size::new(24, 20))];

@@ -10,8 +10,8 @@ use crate::Error;
 use crate::escape::julia_set::square_root::square_root;
 use crate::escape::orbit::cardioid;
 use crate::escape::orbit::dwell::{self, FRACTION, Fine, Point29};
+use crate::escape::orbit::narrow::narrow;
 use crate::escape::value::checked_max;
-use crate::escape::view::shallow::narrow;
 use crate::num::Complex;
 use crate::num::{Wide, sqrt};
 

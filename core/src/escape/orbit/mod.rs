@@ -6,6 +6,7 @@ pub(crate) mod cardioid;
 pub(crate) mod cycle;
 pub(crate) mod dwell;
 pub(crate) mod ending;
+pub(crate) mod narrow;
 pub(crate) mod upper;
 pub(crate) mod wide_dwell;
 pub(crate) mod word_orbit;

@@ -7,11 +7,10 @@ use embedded_graphics_core::geometry::Size;
 
 use crate::Error;
 use crate::escape::orbit::block_float::{BlockFloat, Number};
-use crate::escape::view::shallow::MAX_PAN;
+use crate::escape::view::raster::Raster;
 use crate::escape::view::shallow::View;
 use crate::num::Complex;
 use crate::num::{Limbs, Wide};
-use crate::plane::checked_size;
 
 const FOUR: Wide = Wide::lit("4");
 
@@ -31,14 +30,12 @@ const GUARD: u32 = 8;
 pub struct DeepView<const LIMBS: usize> {
     centre: Complex<Limbs<LIMBS>>,
     width: Limbs<LIMBS>,
-    size: Size,
+    raster: Raster,
     /// `W / (2 cols)`: quotient and remainder.
     half_pitch: Limbs<LIMBS>,
     rest: u32,
     /// The same as a real block. Error: below `2^-49` of it (`the_grid_is_that_of_the_narrow_view`).
     half_pitch_block: BlockFloat<i64>,
-    /// Pixels by which the view was panned, to the right and up.
-    panned: (i32, i32),
 }
 
 impl<const LIMBS: usize> DeepView<LIMBS> {
@@ -50,7 +47,7 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     /// [`Error::OutOfRange`] names the width, the height, the part of the centre or the side of the picture; [`Error::Capacity`] says how many
     /// limbs a width as small as this takes.
     pub fn new(centre: Complex<Limbs<LIMBS>>, width: Limbs<LIMBS>, size: Size) -> Result<Self, Error> {
-        let size = checked_size(size)?;
+        let raster = Raster::new(size)?;
         let out = |what, value, min| Err(Error::OutOfRange { what, index: None, value, min, max: FOUR });
         let wide = width.to_wide();
         let highest = match width.highest_bit() {
@@ -83,7 +80,7 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         }
         let (half_pitch, rest) = width.divided(2 * size.width);
         let half_pitch_block = half_pitch_block(&width, size);
-        Ok(Self { centre, width, size, half_pitch, rest, half_pitch_block, panned: (0, 0) })
+        Ok(Self { centre, width, raster, half_pitch, rest, half_pitch_block })
     }
 
     /// [`DeepView::new`] with coordinates in decimal.
@@ -115,12 +112,12 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
 
     /// Width and height in pixels.
     pub const fn size(&self) -> Size {
-        self.size
+        self.raster.size()
     }
 
     /// By how many pixels it was panned since it was made, to the right and up.
     pub const fn panned(&self) -> (i32, i32) {
-        self.panned
+        self.raster.panned()
     }
 
     /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
@@ -128,26 +125,22 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     /// # Errors
     /// [`Error::OutOfRange`] when an edge is more than 6 away from 0, or after more than [`MAX_PAN`] pixels in one direction.
     pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
-        const MOST: Wide = Wide::from_bits((MAX_PAN as i64) << 48);
         const SIX: Wide = Wide::lit("6");
-        let panned = (self.panned.0.saturating_add(right), self.panned.1.saturating_add(up));
+        let raster = self.raster.pan(right, up)?;
         let half_pitch = i128::from(self.half_pitch.to_wide().to_bits()) + 1;
-        for (what, middle, steps, side) in [
-            ("real part at an edge", &self.centre.re, panned.0, self.size.width),
-            ("imaginary part at an edge", &self.centre.im, panned.1, self.size.height),
+        let [across, high] = raster.reach();
+        for (what, middle, half_pitches) in [
+            ("real part at an edge", &self.centre.re, across),
+            ("imaginary part at an edge", &self.centre.im, high),
         ] {
-            if steps.unsigned_abs() > MAX_PAN {
-                let (what, value) = ("pixels to pan", Wide::saturating_from_num(steps));
-                return Err(Error::OutOfRange { what, index: None, value, min: -MOST, max: MOST });
-            }
-            let reach = half_pitch * i128::from(2 * steps.unsigned_abs() + side)
-                + i128::from(middle.to_wide().to_bits().unsigned_abs());
+            let reach =
+                half_pitch * i128::from(half_pitches) + i128::from(middle.to_wide().to_bits().unsigned_abs());
             if reach > i128::from(SIX.to_bits()) {
                 let value = Wide::from_bits(i64::try_from(reach).unwrap_or(i64::MAX));
                 return Err(Error::OutOfRange { what, index: None, value, min: -SIX, max: SIX });
             }
         }
-        Ok(Self { panned, ..*self })
+        Ok(Self { raster, ..*self })
     }
 
     /// The middle of pixel `(column, row)`, `(0, 0)` at the upper left.
@@ -164,10 +157,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
 
     /// Half pitches from the centre, to the right and up: odd or even, at most 2^17.
     pub(crate) fn steps(&self, column: u32, row: u32) -> (i32, i32) {
-        let (width, height) = (self.size.width as i32, self.size.height as i32);
-        let column = column.min(self.size.width - 1) as i32;
-        let row = row.min(self.size.height - 1) as i32;
-        (2 * (column + self.panned.0) + 1 - width, height - 1 - 2 * (row - self.panned.1))
+        let Size { width, height } = self.raster.size();
+        (self.raster.across(column.min(width - 1)), self.raster.up(row.min(height - 1)))
     }
 
     /// Whether the centre is real: rows as far below the axis as others above it then show the conjugate points, exactly.
@@ -184,7 +175,7 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     }
 
     fn offset(&self, steps: i32) -> Limbs<LIMBS> {
-        let divisor = 2 * i64::from(self.size.width);
+        let divisor = 2 * i64::from(self.raster.size().width);
         let units = (i64::from(steps) * i64::from(self.rest)).checked_div_euclid(divisor).unwrap_or(0);
         self.half_pitch.times_small(steps).plus_units(units)
     }
@@ -209,7 +200,7 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
 
     /// An exponent of 2 that the distance of a pixel from the centre is below, also after panning by half the picture.
     pub(crate) fn reach(&self) -> i32 {
-        self.distance((self.size.width as i32, self.size.height as i32)).above() + 1
+        self.distance((self.raster.size().width as i32, self.raster.size().height as i32)).above() + 1
     }
 }
 

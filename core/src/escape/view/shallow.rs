@@ -12,16 +12,10 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use crate::Error;
-use crate::escape::orbit::dwell::{FRACTION, Point29, is_beyond};
+use crate::escape::orbit::narrow::NARROWED;
+use crate::escape::view::raster::Raster;
 use crate::num::Complex;
-use crate::num::{Wide, high_of_square, mul_high_u};
-use crate::plane::checked_size;
-
-/// Fractional bits that a point loses when it becomes a [`Word`].
-const NARROWED: u32 = Wide::FRAC_NBITS - FRACTION;
-
-/// The most pixels by which [`View::pan`] moves a view.
-pub const MAX_PAN: u32 = (1 << 15) - 1;
+use crate::num::Wide;
 
 /// A rectangle of the complex plane and the square pixels that show it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,12 +27,10 @@ pub const MAX_PAN: u32 = (1 << 15) - 1;
 pub struct View {
     centre: Complex<Wide>,
     width: Wide,
-    size: Size,
+    raster: Raster,
     /// Half a pitch, `W / (2 cols)`: quotient in units of `2^-48`, and remainder.
     half_pitch: i64,
     rest: i32,
-    /// Pixels by which the view was panned, to the right and up.
-    panned: (i32, i32),
 }
 
 impl View {
@@ -61,7 +53,7 @@ impl View {
     /// # Ok::<(), attractor::Error>(())
     /// ```
     pub fn new(centre: Complex<Wide>, width: Wide, size: Size) -> Result<Self, Error> {
-        let size = checked_size(size)?;
+        let raster = Raster::new(size)?;
         // at most 2^14 each
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
         let least = Wide::from_bits(cols << NARROWED);
@@ -84,7 +76,7 @@ impl View {
                 return Err(Error::OutOfRange { what, index: None, value, min: Wide::MIN, max: Wide::MAX });
             }
         }
-        Ok(Self { centre, width, size, half_pitch: quotient, rest: rest as i32, panned: (0, 0) })
+        Ok(Self { centre, width, raster, half_pitch: quotient, rest: rest as i32 })
     }
 
     /// The whole Mandelbrot set: centre `-3/4`, at least 3 wide and 5/2 high, as large as it fits.
@@ -95,7 +87,7 @@ impl View {
         const CENTRE: Wide = Wide::lit("-0.75");
         const WIDTH: i64 = Wide::lit("3").to_bits();
         const HEIGHT: i64 = Wide::lit("2.5").to_bits();
-        let size = checked_size(size)?;
+        let size = Raster::new(size)?.size();
         // 2.5 cols / rows may exceed the format for a very flat display
         let scaled = (HEIGHT >> 16).saturating_mul(i64::from(size.width)); // below 2^34 2^14
         let fitting = scaled.checked_div(i64::from(size.height)).unwrap_or(0).saturating_mul(1 << 16);
@@ -114,12 +106,12 @@ impl View {
 
     /// Width and height in pixels.
     pub const fn size(&self) -> Size {
-        self.size
+        self.raster.size()
     }
 
     /// By how many pixels it was panned since it was made, to the right and up.
     pub const fn panned(&self) -> (i32, i32) {
-        self.panned
+        self.raster.panned()
     }
 
     /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
@@ -127,19 +119,14 @@ impl View {
     /// # Errors
     /// [`Error::OutOfRange`] when an edge leaves `-32768 .. 32768`, or after more than [`MAX_PAN`] pixels in one direction.
     pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
-        let panned = (self.panned.0.saturating_add(right), self.panned.1.saturating_add(up));
-        for (what, middle, steps, side) in [
-            ("real part at an edge", self.centre.re, panned.0, self.size.width),
-            ("imaginary part at an edge", self.centre.im, panned.1, self.size.height),
+        let raster = self.raster.pan(right, up)?;
+        let [across, high] = raster.reach();
+        for (what, middle, half_pitches) in [
+            ("real part at an edge", self.centre.re, across),
+            ("imaginary part at an edge", self.centre.im, high),
         ] {
-            let pixels = Wide::saturating_from_num(steps);
-            let most = Wide::from_num(MAX_PAN as i16);
-            if steps.unsigned_abs() > MAX_PAN {
-                let what = "pixels to pan";
-                return Err(Error::OutOfRange { what, index: None, value: pixels, min: -most, max: most });
-            }
             // at most 2^14 + 2^16 half pitches of at most 2^63 units
-            let half_pitches = i128::from(2 * steps.unsigned_abs() + side) + 1;
+            let half_pitches = i128::from(half_pitches) + 1;
             let reach = i128::from(middle.to_bits().unsigned_abs())
                 + half_pitches * (i128::from(self.half_pitch) + 1);
             if reach > i128::from(i64::MAX) {
@@ -152,7 +139,7 @@ impl View {
                 });
             }
         }
-        Ok(Self { panned, ..*self })
+        Ok(Self { raster, ..*self })
     }
 
     /// The distance of two neighbouring pixels, rounded down.
@@ -171,19 +158,17 @@ impl View {
     /// Domain: inside [`View::size`]; others count as the nearest pixel. Error: exact if the point is a multiple of `2^-48`, else below `2^-48`
     /// (`the_grid_is_exact_where_it_can_be_and_rounded_once_elsewhere`).
     pub fn point(&self, column: u32, row: u32) -> Complex<Wide> {
-        let (re, rest) = self.abscissa(column.min(self.size.width - 1));
+        let (re, rest) = self.abscissa(column.min(self.raster.size().width - 1));
         Complex::new(sticky(re, rest), self.ordinate(row))
     }
 
     fn ordinate(&self, row: u32) -> Wide {
-        let row = row.min(self.size.height - 1);
-        let (im, rest) = self.offset(self.size.height as i32 - 1 - 2 * row as i32 + 2 * self.panned.1);
+        let (im, rest) = self.offset(self.raster.up(row.min(self.raster.size().height - 1)));
         sticky(self.centre.im.to_bits().wrapping_add(im), rest)
     }
 
     fn abscissa(&self, column: u32) -> (i64, i32) {
-        let column = column.min(self.size.width);
-        let (re, rest) = self.offset(2 * column as i32 + 1 - self.size.width as i32 + 2 * self.panned.0);
+        let (re, rest) = self.offset(self.raster.across(column.min(self.raster.size().width)));
         (self.centre.re.to_bits().wrapping_add(re), rest)
     }
 
@@ -198,14 +183,14 @@ impl View {
     }
 
     const fn divisor(&self) -> i32 {
-        2 * self.size.width as i32
+        2 * self.raster.size().width as i32
     }
 
     /// The row above this one at the conjugate points, if the view has it.
     pub(crate) fn mirror_image(&self, row: u32) -> Option<u32> {
         let ordinate = |row: u32| self.ordinate(row).to_bits();
         // rows are equally spaced: the sum of the indices is the same for all pairs
-        let (first, last) = (ordinate(0), ordinate(self.size.height - 1));
+        let (first, last) = (ordinate(0), ordinate(self.raster.size().height - 1));
         let pitch = self.pitch().to_bits();
         if last >= 0 || first <= 0 || ordinate(row) >= 0 {
             return None;
@@ -213,7 +198,7 @@ impl View {
         // (first - -y) / pitch, to nearest
         let steps = (first.wrapping_add(ordinate(row)) + pitch / 2).checked_div_euclid(pitch)?;
         let image = u32::try_from(steps).ok()?;
-        (image < self.size.height && ordinate(image) == -ordinate(row)).then_some(image)
+        (image < self.raster.size().height && ordinate(image) == -ordinate(row)).then_some(image)
     }
 
     /// The points of a row from left to right.
@@ -222,8 +207,8 @@ impl View {
         let mut line = RowPoints {
             view: *self,
             im: self.ordinate(row),
-            next: columns.start.min(self.size.width),
-            end: columns.end.min(self.size.width),
+            next: columns.start.min(self.raster.size().width),
+            end: columns.end.min(self.raster.size().width),
             re: 0,
             rest: 0,
             pitch,
@@ -301,55 +286,6 @@ impl Iterator for RowPoints {
 
 impl ExactSizeIterator for RowPoints {}
 impl FusedIterator for RowPoints {}
-
-/// The nearest stored point, none beyond the disc `|c| <= 2`.
-///
-/// Whether `c` is beyond is decided exactly, on all 48 bits; a point of the disc stays in the disc.
-/// Error: half a unit, `2^-30`, ties away from 0; at most one unit within `2^-24` of the circle
-/// (`narrowing_decides_the_circle_on_all_bits_and_rounds_to_nearest`).
-#[inline(always)]
-pub(crate) fn narrow(c: Complex<Wide>) -> Option<Point29> {
-    let (x, y) = (c.re.to_bits(), c.im.to_bits());
-    // beyond 2 + 2^-16 (an immediate on Cortex-M); what is left fits
-    let far = |v: i64| ((v >> 32) as i32).wrapping_add(2 << 16) as u32 > 4 << 16;
-    if far(x) || far(y) {
-        return None;
-    }
-    let nearest = |v: i64| ((v + (1 << (NARROWED - 1)) - i64::from(v < 0)) >> NARROWED) as i32;
-    let word = (nearest(x), nearest(y));
-    // Rounding moves |c|^2 by less than 2^-27, the high words lose less than 2^-25.
-    let square = high_square(word.0) + high_square(word.1);
-    if square < (1 << 28) - 4 {
-        return Some(word);
-    }
-    if square > (1 << 28) + 4 { None } else { narrow_at_the_circle(x, y, word) }
-}
-
-#[inline(always)]
-fn high_square(v: i32) -> u32 {
-    high_of_square(v) as u32
-}
-
-#[cold]
-fn narrow_at_the_circle(x: i64, y: i64, word: Point29) -> Option<Point29> {
-    // |v| < 2^49 + 2^33, times 2^13: below 2^63; the squares, 122 fractional bits, are added in two words
-    let halves = |v: i64| {
-        let v = v.unsigned_abs() << 13;
-        (mul_high_u(v, v), v.wrapping_mul(v))
-    };
-    let ((x_high, x_low), (y_high, y_low)) = (halves(x), halves(y));
-    let (low, carry) = x_low.overflowing_add(y_low);
-    let high = x_high + y_high + u64::from(carry);
-    // 4 with 122 - 64 fractional bits
-    if high > 1 << 60 || (high == 1 << 60 && low > 0) {
-        return None;
-    }
-    let towards_zero = |v: i64| {
-        let magnitude = (v.unsigned_abs() >> NARROWED) as i32;
-        if v < 0 { -magnitude } else { magnitude }
-    };
-    if is_beyond(word) { Some((towards_zero(x), towards_zero(y))) } else { Some(word) }
-}
 
 #[cfg(test)]
 mod tests {
@@ -440,54 +376,5 @@ mod tests {
             assert!(width >= 3.0 && height >= 2.499, "{width} {height}");
             assert!(width < 3.0001 || height < 2.5001, "{width} {height}");
         }
-    }
-
-    #[test]
-    fn narrowing_decides_the_circle_on_all_bits_and_rounds_to_nearest() {
-        let four = 4_i128 << 96;
-        let (mut inside, mut outside) = (0, 0);
-        let mut check = |x: i64, y: i64| {
-            let c = Complex::new(Wide::from_bits(x), Wide::from_bits(y));
-            let square = i128::from(x) * i128::from(x) + i128::from(y) * i128::from(y);
-            match narrow(c) {
-                None => {
-                    outside += 1;
-                    assert!(square > four, "{c:?}");
-                }
-                Some(word) => {
-                    inside += 1;
-                    assert!(square <= four && !is_beyond(word), "{c:?}");
-                    let limit = if square > four - (1 << 74) { 1 << 19 } else { 1 << 18 };
-                    for (v, w) in [(x, word.0), (y, word.1)] {
-                        assert!((v - (i64::from(w) << 19)).abs() <= limit, "{c:?} {word:?}");
-                    }
-                    let mirrored = Complex::new(-c.re, -c.im);
-                    assert_eq!(narrow(mirrored), Some((-word.0, -word.1)));
-                }
-            }
-        };
-        const TWO: i64 = 2 << 48;
-        for k in 0..2000 {
-            let (sin, cos) = (f64::from(k) / 2000.0 * core::f64::consts::TAU).sin_cos();
-            let (x, y) = ((cos * TWO as f64) as i64, (sin * TWO as f64) as i64);
-            for d in
-                [0, 1, 1 << 10, 1 << 17, 1 << 18, (1 << 18) + 1, 1 << 20, 1 << 22, 1 << 24, 1 << 33, 1 << 45]
-            {
-                for (a, b) in [(d, 0), (-d, 0), (0, d), (0, -d), (d, d), (-d, -d), (-d, d)] {
-                    check(x + a, y + b);
-                }
-            }
-        }
-        for v in [0, 1, -1, 1 << 18, -(1 << 18), (1 << 18) - 1, TWO / 3] {
-            check(v, v);
-        }
-        for v in [TWO, TWO + 1, -TWO, -TWO - 1, i64::MAX, i64::MIN + 1, 1 << 62] {
-            if v.abs() < 1 << 60 {
-                check(v, 0);
-            } else {
-                assert_eq!(narrow(Complex::new(Wide::ZERO, Wide::from_bits(v))), None);
-            }
-        }
-        assert!(inside > 1000 && outside > 1000);
     }
 }
