@@ -17,7 +17,7 @@ use crate::plane::Field;
 /// use attractor::escape::{Mandelbrot, View};
 /// use embedded_graphics::prelude::*;
 /// let picture = Mandelbrot::new(View::home(Size::new(48, 40))?, 100)?;
-/// let mut counts = [0; 100];
+/// let mut counts = [0; Equalised::counts(99)];
 /// let palette = Equalised::new(&picture, &mut counts, gradients::FIRE)?;
 /// # let _ = palette;
 /// # Ok::<(), attractor::Error>(())
@@ -31,13 +31,21 @@ pub struct Equalised<'a, P> {
     palette: P,
 }
 
+impl Equalised<'_, ()> {
+    /// How many words a picture takes whose outer counts are at most `most`: the length of the memory to lend. The dwell of
+    /// a point outside is at most `Num - 1`.
+    pub const fn counts(most: u32) -> usize {
+        (most as usize).saturating_add(1)
+    }
+}
+
 impl<'a, P> Equalised<'a, P> {
     /// Counts the values of a whole picture, and then paints as `palette` does at the equalised level.
     ///
-    /// Cost: every pixel of `picture` is computed once. Memory: 4 bytes a count; for a dwell `Num` words are enough.
+    /// Cost: every pixel of `picture` is computed once. Memory: 4 bytes a count.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] when a count is beyond the end of `counts`, with the length that the whole picture needs.
+    /// [`Error::BufferLength`] if `counts` is shorter than [`Equalised::counts`] of the largest count outside.
     pub fn new<F>(picture: &F, counts: &'a mut [u32], palette: P) -> Result<Self, Error>
     where
         F: Field,

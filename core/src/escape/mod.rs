@@ -30,7 +30,7 @@ pub use orbit::arithmetic::Arithmetic;
 pub use orbit::ending::Ending;
 pub use perturbation::reference::OrbitPoint;
 pub use set::deep_mandelbrot::DeepMandelbrot;
-pub use set::escape_time::EscapeTime;
+pub use set::escape_time::{EscapeTime, Pan};
 pub use set::julia::Julia;
 pub use set::mandelbrot::Mandelbrot;
 pub use value::{Dwell, MAX_DWELL, MAX_PERIOD, Period};

@@ -78,15 +78,22 @@ pub struct Density<'a, C> {
     maps: &'a mut [u8],
 }
 
+impl Density<'_, u8> {
+    /// How many counts a window of this size takes: the length of the memory to lend.
+    pub const fn counts_of(size: Size) -> usize {
+        size.width as usize * size.height as usize
+    }
+}
+
 impl<'a, C: Counter> Density<'a, C> {
     /// An empty count of what `window` shows: the buffer is cleared.
     ///
     /// Memory: one counter a pixel, lent; beyond that 88 bytes on a 32-bit machine.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] with the length needed unless there is exactly one counter for each pixel.
+    /// [`Error::BufferLength`] if `counts` is shorter than [`Density::counts_of`].
     pub fn new(window: Window, counts: &'a mut [C]) -> Result<Self, Error> {
-        check_length("counts", &window, counts.len())?;
+        let counts = one_each("counts", &window, counts)?;
         let Bounds2 { min, max } = window.bounds();
         let (fractions, extent) =
             window.fractions().map_or(([[0; 2]; 2], 0), |fractions| (fractions, from(min.x, max.x)));
@@ -97,9 +104,9 @@ impl<'a, C: Counter> Density<'a, C> {
     /// The same count, which also keeps the last map of each pixel in one byte a pixel: use [`Density::record_from`].
     ///
     /// # Errors
-    /// [`Error::BufferLength`] with the length needed unless there is exactly one byte for each pixel.
+    /// [`Error::BufferLength`] if `maps` is shorter than [`Density::counts_of`].
     pub fn with_maps(self, maps: &'a mut [u8]) -> Result<Self, Error> {
-        check_length("maps", &self.window, maps.len())?;
+        let maps = one_each("maps", &self.window, maps)?;
         maps.fill(0);
         Ok(Self { maps, ..self })
     }
@@ -235,11 +242,10 @@ impl<C: Counter> Extend<(Point2, u8)> for Density<'_, C> {
     }
 }
 
-fn check_length(what: &'static str, window: &Window, given: usize) -> Result<(), Error> {
-    let Size { width, height } = window.size();
-    // at most 2^28
-    let needed = (width * height) as usize;
-    if given == needed { Ok(()) } else { Err(Error::BufferLength { what, given, needed }) }
+/// What a window takes of a buffer with an element a pixel.
+fn one_each<'a, T>(what: &'static str, window: &Window, buffer: &'a mut [T]) -> Result<&'a mut [T], Error> {
+    let (given, needed) = (buffer.len(), Density::counts_of(window.size()));
+    buffer.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })
 }
 
 /// What a pixel of a [`Density`] shows.
@@ -370,7 +376,7 @@ mod tests {
 
     #[test]
     fn a_wrong_buffer_names_the_length_it_needs() {
-        for length in [0, 1199, 1201] {
+        for length in [0, 7, 1199] {
             let error = Density::new(window(40, 30), &mut vec![0_u8; length]).unwrap_err();
             assert_eq!(error, Error::BufferLength { what: "counts", given: length, needed: 1200 });
         }

@@ -39,7 +39,7 @@ pub(super) fn draw<P, D>(
     watch: Watch<'_, D>,
 ) -> Result<(), Fail>
 where
-    P: EscapeTime + Copy,
+    P: EscapeTime,
     D: DrawTarget<Error = Infallible>,
     D::Color: Depth,
 {

@@ -22,11 +22,11 @@ fn sum(picture: &impl Field<Value = Dwell>) -> Tally {
     }
 }
 
-fn show<const FILLED: bool>(watch: &mut Watch<'_>, picture: impl Field<Value = Dwell> + Copy) -> Tally {
+fn show<const FILLED: bool>(watch: &mut Watch<'_>, picture: impl Field<Value = Dwell>) -> Tally {
     let mut bits = [0; Filled::<Mandelbrot>::bytes(SIZE)];
     watch.time(|| {
         if FILLED {
-            Filled::new(picture, &mut bits).map_or(Tally::default(), |filled| sum(&filled))
+            Filled::new(&picture, &mut bits).map_or(Tally::default(), |filled| sum(&filled))
         } else {
             sum(&picture)
         }

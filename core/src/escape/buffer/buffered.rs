@@ -8,7 +8,7 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use crate::Error;
-use crate::escape::set::escape_time::EscapeTime;
+use crate::escape::set::escape_time::{EscapeTime, Pan};
 use crate::escape::value::Dwell;
 use crate::plane::{Field, along};
 
@@ -17,7 +17,7 @@ use crate::plane::{Field, along};
 /// ```
 /// use attractor::escape::{Buffered, Mandelbrot, View};
 /// use embedded_graphics_core::geometry::Size;
-/// let mut counts = [0; 24 * 20];
+/// let mut counts = [0; Buffered::<Mandelbrot>::counts(Size::new(24, 20))];
 /// let mut canvas = Buffered::new(Mandelbrot::new(View::home(Size::new(24, 20))?, 100)?, &mut counts)?;
 /// assert_eq!(canvas.computed(), 24 * 10);
 /// canvas.pan(3, 0)?;
@@ -31,17 +31,22 @@ pub struct Buffered<'a, P> {
     computed: usize,
 }
 
-impl<'a, P: EscapeTime + Copy> Buffered<'a, P> {
+impl<P> Buffered<'_, P> {
+    /// How many counts a picture takes: the length of the memory to lend.
+    pub const fn counts(size: Size) -> usize {
+        size.width as usize * size.height as usize
+    }
+}
+
+impl<'a, P: EscapeTime> Buffered<'a, P> {
     /// Computes the whole picture.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] unless there is one count a pixel, [`Error::Capacity`] for more than 65535 iterations.
+    /// [`Error::BufferLength`] if `counts` is shorter than [`Buffered::counts`], [`Error::Capacity`] for more than 65535 iterations.
     pub fn new(picture: P, counts: &'a mut [u16]) -> Result<Self, Error> {
         let size = picture.size();
-        let needed = size.width as usize * size.height as usize;
-        if counts.len() != needed {
-            return Err(Error::BufferLength { what: "counts", given: counts.len(), needed });
-        }
+        let (what, given, needed) = ("counts", counts.len(), Self::counts(size));
+        let counts = counts.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         let (most, max) = (usize::from(u16::MAX), picture.max_dwell() as usize);
         if max > most {
             let what = "iterations in 16 bits";
@@ -60,37 +65,6 @@ impl<'a, P: EscapeTime + Copy> Buffered<'a, P> {
     /// How many pixels the last change computed; the others were copied.
     pub const fn computed(&self) -> usize {
         self.computed
-    }
-
-    /// Moves the view by whole pixels, to the right and up, and computes what comes into sight.
-    ///
-    /// # Errors
-    /// As [`View::pan`](crate::escape::View::pan); the picture is then unchanged.
-    pub fn pan(&mut self, right: i32, up: i32) -> Result<(), Error> {
-        self.picture = self.picture.panned(right, up)?;
-        self.computed = 0;
-        let size = self.picture.size();
-        let (width, height) = (size.width as usize, size.height as usize);
-        let (across, down) = (right.unsigned_abs() as usize, up.unsigned_abs() as usize);
-        if across >= width || down >= height {
-            self.compute(0..size.height);
-            return Ok(());
-        }
-        // the picture moves the other way; within the buffer both shifts are one
-        let kept = (height - down) * width;
-        let (from, to) = if up >= 0 { (0, down * width) } else { (down * width, 0) };
-        self.shift(from, to, kept);
-        let exposed = if up >= 0 { 0..down as u32 } else { (height - down) as u32..size.height };
-        for row in self.counts.chunks_exact_mut(width.max(1)) {
-            let across = across.min(row.len());
-            if right >= 0 { row.rotate_left(across) } else { row.rotate_right(across) }
-        }
-        let columns = if right >= 0 { size.width - across as u32..size.width } else { 0..across as u32 };
-        for y in (0..size.height).filter(|y| !exposed.contains(y)) {
-            self.compute_row(y, columns.clone());
-        }
-        self.compute(exposed);
-        Ok(())
     }
 
     /// Computes whole rows, or copies them from their mirror images, which come before them.
@@ -126,6 +100,39 @@ impl<'a, P: EscapeTime + Copy> Buffered<'a, P> {
         for (slot, dwell) in slots.iter_mut().zip(self.picture.row(y, columns)) {
             *slot = dwell.count as u16;
         }
+    }
+}
+
+impl<P: EscapeTime + Pan> Buffered<'_, P> {
+    /// Moves the view by whole pixels, to the right and up, and computes what comes into sight.
+    ///
+    /// # Errors
+    /// As [`View::pan`](crate::escape::View::pan); the picture is then unchanged.
+    pub fn pan(&mut self, right: i32, up: i32) -> Result<(), Error> {
+        self.picture.pan(right, up)?;
+        self.computed = 0;
+        let size = self.picture.size();
+        let (width, height) = (size.width as usize, size.height as usize);
+        let (across, down) = (right.unsigned_abs() as usize, up.unsigned_abs() as usize);
+        if across >= width || down >= height {
+            self.compute(0..size.height);
+            return Ok(());
+        }
+        // the picture moves the other way; within the buffer both shifts are one
+        let kept = (height - down) * width;
+        let (from, to) = if up >= 0 { (0, down * width) } else { (down * width, 0) };
+        self.shift(from, to, kept);
+        let exposed = if up >= 0 { 0..down as u32 } else { (height - down) as u32..size.height };
+        for row in self.counts.chunks_exact_mut(width.max(1)) {
+            let across = across.min(row.len());
+            if right >= 0 { row.rotate_left(across) } else { row.rotate_right(across) }
+        }
+        let columns = if right >= 0 { size.width - across as u32..size.width } else { 0..across as u32 };
+        for y in (0..size.height).filter(|y| !exposed.contains(y)) {
+            self.compute_row(y, columns.clone());
+        }
+        self.compute(exposed);
+        Ok(())
     }
 }
 

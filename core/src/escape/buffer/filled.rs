@@ -59,7 +59,7 @@ const INSIDE: u8 = 1;
 const OUTSIDE: u8 = 2;
 
 impl<P> Filled<'_, P> {
-    /// How many bytes a picture takes.
+    /// How many bytes a picture takes: the length of the memory to lend.
     pub const fn bytes(size: Size) -> usize {
         (size.width as usize * size.height as usize).div_ceil(4)
     }
@@ -89,12 +89,11 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     /// Nothing is known yet.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] unless `bits` has [`Filled::bytes`] elements.
+    /// [`Error::BufferLength`] if `bits` is shorter than [`Filled::bytes`].
     pub fn new(picture: P, bits: &'a mut [u8]) -> Result<Self, Error> {
         let needed = Self::bytes(picture.size());
-        if bits.len() != needed {
-            return Err(Error::BufferLength { what: "bytes of known pixels", given: bits.len(), needed });
-        }
+        let (what, given) = ("bytes of known pixels", bits.len());
+        let bits = bits.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         bits.fill(0);
         let inner = Cell::new(Dwell { count: 0, max: 0 });
         Ok(Self { picture, states: Cell::from_mut(bits).as_slice_of_cells(), inner })
@@ -475,10 +474,13 @@ mod tests {
             let inside = (0..h).flat_map(|y| filled.row(y, 0..w)).filter(|dwell| dwell.is_inside());
             let plain = (0..h).flat_map(|y| picture.row(y, 0..w)).filter(|dwell| dwell.is_inside());
             assert_eq!(inside.count(), plain.count());
+            // a longer buffer will do
             bits.push(0);
+            assert!(Filled::new(picture, &mut bits).is_ok());
+            bits.truncate(bits.len() - 2);
             let error = Filled::new(picture, &mut bits).err();
             let (what, given) = ("bytes of known pixels", bits.len());
-            assert_eq!(error, Some(Error::BufferLength { what, given, needed: given - 1 }));
+            assert_eq!(error, Some(Error::BufferLength { what, given, needed: given + 1 }));
         }
     }
 }

@@ -47,6 +47,17 @@ impl Arithmetic {
         }
     }
 
+    /// How many points a reference orbit of so many iterations takes: the length of the memory to lend. None is needed where
+    /// nothing is perturbed.
+    pub const fn orbit_points(self, max_dwell: u32) -> usize {
+        let steps = if max_dwell < 2 { 2 } else { max_dwell as usize };
+        match self {
+            Self::Perturbed => steps,
+            Self::PerturbedLong => 2 * steps,
+            _ => 0,
+        }
+    }
+
     /// What suits a view in 32-bit words: the loss of 3 bits changes fewer than 1 pixel in 1000
     /// (`a_dyadic_grid_agrees_with_248_bits`).
     pub(crate) fn of_word(pitch: Wide, max: u32) -> Self {

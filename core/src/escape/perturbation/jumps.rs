@@ -42,7 +42,7 @@ impl<N: Number> Jump<N> {
 }
 
 /// The maps of a reference, the longest last.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Jumps<N> {
     maps: [Jump<N>; LEVELS],
     known: usize,

@@ -81,7 +81,7 @@ impl Stored for BlockFloat<i64> {
 }
 
 /// A reference orbit: `0, C, C^2 + C, ...` up to its end.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Reference<'a, N> {
     points: &'a [OrbitPoint],
     /// `C`.

@@ -10,7 +10,7 @@ use crate::escape::orbit::narrow::narrow;
 use crate::escape::orbit::wide_dwell::{self, WideOrbit, WideWord};
 use crate::escape::orbit::word_orbit::{self, WordOrbit};
 use crate::escape::perturbation::reference::{OrbitPoint, Reference};
-use crate::escape::set::escape_time::EscapeTime;
+use crate::escape::set::escape_time::{EscapeTime, Pan};
 use crate::escape::value::Dwell;
 use crate::escape::value::Period;
 use crate::escape::value::checked_max;
@@ -63,7 +63,7 @@ use crate::plane::Field;
 /// assert!(row.iter().all(|count| (255..285).contains(count)), "{row:?}");
 /// # Ok::<(), attractor::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct DeepMandelbrot<'a, const LIMBS: usize> {
     view: DeepView<LIMBS>,
     max: u32,
@@ -117,13 +117,9 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
         Ok(Self { view, max, orbits, at_edge })
     }
 
-    /// How many points a picture of this view takes from the lent orbit.
+    /// How many points a picture of this view takes: the length of the orbit to lend. At compile time: [`Arithmetic::orbit_points`].
     pub fn orbit_points(view: &DeepView<LIMBS>, max_dwell: u32) -> usize {
-        match Arithmetic::of(view.pitch_exponent(), max_dwell) {
-            Arithmetic::Perturbed => Reference::<'_, BlockFloat>::points(max_dwell),
-            Arithmetic::PerturbedLong => Reference::<'_, BlockFloat<i64>>::points(max_dwell),
-            _ => 0,
-        }
+        Arithmetic::of(view.pitch_exponent(), max_dwell).orbit_points(max_dwell)
     }
 
     /// The view.
@@ -138,8 +134,8 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
 
     /// How orbits are computed.
     pub const fn arithmetic(&self) -> Arithmetic {
-        match self.orbits {
-            Orbits::Word32(arithmetic) => arithmetic,
+        match &self.orbits {
+            Orbits::Word32(arithmetic) => *arithmetic,
             Orbits::Word64 => Arithmetic::Word64,
             Orbits::Word128 => Arithmetic::Word128,
             Orbits::Perturbed(_) => Arithmetic::Perturbed,
@@ -267,7 +263,7 @@ enum PixelOrbit<'a> {
 
 /// What all orbits share.
 #[allow(clippy::large_enum_variant, reason = "there is no heap to put a reference on")]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 enum Orbits<'a> {
     /// 26 or 29 bits.
     Word32(Arithmetic),
@@ -324,9 +320,12 @@ impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
     fn mirror_image(&self, row: u32) -> Option<u32> {
         self.view.mirror_image(row)
     }
+}
 
-    fn panned(self, right: i32, up: i32) -> Result<Self, Error> {
-        Ok(Self { view: self.view.pan(right, up)?, ..self })
+impl<const LIMBS: usize> Pan for DeepMandelbrot<'_, LIMBS> {
+    fn pan(&mut self, right: i32, up: i32) -> Result<(), Error> {
+        self.view = self.view.pan(right, up)?;
+        Ok(())
     }
 }
 
@@ -403,7 +402,7 @@ mod tests {
     fn fractional_dwells_and_distances_are_those_of_a_shallow_picture() {
         let checked = Cell::new(0);
         compare(["-0.7", "0.3", "0.6"], 300, |narrow, picture, pixel, point| {
-            let (shallow, deep) = (Smooth(*narrow).value_at(point), Smooth(*picture).value_at(pixel));
+            let (shallow, deep) = (Smooth(*narrow).value_at(point), Smooth(picture).value_at(pixel));
             // later the orbits part
             if shallow.dwell > 25 {
                 return;
@@ -411,7 +410,7 @@ mod tests {
             checked.set(checked.get() + 1);
             let apart = shallow.dwell.abs_diff(deep.dwell);
             assert!(apart <= U21F11::DELTA * 4, "{:?} {pixel:?}: {shallow:?} {deep:?}", picture.arithmetic());
-            let distances = (Distance(*narrow).value_at(point), Distance(*picture).value_at(pixel));
+            let distances = (Distance(*narrow).value_at(point), Distance(picture).value_at(pixel));
             let (Some(shallow), Some(deep)) = distances else { panic!("{distances:?}") };
             let allowed = shallow.to_bits() / 256 + 1;
             assert!(shallow.to_bits().abs_diff(deep.to_bits()) <= allowed as u32, "{shallow} {deep}");
@@ -423,7 +422,7 @@ mod tests {
     fn periods_are_those_of_a_shallow_picture() {
         let (found, differ) = (Cell::new(0), Cell::new(0));
         compare(["-1.2", "0", "0.5"], 2000, |narrow, picture, pixel, point| {
-            let (shallow, deep) = (Interior(*narrow).value_at(point), Interior(*picture).value_at(pixel));
+            let (shallow, deep) = (Interior(*narrow).value_at(point), Interior(picture).value_at(pixel));
             // on the edge of a component one of them may find none, or a multiple
             let (Some(shallow), Some(deep)) = (shallow, deep) else { return };
             found.set(found.get() + u32::from(shallow.length() > 1 && shallow == deep));
@@ -494,7 +493,7 @@ mod tests {
             let mut orbit = std::vec![OrbitPoint::default(); DeepMandelbrot::orbit_points(&view, max)];
             let picture = DeepMandelbrot::new(view, max, &mut orbit).unwrap();
             for (column, row) in (0..16).flat_map(|row| (0..16).map(move |column| (column, row))) {
-                assert_eq!(Interior(picture).value_at((column, row)), Period::new(period), "{column} {row}");
+                assert_eq!(Interior(&picture).value_at((column, row)), Period::new(period), "{column} {row}");
                 assert!(picture.dwell_at(column, row).is_inside());
             }
         }

@@ -38,11 +38,56 @@ pub trait EscapeTime: Field<Value = Dwell> {
     fn pitch(&self) -> (u32, i32);
     /// The row above this one that shows the conjugate points, and has the same dwells to the last bit.
     fn mirror_image(&self, row: u32) -> Option<u32>;
-    /// The same picture, moved by whole pixels to the right and up.
+}
+
+impl<P: EscapeTime> EscapeTime for &P {
+    type Point = P::Point;
+
+    #[inline]
+    fn point_at(&self, column: u32, row: u32) -> P::Point {
+        (**self).point_at(column, row)
+    }
+
+    #[inline]
+    fn line(&self, row: u32, columns: Range<u32>) -> impl ExactSizeIterator<Item = P::Point> + FusedIterator {
+        (**self).line(row, columns)
+    }
+
+    fn max_dwell(&self) -> u32 {
+        (**self).max_dwell()
+    }
+
+    #[inline]
+    fn dwell_at(&self, point: P::Point) -> Dwell {
+        (**self).dwell_at(point)
+    }
+
+    fn ending(&self, point: P::Point) -> Option<Ending> {
+        (**self).ending(point)
+    }
+
+    fn ending_with_derivative(&self, point: P::Point) -> Option<Ending> {
+        (**self).ending_with_derivative(point)
+    }
+
+    fn period_at(&self, point: P::Point) -> Option<Period> {
+        (**self).period_at(point)
+    }
+
+    fn pitch(&self) -> (u32, i32) {
+        (**self).pitch()
+    }
+
+    fn mirror_image(&self, row: u32) -> Option<u32> {
+        (**self).mirror_image(row)
+    }
+}
+
+/// A picture whose view can be moved.
+pub trait Pan {
+    /// Moves the view by whole pixels to the right and up.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] where the view ends.
-    fn panned(self, right: i32, up: i32) -> Result<Self, Error>
-    where
-        Self: Sized;
+    /// [`Error::OutOfRange`] where the view ends; the picture is then unchanged.
+    fn pan(&mut self, right: i32, up: i32) -> Result<(), Error>;
 }

@@ -3,7 +3,7 @@
 use core::iter::FusedIterator;
 use core::ops::Range;
 
-use super::escape_time::EscapeTime;
+use super::escape_time::{EscapeTime, Pan};
 use super::julia::Julia;
 use super::mandelbrot::Mandelbrot;
 use crate::Error;
@@ -63,10 +63,12 @@ macro_rules! escape_time {
                 // conjugate points have the same dwell where the constant is conjugate too
                 self.view().mirror_image(row).filter(|_| BlockFloat::<i32>::$gain == BlockFloat::<i32>::ONE)
             }
+        }
 
-            fn panned(self, right: i32, up: i32) -> Result<Self, Error> {
-                let view = self.view().pan(right, up)?;
-                Ok(self.through(view))
+        impl Pan for $picture {
+            fn pan(&mut self, right: i32, up: i32) -> Result<(), Error> {
+                self.set_view(self.view().pan(right, up)?);
+                Ok(())
             }
         }
     )*};

@@ -77,8 +77,8 @@ impl Julia {
         self.c
     }
 
-    pub(crate) fn through(self, view: View) -> Self {
-        Self { view, ..self }
+    pub(super) const fn set_view(&mut self, view: View) {
+        self.view = view;
     }
 
     /// The view.

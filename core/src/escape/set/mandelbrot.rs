@@ -76,8 +76,8 @@ impl Mandelbrot {
         point
     }
 
-    pub(crate) fn through(self, view: View) -> Self {
-        Self { view, ..self }
+    pub(super) const fn set_view(&mut self, view: View) {
+        self.view = view;
     }
 
     /// The view.
