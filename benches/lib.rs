@@ -116,7 +116,7 @@ mod tests {
             for (x, tone) in row.enumerate() {
                 let truth = exact.tone(side, side, (x, y as usize), (0.0, 0.0));
                 hits += u32::from(picture.hit(x as u32, y).is_some());
-                far += u32::from((f64::from(tone.0) / 65535.0 - truth).abs() > 2.0 / 255.0);
+                far += u32::from((f64::from(tone.to_bits()) / 65535.0 - truth).abs() > 2.0 / 255.0);
             }
         }
         assert!((SIDE * SIDE / 4..SIDE * SIDE / 2).contains(&hits), "{hits}");

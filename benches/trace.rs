@@ -20,7 +20,7 @@ fn rays(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("trace/rays");
     group.throughput(Throughput::Elements(u64::from(SIDE / STEP * SIDE)));
     group.bench_function("mirror", |b| {
-        b.iter(|| rows().flat_map(|y| picture.row(y, 0..SIDE)).map(|t| u64::from(t.0)).sum::<u64>());
+        b.iter(|| rows().flat_map(|y| picture.row(y, 0..SIDE)).map(|t| u64::from(t.to_bits())).sum::<u64>());
     });
     group.bench_function("reference", |b| {
         let side = SIDE as usize;

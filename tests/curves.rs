@@ -2,10 +2,11 @@
 
 use attractor::Error;
 use attractor::curve::{
-    Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Parameter, Part, RandomFunction,
-    Stop, Subdivision, TwoVariable, catalogue, coast, koch, turn_over,
+    Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Part, Stop, Subdivision,
+    TwoVariable, catalogue, coast, koch, turn_over,
 };
 use attractor::ifs;
+use attractor::num::{Parameter, RandomFunction};
 use attractor::num::{Real, Unit, Wide};
 use attractor::plane::{PathElement, Point2};
 use attractor_reference::koch::Show;

@@ -2,10 +2,11 @@
 
 use attractor::Error;
 use attractor::curve::{
-    Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Parameter, RandomFunction, Stop,
-    Subdivision, TwoVariable, catalogue, dimension_of_ratio, dimension_of_spectrum, koch,
+    Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Stop, Subdivision, TwoVariable,
+    catalogue, dimension_of_ratio, dimension_of_spectrum, koch,
 };
 use attractor::num::{Angle, Real, Unit, Wide};
+use attractor::num::{Parameter, RandomFunction};
 use attractor::plane::{PathElement, Point2};
 use proptest::prelude::*;
 

@@ -136,7 +136,7 @@ fn compare(case: &Case, side: u32) -> (f64, f64) {
         let caster = caster.with_sampling(case.sampling.0, case.sampling.1).unwrap();
         (0..side)
             .flat_map(|y| caster.row(y, 0..side).collect::<Vec<_>>())
-            .map(|t| f64::from(t.0) / 65535.0)
+            .map(|t| f64::from(t.to_bits()) / 65535.0)
             .collect::<Vec<_>>()
     });
     let bounds = reference::Bounds::new(&e.exact(), case.depth as usize);
@@ -302,7 +302,7 @@ fn jittered_samples_repeat_with_their_seed_and_approach_the_mean() {
             let caster = caster.with_sampling(sampling, Filter::Box).unwrap();
             (0..60)
                 .flat_map(|y| caster.row(y, 0..60).collect::<Vec<_>>())
-                .map(|t| f64::from(t.0) / 65535.0)
+                .map(|t| f64::from(t.to_bits()) / 65535.0)
                 .collect::<Vec<_>>()
         };
         let rmse = |a: &[f64], b: &[f64]| {

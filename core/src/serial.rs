@@ -135,7 +135,7 @@ mod tests {
     use crate::ifs::catalogue;
     use crate::num::{Real, Vec3};
     use crate::plane::{PathElement, Point2};
-    use crate::{curve, draw, escape, fif, ifs, trace};
+    use crate::{curve, draw, escape, fif, ifs, num, plane, trace};
 
     /// Written, read and the same; what was written.
     fn there_and_back<T: serde::Serialize + DeserializeOwned + PartialEq + Debug>(value: T) -> String {
@@ -170,14 +170,14 @@ mod tests {
         there_and_back(fif::Cell { min: Real::MIN, ..fif::Cell::ZERO });
         there_and_back(catalogue::BARNSLEY_FERN.maps[1]);
         there_and_back(ifs::Disc { centre: point(1.0, 2.0), radius: Real::ONE });
-        there_and_back(ifs::Hits { count: 3, tone: 4, map: 5 });
+        there_and_back(plane::Hits { count: 3, tone: 4, map: 5 });
         there_and_back(catalogue::BARNSLEY_FERN.ifs::<4>().unwrap().moments().unwrap());
         there_and_back(curve::Orientation::Reversed);
         there_and_back(curve::Stop::Length(Real::DELTA));
-        there_and_back(curve::RandomFunction::new(u64::MAX - 5));
+        there_and_back(num::RandomFunction::new(u64::MAX - 5));
         there_and_back(curve::koch::Fraction { numerator: 1, denominator: 3 });
         let (from, to) = (point(0.0, 1.0), point(2.0, 3.0));
-        let middle = curve::Parameter::ONE / 2;
+        let middle = num::Parameter::ONE / 2;
         there_and_back(curve::Part { from, to, middle, level: 1, span: Real::ONE });
         there_and_back(escape::Dwell { count: 3, max: 100 });
         there_and_back(escape::Period::new(4));
@@ -197,8 +197,8 @@ mod tests {
         there_and_back(trace::Sampling::Jittered { n: 3, seed: 9 });
         there_and_back(trace::Filter::Gaussian { deviation: Real::ONE, width: Real::ONE });
         there_and_back(trace::Statistics { rays: 1, box_tests: 2, stack: 3 });
-        there_and_back(trace::Tone(77));
-        there_and_back(draw::Level(99));
+        there_and_back(plane::Tone::from_bits(77));
+        there_and_back(draw::Level::from_bits(99));
     }
 
     #[test]
@@ -207,7 +207,7 @@ mod tests {
         let view =
             View::new(complex(-0.7453, 0.1127), Wide::from_num(0.0065), size).unwrap().pan(-3, 4).unwrap();
         there_and_back(view);
-        there_and_back(Mandelbrot::new(view, 100).unwrap().with_arithmetic(Arithmetic::Word29));
+        there_and_back(Mandelbrot::new(view, 100).unwrap().with_arithmetic(Arithmetic::Word29).unwrap());
         there_and_back(Julia::new(view, complex(-0.8, 0.156), 1000).unwrap());
         there_and_back(JuliaSet::new(complex(-0.8, 0.156)).unwrap());
         there_and_back(DeepView::<12>::parse("0", "1", "1e-60", size).unwrap().pan(5, -6).unwrap());

@@ -1,9 +1,10 @@
 //! Generators, refinements and random curves of any description.
 
 use attractor::curve::{
-    Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Parameter, RandomFunction, Stop,
-    Subdivision, TwoVariable, dimension_of_ratio, dimension_of_spectrum, koch,
+    Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Stop, Subdivision, TwoVariable,
+    dimension_of_ratio, dimension_of_spectrum, koch,
 };
+use attractor::num::{Parameter, RandomFunction};
 use attractor::num::{Real, Unit, Wide};
 use attractor::plane::{PathElement, Point2};
 use proptest::collection::vec;

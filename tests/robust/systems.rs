@@ -1,7 +1,8 @@
 //! Copiers, densities and moments of any system.
 
-use attractor::ifs::{Affine, Density, Ifs};
+use attractor::ifs::{Affine, Ifs};
 use attractor::num::{Alias, Real, Unit};
+use attractor::plane::Density;
 use attractor::plane::{Field, Point2, Window};
 use embedded_graphics::geometry::Size;
 use proptest::collection::vec;

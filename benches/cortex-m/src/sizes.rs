@@ -1,7 +1,8 @@
 //! What iterators take on a 32-bit machine, checked where they are compiled: the sizes that core's documentation states.
 
 use attractor::curve::{Elbow, Generator, LSystem, OneVariable, Refined, Subdivision, Turtle, TwoVariable};
-use attractor::ifs::{CopiedPath, CopiedPoints, Density, Ifs};
+use attractor::ifs::{CopiedPath, CopiedPoints, Ifs};
+use attractor::plane::Density;
 
 /// Order 12 of the Koch curve and depth 12 of a copier may take so much.
 const MOST: usize = 600;

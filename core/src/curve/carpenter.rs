@@ -13,9 +13,9 @@ use super::displacement::{
     Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, perpendicular, product, raised,
     raised_across, undone,
 };
-use super::gaussian::{Deviate, Parameter, RandomFunction};
 use crate::Error;
 use crate::num::{self, Real, Unit, sqrt};
+use crate::num::{Deviate, Parameter, RandomFunction};
 use crate::plane::Point2;
 
 /// The graph of a function `h(t)`: `x` of a point is `t`, `y` is `h`. Size: 136 bytes.
@@ -177,7 +177,7 @@ impl OneVariable {
 
 /// The mean of `sqrt(1 + 4 o^2 R^2)`, 28 fractional bits.
 fn mean_ratio(offset: i32) -> i64 {
-    let magnitudes = super::gaussian::magnitudes();
+    let magnitudes = crate::num::magnitudes();
     let sum: i64 = magnitudes
         .iter()
         .map(|r| {
@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn an_offset_gives_the_ratio_asked_for() {
         let deviates: std::vec::Vec<f64> =
-            crate::curve::gaussian::magnitudes().iter().map(|r| f64::from(*r) / 2_f64.powi(28)).collect();
+            crate::num::magnitudes().iter().map(|r| f64::from(*r) / 2_f64.powi(28)).collect();
         let mean = |o: f64| {
             deviates.iter().map(|r| (1.0 + 4.0 * o * o * r * r).sqrt()).sum::<f64>() / deviates.len() as f64
         };

@@ -3,9 +3,9 @@
 //! `p_m = (p_1 + p_2) / 2 + g (p_2 - p_1)` for a complex `g`: its real part displaces along the part, its imaginary part along the perpendicular bisector.
 //! Formats: points in [`Real`], `g` with 28 fractional bits; one rounding a coordinate.
 
-use super::gaussian::{Deviate, Parameter};
 use crate::Error;
 use crate::num::{self, Real, Unit, Wide, exp_minus};
+use crate::num::{Deviate, Parameter};
 use crate::plane::Point2;
 
 /// How often a part between two knots can be halved at most: the parameter has 32 fractional bits.

@@ -12,8 +12,8 @@
 use super::displacement::{
     Displacement, LEVELS, Part, checked_offset, checked_spectrum, product, raised_across,
 };
-use super::gaussian::RandomFunction;
 use crate::Error;
+use crate::num::RandomFunction;
 use crate::num::{Real, Unit, sqrt};
 use crate::plane::Point2;
 

@@ -5,8 +5,8 @@
 //! Source: course unit V, section 5.6.1 (`fract`); L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
 
 use super::displacement::{Displacement, LEVELS as MAX_LEVELS, Part};
-use super::gaussian::Parameter;
 use crate::Error;
+use crate::num::Parameter;
 use crate::num::{Real, Wide};
 use crate::plane::{PathElement, Point2};
 
@@ -246,7 +246,8 @@ impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVEL
 mod tests {
     use super::*;
     use crate::curve::displaced;
-    use crate::curve::{Deviate, koch};
+    use crate::curve::koch;
+    use crate::num::Deviate;
 
     /// A law of one's own: always to the left by a quarter of the length.
     struct Left;

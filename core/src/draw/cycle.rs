@@ -86,8 +86,8 @@ impl Ramp<6> {
     /// Six colours of a palette, without its darkest fifth: for periods, 1 the first of them.
     pub fn of_periods(palette: impl Palette<Level>) -> Self {
         // the count 6 comes where 0 is
-        let fifth = |k: usize| Level::ratio((k as u32 + 5) % 6, 5).0 / 5 * 4;
-        Self { colors: core::array::from_fn(|k| palette.rgb(Level(fifth(k) + 13_000))) }
+        let fifth = |k: usize| Level::ratio((k as u32 + 5) % 6, 5).to_bits() / 5 * 4;
+        Self { colors: core::array::from_fn(|k| palette.rgb(Level::from_bits(fifth(k) + 13_000))) }
     }
 }
 
@@ -111,11 +111,12 @@ mod tests {
     fn the_cycle_closes_for_every_period_and_offset() {
         for period in [0, 1, 2, 7, 256, 65_537, u32::MAX] {
             for offset in [0, 1, 6, 255, u32::MAX] {
-                let palette = Cycled::new(|level: Level| hex(u32::from(level.0)), period).with_offset(offset);
+                let palette =
+                    Cycled::new(|level: Level| hex(u32::from(level.to_bits())), period).with_offset(offset);
                 for count in [0, 1, 5, 300, u32::MAX - 1, u32::MAX] {
                     let period = u64::from(period.max(1));
                     let phase = (u64::from(count) + u64::from(offset)) % period;
-                    let expected = hex(u32::from(Level::ratio(phase as u32, period as u32).0));
+                    let expected = hex(u32::from(Level::ratio(phase as u32, period as u32).to_bits()));
                     assert_eq!(palette.rgb(count), expected, "{count} + {offset} mod {period}");
                 }
             }

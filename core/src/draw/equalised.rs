@@ -106,12 +106,12 @@ mod tests {
         let (mut dark, mut bright, mut plain) = (0, 0, 0);
         for d in (0..100).flat_map(|y| picture.row(y, 0..120)).filter(|d| !d.is_inside()) {
             let level = palette.level(d.count);
-            if level < Level(32768) {
+            if level < Level::from_bits(32768) {
                 dark += 1
             } else {
                 bright += 1
             }
-            plain += u32::from(d.level() > Level(32768));
+            plain += u32::from(d.level() > Level::from_bits(32768));
         }
         // a band of equal dwell is not divided
         assert!(dark < 2 * bright && bright < 2 * dark, "{dark} {bright}");

@@ -55,10 +55,11 @@ impl<const N: usize> Gradient<N> {
         let mut stops = [Stop { at: 0, rgb: Rgb888::new(0, 0, 0), slope: 0 }; N];
         let mut i = 0;
         while i < N {
-            let (Level(at), rgb) = colors[i];
+            let (level, rgb) = colors[i];
+            let at = level.to_bits();
             let mut distance = 0;
             if i + 1 < N {
-                let next = colors[i + 1].0.0;
+                let next = colors[i + 1].0.to_bits();
                 if next <= at {
                     return Err(Error::NotIncreasing { what: "stop", index: i + 1 });
                 }
@@ -76,8 +77,8 @@ impl<const N: usize> Gradient<N> {
         let mut stops = [Stop { at: 0, rgb: Rgb888::new(0, 0, 0), slope: 0 }; N];
         let mut i = 0;
         while i < N {
-            let Level(at) = Level::ratio(i as u32, (N - 1) as u32);
-            let distance = Level::ratio(i as u32 + 1, (N - 1) as u32).0 as u32 - at as u32;
+            let at = Level::ratio(i as u32, (N - 1) as u32).to_bits();
+            let distance = Level::ratio(i as u32 + 1, (N - 1) as u32).to_bits() as u32 - at as u32;
             stops[i] = Stop { at, rgb: colors[i], slope: slope(distance) };
             i += 1;
         }
@@ -88,8 +89,8 @@ impl<const N: usize> Gradient<N> {
     pub fn at(&self, level: Level) -> Rgb888 {
         let mut below: Option<&Stop> = None;
         for stop in &self.stops {
-            if level.0 < stop.at {
-                return below.map_or(stop.rgb, |below| below.towards(stop.rgb, level.0));
+            if level.to_bits() < stop.at {
+                return below.map_or(stop.rgb, |below| below.towards(stop.rgb, level.to_bits()));
             }
             below = Some(stop);
         }
@@ -132,14 +133,18 @@ mod tests {
 
     /// A gradient of two greys: down in red, up in green and blue.
     fn between(p: u16, q: u16, [c, d]: [u8; 2]) -> Gradient<2> {
-        Gradient::new([(Level(p), Rgb888::new(c, d, d)), (Level(q), Rgb888::new(d, c, c))]).unwrap()
+        Gradient::new([
+            (Level::from_bits(p), Rgb888::new(c, d, d)),
+            (Level::from_bits(q), Rgb888::new(d, c, c)),
+        ])
+        .unwrap()
     }
 
     #[test]
     fn a_gradient_stays_within_half_a_step_of_the_exact_line() {
         let mut worst = 0;
         let mut check = |p: u16, q: u16, greys: [u8; 2], level: u16| {
-            let rgb = between(p, q, greys).at(Level(level));
+            let rgb = between(p, q, greys).at(Level::from_bits(level));
             let [c, d] = greys;
             worst = worst.max(hundredths((p, c), (q, d), level, rgb.r()));
             worst = worst.max(hundredths((p, d), (q, c), level, rgb.g()));
@@ -173,7 +178,7 @@ mod tests {
             for pair in gradient.stops.windows(2) {
                 let [a, b] = pair else { continue };
                 for level in a.at..=b.at {
-                    let got = gradient.at(Level(level)).g();
+                    let got = gradient.at(Level::from_bits(level)).g();
                     let off = hundredths((a.at, a.rgb.g()), (b.at, b.rgb.g()), level, got);
                     assert!(off <= 51, "{level}: {off}");
                 }
@@ -191,9 +196,10 @@ mod tests {
     fn a_gradient_is_exact_at_its_stops_and_constant_beyond() {
         let stops = [(100_u16, 0x10_u8), (101, 0xff), (700, 0x03), (40_000, 0xf0), (65_000, 0)];
         let gradient =
-            Gradient::new(stops.map(|(at, grey)| (Level(at), Rgb888::new(grey, 0, 255 - grey)))).unwrap();
+            Gradient::new(stops.map(|(at, grey)| (Level::from_bits(at), Rgb888::new(grey, 0, 255 - grey))))
+                .unwrap();
         for (at, grey) in stops {
-            assert_eq!(gradient.at(Level(at)), Rgb888::new(grey, 0, 255 - grey));
+            assert_eq!(gradient.at(Level::from_bits(at)), Rgb888::new(grey, 0, 255 - grey));
         }
         assert_eq!(gradient.at(Level::ZERO).r(), 0x10);
         assert_eq!(gradient.at(Level::FULL).r(), 0);
@@ -201,7 +207,7 @@ mod tests {
 
     #[test]
     fn stops_must_increase() {
-        let stop = |at| (Level(at), Rgb888::BLACK);
+        let stop = |at| (Level::from_bits(at), Rgb888::BLACK);
         let error = Gradient::new([stop(1), stop(5), stop(5)]).unwrap_err();
         assert_eq!(error, Error::NotIncreasing { what: "stop", index: 2 });
         assert_eq!(std::format!("{error}"), "stop 2 is not to the right of stop 1");
@@ -212,8 +218,8 @@ mod tests {
     fn even_stops_reach_from_0_to_1() {
         let gradient = Gradient::evenly([hex(0), hex(0x0000ff), hex(0xff0000)]);
         assert_eq!(gradient.at(Level::ZERO), hex(0));
-        assert_eq!(gradient.at(Level(32768)), hex(0x0000ff));
+        assert_eq!(gradient.at(Level::from_bits(32768)), hex(0x0000ff));
         assert_eq!(gradient.at(Level::FULL), hex(0xff0000));
-        assert_eq!(Gradient::evenly([hex(0x123456)]).at(Level(9)), hex(0x123456));
+        assert_eq!(Gradient::evenly([hex(0x123456)]).at(Level::from_bits(9)), hex(0x123456));
     }
 }

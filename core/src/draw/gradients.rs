@@ -119,7 +119,7 @@ mod tests {
     use std::vec::Vec;
 
     fn rises<const N: usize>(gradient: Gradient<N>) -> bool {
-        let lumas: Vec<u8> = (0..=255_u16).map(|i| luma(gradient.at(Level(i * 257)))).collect();
+        let lumas: Vec<u8> = (0..=255_u16).map(|i| luma(gradient.at(Level::from_bits(i * 257)))).collect();
         lumas.is_sorted() && lumas.first() < Some(&20) && lumas.last() > Some(&225)
     }
 
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn even_steps_look_even() {
-        let labs: Vec<_> = (0..=24_u16).map(|i| oklab(EVEN.at(Level(i * (65535 / 24))))).collect();
+        let labs: Vec<_> = (0..=24_u16).map(|i| oklab(EVEN.at(Level::from_bits(i * (65535 / 24))))).collect();
         let steps: Vec<f64> = labs
             .windows(2)
             .map(|pair| pair[0].iter().zip(pair[1]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt())

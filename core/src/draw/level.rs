@@ -3,21 +3,33 @@
 //! Format: 16 bits, `0..=65535` for `0..=1`.
 
 use crate::escape::{Dwell, FractionalDwell, MAX_PERIOD, Period};
-use crate::ifs::Hits;
 use crate::num::Real;
-use crate::trace::Tone;
+use crate::plane::Hits;
+use crate::plane::Tone;
 
 /// A fraction from 0 to 1 in steps of 1/65535.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Level(pub u16);
+pub struct Level(u16);
 
 impl Level {
     /// 0.
     pub const ZERO: Self = Self(0);
     /// 1.
     pub const FULL: Self = Self(u16::MAX);
+
+    /// The level `bits / 65535`.
+    #[inline]
+    pub const fn from_bits(bits: u16) -> Self {
+        Self(bits)
+    }
+
+    /// 65535 times the level.
+    #[inline]
+    pub const fn to_bits(self) -> u16 {
+        self.0
+    }
 
     /// `part / whole`.
     ///
@@ -111,7 +123,7 @@ impl Leveled for u8 {
 impl Leveled for Tone {
     #[inline]
     fn level(&self) -> Level {
-        Level(self.0)
+        Level(self.to_bits())
     }
 }
 

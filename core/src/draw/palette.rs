@@ -103,7 +103,7 @@ impl<V: Leveled> Palette<V> for CourseUnit {
         if value.is_inside() {
             return Rgb888::BLACK;
         }
-        let v = u32::from(value.level().0);
+        let v = u32::from(value.level().to_bits());
         // v^2 with 32 fractional bits; the largest is (1 - 2^-16)^2, rounded to 255 all the same
         let square = ((v * v) >> 16) * 255;
         let red = ((square + (1 << 15)) >> 16) as u8;
@@ -130,7 +130,7 @@ impl<V: Leveled> Palette<V> for Grey {
             return Rgb888::BLACK;
         }
         // nearest of 256 levels: 255 / 65535 = 1 / 257
-        let grey = ((u32::from(value.level().0) + 128) / 257) as u8;
+        let grey = ((u32::from(value.level().to_bits()) + 128) / 257) as u8;
         Rgb888::new(grey, grey, grey)
     }
 }
@@ -183,8 +183,8 @@ impl<V: Leveled, P: Palette<Level>> Palette<V> for Lifted<P> {
         if value.is_inside() {
             return Rgb888::BLACK;
         }
-        let root = (u32::from(value.level().0) * u32::from(u16::MAX)).isqrt();
-        self.0.rgb(Level(root as u16))
+        let root = (u32::from(value.level().to_bits()) * u32::from(u16::MAX)).isqrt();
+        self.0.rgb(Level::from_bits(root as u16))
     }
 }
 
@@ -199,7 +199,7 @@ mod tests {
             let exact = u64::from(level);
             let square = (exact * exact * 255 * 2 + 65535 * 65535) / (2 * 65535 * 65535);
             let blue = ((exact * 255 * 2 + 65535) / (2 * 65535) + 51).min(255);
-            let rgb = CourseUnit.rgb(Level(level));
+            let rgb = CourseUnit.rgb(Level::from_bits(level));
             assert!(
                 u64::from(rgb.r()).abs_diff(square) <= 1 && u64::from(rgb.b()).abs_diff(blue) <= 1,
                 "{level}"
@@ -227,16 +227,16 @@ mod tests {
 
     #[test]
     fn lifting_is_the_square_root_rounded_down() {
-        let lifted = Lifted(|level: Level| hex(u32::from(level.0)));
+        let lifted = Lifted(|level: Level| hex(u32::from(level.to_bits())));
         for level in 0..=u16::MAX {
-            let root = lifted.rgb(Level(level));
+            let root = lifted.rgb(Level::from_bits(level));
             let root = u64::from(root.g()) << 8 | u64::from(root.b());
             let square = u64::from(level) * 65535;
             assert!(root * root <= square && square < (root + 1) * (root + 1), "{level}");
         }
         assert_eq!(lifted.rgb(Level::ZERO), hex(0));
         assert_eq!(lifted.rgb(Level::FULL), hex(65535));
-        assert_eq!(lifted.rgb(Level(1 << 14)), hex((1 << 15) - 1));
+        assert_eq!(lifted.rgb(Level::from_bits(1 << 14)), hex((1 << 15) - 1));
         assert_eq!(lifted.rgb(None::<Level>), Rgb888::BLACK);
     }
 

@@ -107,7 +107,7 @@ impl<'a, R: Rng, const N: usize, W: BorrowMut<Walk<R>>> ChaosGame<'a, R, N, W> {
         self.walk.borrow().map as u8
     }
 
-    /// The same points, each with the index of the map that made it: for [`Density`](crate::ifs::Density) and
+    /// The same points, each with the index of the map that made it: for [`Density`](crate::plane::Density) and
     /// [`ColoredDots`](crate::draw::ColoredDots).
     pub const fn with_maps(self) -> WithMaps<'a, R, N, W> {
         WithMaps(self)

@@ -51,6 +51,7 @@
 //! **A float:** `Real::from_num(x)` for `x: f32` works, and on a processor without an FPU costs what converting takes. On the host it is convenient; the examples
 //! in this documentation use it where the number does not matter.
 
+mod alias;
 mod complex;
 mod decimal;
 mod exponential;
@@ -59,12 +60,13 @@ mod logarithm;
 mod polynomial;
 mod product;
 mod quotient;
-mod random;
+mod random_function;
 mod root;
 mod trig;
 mod vector;
 mod wide;
 
+pub use alias::Alias;
 pub use complex::Complex;
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;
@@ -73,7 +75,8 @@ pub use logarithm::log2;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, part_of, times, twice_high};
 pub(crate) use product::{high, high_of_double, high_of_square, product, product_by_short, product_u};
 pub(crate) use quotient::{nth, quotient, ratio};
-pub use random::Alias;
+pub(crate) use random_function::magnitudes;
+pub use random_function::{Deviate, Parameter, RandomFunction};
 pub(crate) use root::root_and_reciprocal;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
 pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};

@@ -13,17 +13,20 @@
 //!
 #![doc = include_str!("../../docs/escape.md")]
 
+mod density;
 mod field;
 mod from_fn;
 mod path;
 mod point;
 mod size;
+mod tone;
 mod window;
 
+pub use density::{Counter, Density, Hits, Toned};
 pub use field::{Field, along};
 pub use from_fn::{FromFn, from_fn};
 pub use path::PathElement;
 pub use point::{Bounds2, Point2};
 pub use size::{MAX_SIDE, checked_size};
+pub use tone::Tone;
 pub use window::Window;
-pub(crate) use window::{from, part};

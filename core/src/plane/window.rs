@@ -186,7 +186,7 @@ fn saturate(bits: i64) -> Real {
 mod tests {
     extern crate std;
     use super::*;
-    use crate::ifs::Density;
+    use crate::plane::Density;
     use rand_xoshiro::Xoshiro128PlusPlus;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
     use std::{vec, vec::Vec};

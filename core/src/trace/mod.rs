@@ -25,6 +25,6 @@ pub use environment::Environment;
 pub use height_field::{HeightField, Hit};
 pub use material::{Light, Material};
 pub use ray::Ray;
-pub use ray_caster::{RayCaster, Tone};
+pub use ray_caster::RayCaster;
 pub use sampling::{Filter, Sampling};
 pub use statistics::Statistics;

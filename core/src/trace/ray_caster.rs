@@ -18,16 +18,10 @@ use super::sampling::{Filter, Pattern, Sampling};
 use super::statistics::{Statistics, Uncounted};
 use crate::Error;
 use crate::num::{Unit, Vec3, Wide, nth, unit};
-use crate::plane::{Field, along, checked_size};
+use crate::plane::{Field, Tone, along, checked_size};
 
 /// Half a unit of a ray's direction, 60 fractional bits.
 const HALF: i64 = 1 << 31;
-
-/// Brightness of a pixel: 0 is black, 65535 white.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Tone(pub u16);
 
 /// A height field seen by a camera: a [`Field`] of [`Tone`]s.
 ///
@@ -230,7 +224,7 @@ impl<'a> RayCaster<'a> {
             (sum >> 30).clamp(0, 1 << 30) as u32
         };
         // times 65535 / 2^30, rounded
-        Tone(((tone - (tone >> 16) + (1 << 13)) >> 14) as u16)
+        Tone::from_bits(((tone - (tone >> 16) + (1 << 13)) >> 14) as u16)
     }
 }
 

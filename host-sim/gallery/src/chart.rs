@@ -104,13 +104,13 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
             Place::Paper => paper,
             Place::Rule => RULE,
             // the depth below the curve: bright close to it, dim further down
-            Place::Under(level) => self.palette.at(Level(8_000 + level.0 / 4)),
+            Place::Under(level) => self.palette.at(Level::from_bits(8_000 + level.to_bits() / 4)),
         };
         if !draw_field(field, palette, target, watch) {
             return Ok(());
         }
         let inner = self.window.size();
-        let line = solid::<T::Color>(self.palette.at(Level(56_000)));
+        let line = solid::<T::Color>(self.palette.at(Level::from_bits(56_000)));
         let Ok(_) = Stroke::new(self.graph(inner.width), self.window, line).at(self.corner).draw(target);
         if self.fif.maps() <= MARKED {
             let (from, to) = self.fif.domain();

@@ -2,7 +2,7 @@
 
 use attractor::Error;
 use attractor::draw::{Level, Leveled as _};
-use attractor::ifs::{Density, Hits, Toned};
+use attractor::plane::{Density, Hits, Toned};
 use attractor::plane::{Field, Point2, Window};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
@@ -51,10 +51,10 @@ pub(crate) fn counted<R>(
 /// The square root of the tone, twice: neither the trunk nor the finest leaves are lost. None where no point fell.
 fn level(hits: Hits) -> Option<Level> {
     let root = |level: u32| (level * u32::from(u16::MAX)).isqrt();
-    (hits.count > 0).then(|| Level(root(root(u32::from(hits.level().0))) as u16))
+    (hits.count > 0).then(|| Level::from_bits(root(root(u32::from(hits.level().to_bits()))) as u16))
 }
 
 /// Paper where nothing was hit, else the palette without its darkest part.
 pub(crate) fn color(palette: Named, paper: Rgb888, hits: Hits) -> Rgb888 {
-    level(hits).map_or(paper, |level| palette.at(Level(level.0 / 4 * 3 + 16_000)))
+    level(hits).map_or(paper, |level| palette.at(Level::from_bits(level.to_bits() / 4 * 3 + 16_000)))
 }

@@ -87,8 +87,10 @@ impl<const N: usize> IfsPicture<'_, N> {
         let maps = self.ifs.maps().len();
         match self.shading {
             // the darkest third is left to the paper
-            Shading::Maps if maps > 1 => Level(Level::ratio(map as u32, maps as u32 - 1).0 / 8 * 5 + 23_000),
-            _ => Level(52_000),
+            Shading::Maps if maps > 1 => {
+                Level::from_bits(Level::ratio(map as u32, maps as u32 - 1).to_bits() / 8 * 5 + 23_000)
+            }
+            _ => Level::from_bits(52_000),
         }
     }
 }

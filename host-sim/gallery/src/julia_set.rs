@@ -94,7 +94,7 @@ impl JuliaSetPicture {
                     0 => paper,
                     1..4 if coarse => paper,
                     _ if coarse => Rgb888::WHITE,
-                    n => self.palette.at(Level(16_383 + 3072 * u16::from(n.min(16)))),
+                    n => self.palette.at(Level::from_bits(16_383 + 3072 * u16::from(n.min(16)))),
                 };
                 draw_field(cover, color, target, watch);
                 Ok(())

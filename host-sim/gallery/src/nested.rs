@@ -85,7 +85,7 @@ impl Nested {
                 let size = Size::new((right - left).max(1) as u32, self.bar);
                 let Ok(()) = target.fill_solid(&Rectangle::new(Point::new(left, y), size), color);
             };
-            let lane = ground::<T::Color>(Named::Ocean.at(Level(6_000)));
+            let lane = ground::<T::Color>(Named::Ocean.at(Level::from_bits(6_000)));
             fill(full.0, full.1, solid(lane), target);
             let share = Level::ratio(level as u32 + 2, last as u32 + 2);
             let right = if *to == Real::ONE { full.1 } else { column(*to) };

@@ -25,8 +25,9 @@ impl Pencil {
     /// Paper, with what the path encloses in the dark colours of the palette.
     pub(crate) fn area<D: Display>(&self, area: &Area<'_>, target: &mut D, watch: Watch<'_, D>) -> bool {
         let paper = ground::<D::Color>(PAPER);
-        let color =
-            |level: Option<Level>| level.map_or(paper, |level| self.palette.at(Level(8_000 + level.0 / 4)));
+        let color = |level: Option<Level>| {
+            level.map_or(paper, |level| self.palette.at(Level::from_bits(8_000 + level.to_bits() / 4)))
+        };
         draw_field(area, color, target, watch)
     }
 
@@ -66,6 +67,6 @@ impl Pencil {
     fn hue(&self, hue: u32) -> Level {
         let last = HUES - 1;
         let place = if self.closed { (2 * hue).min(2 * (last - hue)) } else { hue };
-        Level(23_000 + Level::ratio(place, last).0 / 8 * 5)
+        Level::from_bits(23_000 + Level::ratio(place, last).to_bits() / 8 * 5)
     }
 }

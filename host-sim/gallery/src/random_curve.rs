@@ -1,7 +1,8 @@
 //! A curve through knots whose midpoints a law displaces at random.
 
 use attractor::Error;
-use attractor::curve::{Displacement, Parameter, Stop, Subdivision};
+use attractor::curve::{Displacement, Stop, Subdivision};
+use attractor::num::Parameter;
 use attractor::plane::{PathElement, Point2, Window};
 use embedded_graphics::geometry::Size;
 

@@ -6,7 +6,8 @@
 //! - the dimension of the limit set is the solution of `2 mean(r^D) = 1` (R. D. Mauldin, S. C. Williams, "Random recursive constructions", 1986; K. Falconer,
 //!   "Random fractals", 1986), where the parts do not overlap. It lies above Carpenter's: few long parts count for more than many short ones.
 
-use attractor::curve::{Parameter, Stop, Subdivision};
+use attractor::curve::{Stop, Subdivision};
+use attractor::num::Parameter;
 use attractor::num::Real;
 use attractor::plane::{PathElement, Point2};
 

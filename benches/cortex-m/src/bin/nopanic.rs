@@ -96,10 +96,8 @@ fn systems() -> Result<(), Error> {
 }
 
 fn curves() -> Result<(), Error> {
-    use attractor::curve::{
-        Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Orientation, Parameter, Part,
-        RandomFunction, TwoVariable, dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over,
-    };
+    use attractor::curve::{Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Orientation, Part, TwoVariable, dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over};
+    use attractor::num::{Parameter, RandomFunction};
     let (one, seed) = (bb(Real::ONE), bb(1));
     if let Some(curve) = attractor::curve::catalogue::find(bb("gosper")) {
         refined(&curve.generator::<{ attractor::curve::catalogue::LARGEST }>()?)?;
@@ -146,7 +144,8 @@ fn refined<const S: usize>(generator: &attractor::curve::Generator<S>) -> Result
 }
 
 fn divided<L: attractor::curve::Displacement>(law: &L) -> Result<(), Error> {
-    use attractor::curve::{Parameter, Stop, Subdivision};
+    use attractor::curve::{Stop, Subdivision};
+    use attractor::num::Parameter;
     let knots = bb([point(0), point(1 << 24), point(2 << 24)]);
     for stop in [Stop::Parameter(Parameter::ONE), Stop::Norm(Real::ONE), Stop::Length(Real::ONE)] {
         let mut curve = Subdivision::<_, 16>::new(law, bb(&knots), bb(stop))?;
@@ -157,7 +156,8 @@ fn divided<L: attractor::curve::Displacement>(law: &L) -> Result<(), Error> {
 }
 
 fn copies() -> Result<(), Error> {
-    use attractor::ifs::{Affine, Density};
+    use attractor::ifs::Affine;
+    use attractor::plane::Density;
     let ifs = catalogue::BARNSLEY_FERN.ifs::<4>()?;
     let shape = bb([point(0), point(1)]);
     bb(ifs.copier::<12>(bb(&shape), bb(3))?.points().last());

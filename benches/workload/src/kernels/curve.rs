@@ -4,9 +4,9 @@ use core::hint::black_box;
 
 use attractor::curve::catalogue::{GOSPER, HEIGHWAY_DRAGON, LARGEST};
 use attractor::curve::{
-    Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Parameter, RandomFunction, Stop,
-    Subdivision, TwoVariable, koch,
+    Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Stop, Subdivision, TwoVariable, koch,
 };
+use attractor::num::{Parameter, RandomFunction};
 use attractor::num::{Real, Unit, Wide};
 use attractor::plane::PathElement;
 

@@ -3,10 +3,11 @@
 use core::hint::black_box;
 
 use attractor::Error;
+use attractor::ifs::ChaosGame;
 use attractor::ifs::catalogue::BARNSLEY_FERN;
-use attractor::ifs::{ChaosGame, Counter, Density, Hits};
 use attractor::num::{Alias, Real};
 use attractor::plane::{Bounds2, Field, PathElement, Point2, Window};
+use attractor::plane::{Counter, Density, Hits};
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 

@@ -19,7 +19,7 @@ const STEP: u32 = 16;
 pub(super) fn core(watch: &mut Watch<'_>) -> Tally {
     with_pyramid(|pyramid| {
         let Ok(caster) = mirror(pyramid, Size::new(SIDE, SIDE)) else { return Tally::default() };
-        watch.time(|| rows(STEP, |y| caster.row(y, 0..SIDE).map(|tone| u32::from(tone.0))))
+        watch.time(|| rows(STEP, |y| caster.row(y, 0..SIDE).map(|tone| u32::from(tone.to_bits()))))
     })
 }
 

@@ -274,7 +274,7 @@ mod tests {
                 rays += 1;
                 hits += u32::from(t >= 0.0);
                 apart += u32::from((t - near).abs() > 0.02);
-                difference += (f64::from(tone.0) / 65535.0 - paper.tone(x, y)).abs();
+                difference += (f64::from(tone.to_bits()) / 65535.0 - paper.tone(x, y)).abs();
             }
         }
         assert!((rays / 4..rays / 2).contains(&hits), "{hits} of {rays}");

@@ -123,7 +123,7 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] when an edge is more than 6 away from 0, or after more than [`MAX_PAN`] pixels in one direction.
+    /// [`Error::OutOfRange`] when an edge is more than 6 away from 0, or after more than [`MAX_PAN`](crate::escape::MAX_PAN) pixels in one direction.
     pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
         const SIX: Wide = Wide::lit("6");
         let raster = self.raster.pan(right, up)?;

@@ -19,7 +19,7 @@ pub(crate) struct Raster {
 
 impl Raster {
     /// # Errors
-    /// As [`checked_size`].
+    /// As [`checked_size`](crate::plane::checked_size).
     pub(crate) fn new(size: Size) -> Result<Self, Error> {
         Ok(Self { size: checked_size(size)?, panned: (0, 0) })
     }
@@ -35,7 +35,7 @@ impl Raster {
     /// Panned by whole pixels once more.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] after more than [`MAX_PAN`] pixels in one direction.
+    /// [`Error::OutOfRange`] after more than [`MAX_PAN`](crate::escape::MAX_PAN) pixels in one direction.
     pub(crate) fn pan(self, right: i32, up: i32) -> Result<Self, Error> {
         const MOST: Wide = Wide::from_bits((MAX_PAN as i64) << 48);
         let panned = (self.panned.0.saturating_add(right), self.panned.1.saturating_add(up));

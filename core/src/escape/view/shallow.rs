@@ -82,7 +82,7 @@ impl View {
     /// The whole Mandelbrot set: centre `-3/4`, at least 3 wide and 5/2 high, as large as it fits.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
+    /// [`Error::OutOfRange`] for a size that [`checked_size`](crate::plane::checked_size) refuses.
     pub fn home(size: Size) -> Result<Self, Error> {
         const CENTRE: Wide = Wide::lit("-0.75");
         const WIDTH: i64 = Wide::lit("3").to_bits();
@@ -117,7 +117,7 @@ impl View {
     /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] when an edge leaves `-32768 .. 32768`, or after more than [`MAX_PAN`] pixels in one direction.
+    /// [`Error::OutOfRange`] when an edge leaves `-32768 .. 32768`, or after more than [`MAX_PAN`](crate::escape::MAX_PAN) pixels in one direction.
     pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
         let raster = self.raster.pan(right, up)?;
         let [across, high] = raster.reach();

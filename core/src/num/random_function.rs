@@ -64,7 +64,7 @@ const FIRST_DENSITY: u64 = 1_839_796_317_366_000_629;
 /// A function of the parameter without any visible pattern, one for each seed. Size: 8 bytes.
 ///
 /// ```
-/// use attractor::curve::{Parameter, RandomFunction};
+/// use attractor::num::{Parameter, RandomFunction};
 /// let r = RandomFunction::new(7);
 /// let t = Parameter::from_num(0.375);
 /// assert_eq!(r.at(t), RandomFunction::new(7).at(t));
@@ -115,7 +115,7 @@ const fn mixed(mut h: u32) -> u32 {
 }
 
 /// The absolute values that `R` takes, each as often as any other.
-pub(super) fn magnitudes() -> &'static [i32] {
+pub(crate) fn magnitudes() -> &'static [i32] {
     &QUANTILES
 }
 

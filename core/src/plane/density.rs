@@ -7,9 +7,11 @@
 
 use embedded_graphics_core::geometry::Size;
 
+use super::field::Field;
+use super::point::{Bounds2, Point2};
+use super::window::{Window, from, part};
 use crate::Error;
 use crate::num::{log2, reciprocal};
-use crate::plane::{Bounds2, Field, Point2, Window, from, part};
 
 /// A saturating counter of hits: `u8` or `u16`, or one of your own.
 pub trait Counter: Copy {
@@ -49,7 +51,8 @@ impl Counter for u16 {
 ///
 /// ```
 /// use attractor::draw::{Inside, Picture, gradients, hex};
-/// use attractor::ifs::{Density, catalogue};
+/// use attractor::ifs::catalogue;
+/// use attractor::plane::Density;
 /// use attractor::plane::Window;
 /// use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::Rgb888, prelude::*};
 ///
