@@ -13,6 +13,7 @@ use crate::plane::{PathElement, Point2};
 /// When a part is short enough to be drawn as a straight line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Stop {
     /// When the parameter grows by no more than this along it: all parts are halved equally often.
     Parameter(Parameter),

@@ -22,6 +22,13 @@ impl<T> Vec3<T> {
 }
 
 impl Vec3<Real> {
+    /// `(1, 0, 0)`.
+    pub const X: Self = Self::new(Real::ONE, Real::ZERO, Real::ZERO);
+    /// `(0, 1, 0)`.
+    pub const Y: Self = Self::new(Real::ZERO, Real::ONE, Real::ZERO);
+    /// `(0, 0, 1)`, upwards.
+    pub const Z: Self = Self::new(Real::ZERO, Real::ZERO, Real::ONE);
+
     /// The vector `(x, y, z)` from decimal literals, for constants: `const EYE: Vec3 = Vec3::lit("-4", "-3", "5")`.
     ///
     /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see

@@ -8,6 +8,7 @@ use crate::num::{Real, Unit, Vec3, Wide, reciprocal, reciprocal_sqrt_of, scaled,
 /// Tones are in `[0, 1]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Environment {
     /// One tone everywhere.
     Plain(Unit),

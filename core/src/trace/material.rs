@@ -33,6 +33,7 @@ impl Light {
 /// How a surface answers light. All parts are in `[0, 1]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Material {
     /// `ambient + (1 - ambient) max(0, n . l)`.
     Diffuse {

@@ -7,6 +7,7 @@ use crate::num::{Real, Unit, Wide, exp_minus, nth, quotient};
 /// How many samples a pixel gets, and where.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Sampling {
     /// One ray through the centre.
     Centre,
@@ -24,6 +25,7 @@ pub enum Sampling {
 /// The weight `w(u, v)` of the samples of a pixel; its sum is 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Filter {
     /// Equal weights over the pixel.
     Box,
