@@ -155,6 +155,7 @@ fn compare(case: &Case, side: u32) -> (f64, f64) {
         samples_per_axis: match case.sampling.0 {
             Sampling::Grid(n) | Sampling::Jittered { n, .. } => n.into(),
             Sampling::Centre => 1,
+            other => unreachable!("{other:?}"),
         },
     };
     let exact = reference::render(&scene, side as usize, side as usize, &case.sampling.2);
