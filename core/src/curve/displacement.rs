@@ -128,7 +128,8 @@ pub(super) fn perpendicular(from: Point2, middle: Point2, along: i32, across: i3
     let square = u * u + v * v;
     // 2 (x + iy) (u - iv) / |u + iv|^2 with 24 fractional bits, rounded
     let quotient = |numerator: i128| {
-        let twice = (numerator << 29).checked_div(square)?;
+        // rounded down first, below 0 as well
+        let twice = (numerator << 29).checked_div_euclid(square)?;
         i64::try_from((twice + 1) >> 1).ok()
     };
     if square == 0 {
@@ -176,5 +177,77 @@ mod tests {
             let exact = (i64::from(a) * i64::from(b) + (1 << 27)) >> 28;
             assert_eq!(i64::from(product(a, b)), exact, "{a} {b}");
         }
+    }
+
+    /// Both parts of a displaced midpoint against integers, where nothing saturates and where it does.
+    #[test]
+    fn a_displaced_midpoint_is_the_nearest() {
+        let (mut inside, mut saturated) = (0, 0);
+        for i in 1..5000_i32 {
+            let [a, b, c, d, g, h] =
+                [0x2545_f491, 0x6c07_8965, 0x1f12_3bb5, 0x4f6c_dd1d, 0x3141_5927, 0x2718_2819_i32]
+                    .map(|n| i.wrapping_mul(n) >> (i % 5));
+            let point = |x, y| Point2::new(Real::from_bits(x), Real::from_bits(y));
+            let (from, to) = (point(a, b), point(c, d));
+            let parameter = Parameter::default();
+            let part = Part { from, to, middle: parameter, level: 0, span: Real::ONE };
+            let got = displaced(&part, Deviate::from_bits(g), Deviate::from_bits(h));
+            let limits = (i128::from(i32::MIN), i128::from(i32::MAX));
+            let length = |from: i32, to: i32| (i128::from(to) - i128::from(from)).clamp(limits.0, limits.1);
+            let (dx, dy, g, h) = (length(a, c), length(b, d), i128::from(g), i128::from(h));
+            let nearest = |from: i32, to: i32, raised: i128| {
+                // the intermediate sum saturates at 2^63, far outside
+                let sum = ((i128::from(from) + i128::from(to)) << 27) + raised + (1 << 27);
+                sum >> 28
+            };
+            let exact = [nearest(a, c, dx * g - dy * h), nearest(b, d, dy * g + dx * h)];
+            for (got, exact) in [got.x, got.y].into_iter().zip(exact) {
+                assert_eq!(i128::from(got.to_bits()), exact.clamp(limits.0, limits.1), "{i}");
+                if (limits.0..=limits.1).contains(&exact) { inside += 1 } else { saturated += 1 }
+            }
+        }
+        assert!(inside > 2000 && saturated > 500, "{inside} {saturated}");
+    }
+
+    /// `2^(1 - beta)`: the exponent is the nearest, so that half a unit of `2^-24` and the exponential's `2^-28` remain.
+    #[test]
+    fn a_spectrum_is_a_power_of_two_within_its_rounding() {
+        let mut worst: f64 = 0.0;
+        for bits in ((1 << 24)..=3 << 24).step_by(3331) {
+            let exact = 2_f64.powf(1.0 - f64::from(bits) / 16_777_216.0);
+            let got = checked_spectrum(Real::from_bits(bits)).unwrap() as f64 / 2_f64.powi(30);
+            // in units of the exponent
+            worst = worst.max((got / exact - 1.0).abs() * 16_777_216.0);
+        }
+        assert!((0.5..0.75).contains(&worst), "{worst}");
+        let fits = [(1 << 24) - 1, 1 << 24, 3 << 24, (3 << 24) + 1]
+            .map(|b| checked_spectrum(Real::from_bits(b)).is_ok());
+        assert_eq!(fits, [false, true, true, false]);
+        let offsets = [-1, 0, i32::MAX].map(|o| checked_offset(Unit::from_bits(o)).ok());
+        assert_eq!(offsets, [None, Some(0), Some((1 << 29) - 1)]);
+    }
+
+    /// The end of a part from its midpoint, against fractions: the nearest, a half upwards.
+    #[test]
+    fn the_end_of_a_part_is_the_nearest() {
+        let mut tried = 0;
+        for i in 1..4000_i32 {
+            let [a, b, x, y, g, h] =
+                [0x2545_f491, 0x6c07_8965, 0x1f12_3bb5, 0x4f6c_dd1d, 0x3141_5927, 0x2718_2819_i32]
+                    .map(|n| i.wrapping_mul(n) >> 7);
+            let (g, h) = (g << 3, h << 3);
+            let point = |x, y| Point2::new(Real::from_bits(x), Real::from_bits(y));
+            let Ok(got) = perpendicular(point(a, b), point(x, y), g, h) else { continue };
+            tried += 1;
+            let (u, v) = (i128::from(g) + (1 << 27), i128::from(h));
+            let (dx, dy) = (i128::from(x) - i128::from(a), i128::from(y) - i128::from(b));
+            // (dx + i dy) / (u + i v) with u, v of 28 fractional bits
+            let under = u * u + v * v;
+            for (got, from, over) in [(got.x, a, dx * u + dy * v), (got.y, b, dy * u - dx * v)] {
+                let off = (i128::from(got.to_bits()) - i128::from(from)) * under - (over << 28);
+                assert!(2 * off.abs() <= under, "{i}");
+            }
+        }
+        assert!(tried > 2000, "{tried}");
     }
 }

@@ -121,4 +121,16 @@ mod tests {
         }
         assert!(met > 1000 && missed > 1000);
     }
+
+    /// One height on the surface and one outside: the walk itself needs no more than the public name of the test.
+    #[test]
+    fn a_box_is_met_by_name_as_by_bits() {
+        let cell =
+            |min: i32, max: i32| Cell { min: Real::from_num(min), max: Real::from_num(max), ..Cell::ZERO };
+        let at = |z_in: i32, z_out: i32| {
+            meets(&cell(1, 2), &cell(3, 4), Real::from_num(z_in), Real::from_num(z_out))
+        };
+        // products from 3 to 8
+        assert_eq!([at(2, 2), at(3, 3), at(8, 8), at(9, 9), at(9, 2)], [false, true, true, false, true]);
+    }
 }

@@ -135,4 +135,67 @@ mod tests {
             assert!(error < 2_f64.powi(-26), "{degrees}: {error:e}");
         }
     }
+
+    #[test]
+    fn right_is_to_the_right_and_up_is_up() {
+        // along y with z upwards, x is to the right
+        let camera = Camera::new(at(1, 2, 3), at(1, 5, 3), at(0, 0, 7), Real::from_num(90)).unwrap();
+        let nearly = |v: Vec3<Unit>, exact: [i32; 3]| {
+            [v.x, v.y, v.z]
+                .iter()
+                .zip(exact)
+                .all(|(c, e)| (i64::from(c.to_bits()) - (i64::from(e) << 30)).abs() < 8)
+        };
+        assert!(
+            nearly(camera.forward, [0, 1, 0])
+                && nearly(camera.right, [1, 0, 0])
+                && nearly(camera.up, [0, 0, 1])
+        );
+        // half of 90 degrees has the tangent 1
+        assert!((camera.tangent - (1 << 28)).abs() <= 4, "{}", camera.tangent);
+        assert_eq!(camera.eye, at(1, 2, 3));
+    }
+
+    /// Degrees, the eye's coordinates and the angle between view and `up`, just inside and just outside.
+    #[test]
+    fn a_camera_is_refused_from_its_limits_on() {
+        let camera = |eye: [i32; 3], up: Vec3, degrees: i32| {
+            let [x, y, z] = eye.map(Real::from_bits);
+            Camera::new(Vec3::new(x, y, z), at(0, 0, 100), up, Real::from_bits(degrees)).map(|_| ())
+        };
+        let (up, limit, degree) = (at(1, 0, 0), 64 << 24, 1 << 24);
+        let far = |index, bits: i32| {
+            let value = Wide::from(Real::from_bits(bits));
+            Err(Error::OutOfRange {
+                what: "eye",
+                index: Some(index),
+                value,
+                min: Wide::from_num(-64),
+                max: Wide::from_num(64),
+            })
+        };
+        for index in 0..3 {
+            for edge in [limit, -limit] {
+                let mut eye = [0; 3];
+                eye[index] = edge;
+                assert_eq!(camera(eye, at(1, 2, 0), 40 * degree), far(index, edge));
+                eye[index] -= edge.signum();
+                assert_eq!(camera(eye, at(1, 2, 0), 40 * degree), Ok(()));
+            }
+        }
+        let fits =
+            [degree - 1, degree, 120 * degree, 120 * degree + 1].map(|d| camera([0; 3], up, d).is_ok());
+        assert_eq!(fits, [false, true, true, false]);
+        // looking along z, with an `up` that leans away from it by a 1023rd and by a 1025th
+        let leaning = |n: i32| {
+            let up = Vec3::new(Real::from_bits((1 << 30) / n), Real::ZERO, Real::from_bits(1 << 30));
+            camera([0; 3], up, 40 * degree)
+        };
+        let refused = Err(Error::Degenerate { what: "angle between view and up" });
+        assert_eq!([leaning(1023), leaning(1025), leaning(-1023)], [Ok(()), refused.clone(), Ok(())]);
+        assert_eq!(camera([0; 3], at(0, 0, 1), 40 * degree), refused);
+        assert_eq!(camera([0; 3], at(0, 0, 0), 40 * degree), Err(Error::Degenerate { what: "up" }));
+        let there = Camera::new(at(1, 2, 3), at(1, 2, 3), at(0, 0, 1), Real::from_num(40)).map(|_| ());
+        assert_eq!(there, Err(Error::Degenerate { what: "distance from eye to look_at" }));
+    }
 }

@@ -238,4 +238,85 @@ mod tests {
         assert!(tried > 300_000 && other > 5 && worst < 1.0, "{worst} of {other} of {tried}");
         assert!(worst > 0.25, "{worst}");
     }
+
+    /// Against integers: `from + (to - from) part`, rounded down; the part of the fade, within a unit and at most 1.
+    #[test]
+    fn a_mixture_and_a_fade_are_exact() {
+        for from in [0, 1, 1 << 29, 1 << 30] {
+            for to in [0, 77_777_777, 1 << 30] {
+                for part in [0, 1, 123_456_789, (1 << 30) - 1, 1 << 30] {
+                    let exact = from + (((to - from) * i64::from(part)) >> 30);
+                    let got = mix(Unit::from_bits(from as i32), Unit::from_bits(to as i32), part);
+                    assert_eq!(i64::from(got.to_bits()), exact, "{from} {to} {part}");
+                }
+            }
+        }
+        let mut worst = 0;
+        for fade in [1 << 24, 77_777_777, 1 << 27, (1 << 30) - 1, 1 << 30] {
+            for elevation in
+                [1 << 12, 4097, 1 << 20, 12_345_678, 1 << 24, fade as u32 - 1, fade as u32, 1 << 30]
+            {
+                let exact = ((i64::from(elevation) << 30) / i64::from(fade)).min(1 << 30);
+                let off = exact - i64::from(part(elevation, Unit::from_bits(fade)));
+                assert!((0..=3).contains(&off), "{elevation} / {fade}: {off}");
+                worst = worst.max(off);
+            }
+            assert_eq!([part(0, Unit::from_bits(fade)), part((1 << 12) - 1, Unit::from_bits(fade))], [0, 0]);
+        }
+        assert!(worst > 0);
+    }
+
+    /// A direction's length changes nothing but the last bits, and the square where a direction comes near its edge.
+    #[test]
+    fn a_tone_is_that_of_the_unit_vector() {
+        let (mut worst, mut tried, mut crossed) = (0, 0, 0);
+        for e in directions() {
+            let bits = [e.x, e.y, e.z].map(Unit::to_bits);
+            for length in [bits.map(|c| c / 2 * 3), bits.map(|c| c >> 1), bits.map(|c| c >> 4)] {
+                for sky in
+                    [Environment::SKY, Environment::Plain(Unit::from_bits(77)), Environment::CHECKERBOARD]
+                {
+                    let off = (sky.towards(length) - sky.tone(e)).abs().to_bits();
+                    tried += 1;
+                    if sky == Environment::CHECKERBOARD && off > 64 {
+                        crossed += 1;
+                    } else {
+                        worst = worst.max(off);
+                    }
+                }
+            }
+        }
+        assert!(
+            (32..64).contains(&worst) && tried > 30_000 && crossed * 20 < tried,
+            "{worst} {crossed} of {tried}"
+        );
+    }
+
+    #[test]
+    fn surroundings_are_refused_outside_their_ranges() {
+        let [below, zero, one, above] = [-1, 0, 1 << 30, (1 << 30) + 1].map(Unit::from_bits);
+        let refused = |environment: Environment| match environment.checked() {
+            Err(Error::OutOfRange { what, index, .. }) => Some((what, index)),
+            other => {
+                assert_eq!(other, Ok(environment));
+                None
+            }
+        };
+        let tone = |index| Some(("tone of the environment", Some(index)));
+        for (value, index) in [(below, tone(0)), (zero, None), (one, None), (above, tone(0))] {
+            assert_eq!(refused(Environment::Plain(value)), index);
+        }
+        assert_eq!(refused(Environment::Gradient { zenith: one, horizon: below, nadir: zero }), tone(1));
+        assert_eq!(refused(Environment::Gradient { zenith: one, horizon: one, nadir: above }), tone(2));
+        let board = |dark, scale, fade| {
+            let (scale, fade) = (Real::from_bits(scale), Unit::from_bits(fade));
+            refused(Environment::Checkerboard { bright: one, dark, horizon: zero, scale, fade })
+        };
+        assert_eq!(board(above, 1 << 24, 1 << 28), tone(1));
+        let (scale, fade) =
+            (Some(("scale of the checkerboard", None)), Some(("fade of the checkerboard", None)));
+        let scales = [(1 << 18) - 1, 1 << 18, 64 << 24, (64 << 24) + 1].map(|s| board(zero, s, 1 << 28));
+        let fades = [(1 << 24) - 1, 1 << 24, 1 << 30, (1 << 30) + 1].map(|f| board(zero, 1 << 24, f));
+        assert_eq!((scales, fades), ([scale, None, None, scale], [fade, None, None, fade]));
+    }
 }

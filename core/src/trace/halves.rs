@@ -1,34 +1,44 @@
-//! The walk through a height field whose nodes have two equal parts along each axis: a quadtree, the ordinary case.
+//! The walk through a hierarchy whose nodes have two equal parts along each axis: a quadtree, the ordinary case.
 //!
-//! No stack: where the walk stands is two numbers, and the nodes around it are their leading digits. Leaving a part whose last digit says "far" leaves its
-//! parent as well, so that the digits that say so, counted from the last, are the levels to rise. A plane takes one multiplication at whatever level:
-//! `t = middle + whole u`, `u` its place in `[-1/2, 1/2]` along the ray's way across the surface. Of a node's four parts at most three are tested.
-//! (After J. Revelles, C. Urena, M. Lastra, "An efficient parametric algorithm for octree traversal", 2000.)
+//! It finds the first leaf that a ray meets, going from part to part in the order in which the ray passes above them, and is
+//! used wherever both factors have two maps with the knot between them in the middle; [`super::parts`] walks everything else
+//! and finds the same leaves. What is gained is that equal parts need neither a stack nor a table of planes:
 //!
-//! Parameters have 24 fractional bits in 32. A ray so nearly parallel to a plane, or so steep, that it leaves that range above the surface is left to the
-//! general walk; the two find the same leaves.
+//! - The number of a node along an axis, plus 1, is a 1 followed by one binary digit a level: 0 for the lower part of the node
+//!   above, 1 for the upper. So the nodes that contain a node need not be remembered: they are the number without its last digits.
+//! - A ray passes the nearer part of a node first, then the farther one, then leaves the node. When it leaves a node whose
+//!   number ends in `k` digits that say "farther", it leaves the `k` nodes around it at the same plane, and the walk rises
+//!   by `k` levels at once.
+//! - With `u` a plane's place across the surface the way the ray goes, from -1/2 to 1/2, the ray crosses it at
+//!   `t = middle + whole u`, `middle` the parameter in the middle of the surface and `whole` what the ray takes across it:
+//!   one multiplication a plane, at every level.
+//!
+//! Of a node's four parts a ray passes at most three. Parameters have 24 fractional bits in 32. A ray so nearly parallel to a
+//! plane, or so steep, that it leaves that range above the surface is left to the general walk.
+//!
+//! After J. Revelles, C. Urena, M. Lastra, "An efficient parametric algorithm for octree traversal", 2000.
 
 use core::num::NonZeroU32;
 
 use super::boxes::meets_bits;
-use super::height_field::{HeightField, Leaf, Side};
+use super::hierarchy::{Hierarchy, Leaf, Profile};
 use super::ray::{Footprint, Ray, parameters};
 use super::statistics::Count;
 
-/// When the ray crosses the planes along one axis.
+/// When the ray crosses the planes along one axis: `t = middle + whole u`.
 #[derive(Debug, Clone, Copy)]
-struct Line {
+struct Crossings {
     /// Parameter at the middle plane of the surface.
     middle: i32,
-    /// Twice what the ray takes across it.
+    /// Twice `whole`, what the ray takes across the surface.
     twice: i32,
     /// 1 if the ray comes from above, and the second of two parts is its first.
     from_above: u32,
 }
 
-/// Where a walk stands along one axis.
+/// The node in which a walk stands, along one axis: the slab of space between its two planes.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct Slab {
     /// Number of the node: the parts of `q` are `2 q + 1` and `2 q + 2`.
     node: u32,
     /// The plane at which the ray leaves it, 31 fractional bits, and the parameter there.
@@ -39,18 +49,18 @@ struct Place {
 /// `u` = 1/2.
 const HALF: i32 = 1 << 30;
 
-impl Line {
+impl Crossings {
     /// None where a parameter might leave its format.
     #[inline(always)]
-    fn new(side: &Side<'_>, origin: i32, direction: i32) -> Option<Self> {
-        let distance = (side.origin + side.width / 2).wrapping_sub(origin);
+    fn new(profile: &Profile<'_>, origin: i32, direction: i32) -> Option<Self> {
+        let distance = (profile.origin + profile.width / 2).wrapping_sub(origin);
         let magnitude = direction.unsigned_abs();
         // distance / magnitude, with 24 and 28 fractional bits, is below 64
-        if magnitude <= distance.unsigned_abs().max(side.width.unsigned_abs()) >> 2 {
+        if magnitude <= distance.unsigned_abs().max(profile.width.unsigned_abs()) >> 2 {
             return None;
         }
         let distance = if direction < 0 { distance.wrapping_neg() } else { distance };
-        let [middle, whole] = parameters([distance, side.width], NonZeroU32::new(magnitude)?);
+        let [middle, whole] = parameters([distance, profile.width], NonZeroU32::new(magnitude)?);
         Some(Self { middle, twice: whole << 1, from_above: (direction as u32) >> 31 })
     }
 
@@ -73,30 +83,36 @@ impl Line {
     }
 }
 
-impl Place {
+impl Slab {
     #[inline(always)]
-    fn root(line: &Line) -> Self {
-        Self { node: 0, end: HALF, next: line.middle.wrapping_add(line.twice >> 2) }
+    fn root(planes: &Crossings) -> Self {
+        Self { node: 0, end: HALF, next: planes.middle.wrapping_add(planes.twice >> 2) }
     }
 
     /// Into the part, `size` wide, in which the ray is at `t`.
     #[inline(always)]
-    fn descend(&mut self, line: &Line, size: u32, t: i32) {
+    fn descend(&mut self, planes: &Crossings, size: u32, t: i32) {
         let middle = self.end.wrapping_sub(size as i32);
-        let next = line.at(middle);
-        self.node = 2 * self.node + 1 + line.from_above;
+        let next = planes.at(middle);
+        self.node = 2 * self.node + 1 + planes.from_above;
         if next > t {
             (self.end, self.next) = (middle, next);
         } else {
-            self.node = self.node.wrapping_add(line.step());
+            self.node = self.node.wrapping_add(planes.step());
         }
     }
 
     /// Over the plane at its end, into the next node, and out of the nodes that end there too. None at the end of the surface.
     #[inline(always)]
-    fn advance(&mut self, line: &Line, aside: &mut Self, line_aside: &Line, size: &mut u32) -> Option<()> {
+    fn advance(
+        &mut self,
+        planes: &Crossings,
+        aside: &mut Self,
+        planes_aside: &Crossings,
+        size: &mut u32,
+    ) -> Option<()> {
         // the last digit that does not say "far"
-        let near = (self.node + 1) ^ line.from_above.wrapping_sub(1);
+        let near = (self.node + 1) ^ planes.from_above.wrapping_sub(1);
         if near & 1 == 0 {
             let levels = near.trailing_zeros() & 31;
             *size <<= levels;
@@ -106,49 +122,64 @@ impl Place {
             self.node = ((self.node + 1) >> levels).wrapping_sub(1);
             aside.node = ((aside.node + 1) >> levels).wrapping_sub(1);
             aside.end = (aside.end.wrapping_sub(1) | size.wrapping_sub(1) as i32).wrapping_add(1);
-            aside.next = line_aside.at(aside.end);
+            aside.next = planes_aside.at(aside.end);
         }
-        self.node = self.node.wrapping_add(line.step());
+        self.node = self.node.wrapping_add(planes.step());
         self.end = self.end.wrapping_add(*size as i32);
-        self.next = line.at(self.end);
+        self.next = planes.at(self.end);
         Some(())
     }
 }
 
-/// A footprint made ready for the walk of one surface.
+/// From where on the nodes of one surface are no wider than a footprint, made ready for a walk.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cone {
+pub(super) struct LevelOfDetail {
     pub(super) footprint: Footprint,
     /// From where on the whole surface is small: twice that parameter less its last `shift` bits.
     small: u32,
     shift: u32,
 }
 
-impl HeightField<'_> {
-    pub(super) fn cone(&self, footprint: Footprint) -> Cone {
-        let small = footprint.reaches(self.x.width.max(self.y.width)).max(0);
-        // at most 31: a width has 31 bits, the reciprocal of a footprint 32
-        let shift = 33_u32.saturating_sub(small.leading_zeros());
-        Cone { footprint, small: ((small >> shift) << 1) as u32, shift }
+impl LevelOfDetail {
+    /// Whether a node, `size` wide where the whole surface is `2^31`, is no wider than the footprint at `t`.
+    #[inline(always)]
+    fn is_reached(&self, size: u32, t: i32) -> bool {
+        let small = ((u64::from(self.small) * u64::from(size)) >> 32) as i32;
+        t >> (self.shift & 31) >= small
     }
 }
 
-impl HeightField<'_> {
+impl Hierarchy<'_> {
+    pub(super) fn level_of_detail(&self, footprint: Footprint) -> LevelOfDetail {
+        let small = footprint.reaches(self.x.width.max(self.y.width)).max(0);
+        // at most 31: a width has 31 bits, the reciprocal of a footprint 32
+        let shift = 33_u32.saturating_sub(small.leading_zeros());
+        LevelOfDetail { footprint, small: ((small >> shift) << 1) as u32, shift }
+    }
+
+    /// The first leaf that the ray meets.
     #[inline(never)]
-    pub(super) fn walk_halves(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf> {
+    pub(super) fn walk_halves(
+        &self,
+        ray: &Ray,
+        detail: &LevelOfDetail,
+        count: &mut impl Count,
+    ) -> Option<Leaf> {
         let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin, ray.direction);
-        let (Some(line_x), Some(line_y)) = (Line::new(&self.x, ox, dx), Line::new(&self.y, oy, dy)) else {
-            return self.walk_parts(ray, cone.footprint, count);
+        let (Some(planes_x), Some(planes_y)) =
+            (Crossings::new(&self.x, ox, dx), Crossings::new(&self.y, oy, dy))
+        else {
+            return self.walk_parts(ray, detail.footprint, count);
         };
-        let (mut x, mut y) = (Place::root(&line_x), Place::root(&line_y));
+        let (mut x, mut y) = (Slab::root(&planes_x), Slab::root(&planes_y));
         let z_at = |t: i32| oz.wrapping_add(((i64::from(dz) * i64::from(t)) >> 28) as i32);
         let end = x.next.min(y.next);
         if !(-1 << 26..1 << 26).contains(&((i64::from(dz) * i64::from(end)) >> 32)) {
             // 64 or more upwards or downwards
-            return self.walk_parts(ray, cone.footprint, count);
+            return self.walk_parts(ray, detail.footprint, count);
         }
         count.ray();
-        let mut t = line_x.near().max(line_y.near()).max(0);
+        let mut t = planes_x.near().max(planes_y.near()).max(0);
         if t > end {
             return None;
         }
@@ -170,17 +201,16 @@ impl HeightField<'_> {
             return None;
         }
         let (cells_x, cells_y) = (self.x.cells, self.y.cells);
-        let (mut size, last) = (1_u32 << 31, (1 << 31) >> self.depth());
+        let (mut size, last) = (1_u32 << 31, (1 << 31) >> self.depth);
         let mut next = end;
         loop {
             // the ray meets the node where the walk stands
-            let small = ((u64::from(cone.small) * u64::from(size)) >> 32) as i32;
-            if size <= last || t >> (cone.shift & 31) >= small {
+            if size <= last || detail.is_reached(size, t) {
                 return Some(Leaf { nodes: (x.node, y.node), span: (t, next) });
             }
             size >>= 1;
-            x.descend(&line_x, size, t);
-            y.descend(&line_y, size, t);
+            x.descend(&planes_x, size, t);
+            y.descend(&planes_y, size, t);
             count.depth(size.leading_zeros());
             loop {
                 next = x.next.min(y.next);
@@ -192,11 +222,199 @@ impl HeightField<'_> {
                 }
                 (t, z) = (next, z_next);
                 if x.next <= y.next {
-                    x.advance(&line_x, &mut y, &line_y, &mut size)?;
+                    x.advance(&planes_x, &mut y, &planes_y, &mut size)?;
                 } else {
-                    y.advance(&line_y, &mut x, &line_x, &mut size)?;
+                    y.advance(&planes_y, &mut x, &planes_x, &mut size)?;
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::exact::{Fraction, Surface, first_leaf};
+    use super::super::statistics::Statistics;
+    use super::*;
+    use crate::fif::Cell;
+    use crate::num::{Real, Unit};
+
+    const HALVES: [u32; 2] = [0, 1 << 30];
+
+    /// Against fractions: the leaf, its span, and every box that is tested on the way.
+    #[test]
+    fn the_first_leaf_of_equal_parts_is_the_exact_one() {
+        let (mut found, mut missed, mut small, mut close, mut worst, mut left) = (0, 0, 0, 0, 0, 0);
+        for (seed, (depth, domain)) in [
+            (4, [[-(1 << 23), (1 << 24) + 1], [1 << 20, 15_000_001]]),
+            (3, [[-(1 << 24), 3 << 23], [-(5 << 24), 9_999_999]]),
+            (1, [[0, 1 << 24], [-(1 << 24), 1 << 23]]),
+            (0, [[0, 1 << 24], [-(1 << 24), 1 << 24]]),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let surface = Surface::new([&HALVES; 2], depth, domain, 7 + seed as u64);
+            let hierarchy = surface.hierarchy();
+            for (k, mut ray) in surface.rays(99 + seed as u64, 4000).enumerate() {
+                if k % 16 == 0 {
+                    // nearly parallel to a plane: what the general walk is for
+                    ray.direction[k / 16 % 2] >>= 7;
+                }
+                let per_t = [1, 1 << 26, 1 << 28][k % 3];
+                let clipped = is_left_to_the_general_walk(&hierarchy, &ray);
+                left += usize::from(clipped);
+                let truth = first_leaf(&hierarchy, &ray, per_t, clipped);
+                if truth.is_close {
+                    close += 1;
+                    continue;
+                }
+                let mut statistics = Statistics::default();
+                let detail = hierarchy.level_of_detail(Footprint::new(Unit::from_bits(per_t)));
+                let leaf = hierarchy.walk_halves(&ray, &detail, &mut statistics);
+                assert_eq!(leaf.as_ref().map(|leaf| leaf.nodes), truth.nodes, "{ray:?} {truth:?}");
+                let stack = if clipped { truth.unfinished } else { truth.statistics.stack };
+                assert_eq!(statistics, Statistics { stack, ..truth.statistics }, "{ray:?} {truth:?}");
+                let Some(leaf) = leaf else {
+                    missed += 1;
+                    continue;
+                };
+                found += 1;
+                small += usize::from(leaf.nodes.0 < hierarchy.leaves);
+                worst = worst.max(truth.error(leaf.span, &ray));
+            }
+        }
+        assert!(
+            found > 3000 && missed > 1000 && small > 500 && close < 500,
+            "{found} {missed} {small} {close}"
+        );
+        // four units: a parameter is off by one or two, and a direction is up to 4
+        assert!((16..=64).contains(&worst) && left > 1000, "{worst} {left}");
+    }
+
+    /// Whether a parameter or a height leaves its format above the surface.
+    fn is_left_to_the_general_walk(hierarchy: &Hierarchy<'_>, ray: &Ray) -> bool {
+        let mut end = i128::MAX;
+        for (axis, profile) in [hierarchy.x, hierarchy.y].iter().enumerate() {
+            let (origin, d) = (i128::from(ray.origin[axis]), i128::from(ray.direction[axis]));
+            let (low, width) = (i128::from(profile.origin), i128::from(profile.width));
+            let distance = low + width / 2 - origin;
+            // 64 or more
+            if d == 0 || distance.abs().max(width) << 4 >= d.abs() << 6 {
+                return true;
+            }
+            let far = if d > 0 { low + width } else { low };
+            end = end.min(((far - origin) << 28) / d);
+        }
+        let rise = (i128::from(ray.direction[2]) * end) >> 28;
+        !(-64 << 24..64 << 24).contains(&rise)
+    }
+
+    /// A ray that starts on a plane is above the part that it goes into, not above the one that it leaves.
+    #[test]
+    fn a_part_ends_before_its_far_plane() {
+        let cell = |max: i32| Cell { max: Real::from_bits(max), ..Cell::ZERO };
+        let (tall, flat) = (cell(1 << 24), cell(1 << 20));
+        for (low, high, direction) in [(tall, flat, 1 << 28), (flat, tall, -(1 << 28))] {
+            for axis in 0..2 {
+                let (walked, other) = ([tall, low, high], [tall; 3]);
+                let profile = |cells, origin| Profile { cells, starts: &HALVES, origin, width: 1 << 24 };
+                let [x, y] = if axis == 0 { [&walked, &other] } else { [&other, &walked] };
+                // the planes between the parts at 0, and the ray in the middle of a part along the other axis
+                let origins = if axis == 0 { [-(1 << 23), 0] } else { [0, -(1 << 23)] };
+                let (x, y) = (profile(x, origins[0]), profile(y, origins[1]));
+                let hierarchy = Hierarchy { x, y, depth: 1, leaves: 1, heights: (0, (1 << 24) + 1) };
+                let mut ray = Ray::from_bits([1 << 22, 1 << 22, 1 << 23], [1 << 27, 1 << 27, 0]);
+                (ray.origin[axis], ray.direction[axis]) = (0, direction);
+                let detail = hierarchy.level_of_detail(Footprint::new(Unit::DELTA));
+                let walk = |ray: &Ray| hierarchy.walk_halves(ray, &detail, &mut Statistics::default());
+                assert_eq!(walk(&ray), None, "{axis} {direction}");
+                ray.direction[axis] = -direction;
+                let part = if direction > 0 { 1 } else { 2 };
+                let nodes = walk(&ray).unwrap().nodes;
+                assert_eq!(nodes, if axis == 0 { (part, 1) } else { (1, part) });
+            }
+        }
+    }
+
+    /// Parameters of planes against fractions; none exactly where the middle or the width is 64 or more away.
+    #[test]
+    fn planes_are_crossed_when_they_should_be() {
+        let (mut worst, mut crossed, mut none) = (0, 0, 0);
+        for (origin, width) in
+            [(-(1 << 23), 1 << 24), (5 << 24, 12_345_678), (-(64 << 24), i32::MAX - 1), (3, 2)]
+        {
+            for from in [-(64 << 24) + 1, -77_777, 0, 1 << 24, 40_000_001, 64 << 24] {
+                let middle = i64::from(origin) + i64::from(width / 2) - i64::from(from);
+                let limit = (middle.abs().max(i64::from(width)) >> 2) as i32;
+                for d in
+                    [1 << 30, 1 << 28, 123_456_789, 1 << 24, limit.saturating_add(1), limit, limit - 1, 77]
+                {
+                    for direction in [d, -d] {
+                        let profile = Profile { cells: &[], starts: &HALVES, origin, width };
+                        let planes = Crossings::new(&profile, from, direction);
+                        assert_eq!(planes.is_none(), d <= limit, "{origin} {width} {from} {direction}");
+                        let Some(planes) = planes else {
+                            none += 1;
+                            continue;
+                        };
+                        let forward = i128::from(direction.signum());
+                        for u in [-HALF, -HALF / 2, -77_777, 0, 3 << 27, HALF] {
+                            let place =
+                                (i128::from(middle) << 31) + i128::from(width) * i128::from(u) * forward;
+                            let exact = Fraction::new(place, i128::from(direction) << 3);
+                            let got = Fraction::new(planes.at(u).into(), 1);
+                            while !exact.is_within(worst, got) {
+                                worst += 1;
+                            }
+                        }
+                        crossed += 1;
+                        assert_eq!(planes.near(), planes.at(-HALF));
+                        assert_eq!(Slab::root(&planes).next, planes.at(HALF));
+                        assert_eq!(planes.step(), forward as u32);
+                    }
+                }
+            }
+        }
+        assert!(crossed > 100 && none > 100, "{crossed} {none}");
+        // the reciprocal's 2^-29 of a parameter below 64 is 2 units
+        assert!((2..=6).contains(&worst), "{worst}");
+    }
+
+    /// Nodes are small from the parameter on where the footprint is as wide, early by what the kept bits do not tell.
+    #[test]
+    fn a_node_is_small_where_the_footprint_is_as_wide() {
+        let (mut worst, mut tried) = (0.0_f64, 0);
+        for width in [1 << 24, 9_999_999, 3 << 25, i32::MAX, 1, 77_777] {
+            for per_t in [1, 77, 1 << 10, 123_457, 1 << 26, 1 << 29, 777_777_777, i32::MAX] {
+                let profile = |width| Profile { cells: &[], starts: &HALVES, origin: 0, width };
+                // the wider side counts
+                let (x, y) = (profile(width), profile(width / 3));
+                let (x, y) = if per_t % 2 == 0 { (x, y) } else { (y, x) };
+                let hierarchy = Hierarchy { x, y, depth: 16, leaves: 0, heights: (0, 0) };
+                let detail = hierarchy.level_of_detail(Footprint::new(Unit::from_bits(per_t)));
+                for level in 0..=16 {
+                    let exact = i128::from(width) << 30;
+                    let under = i128::from(per_t) << level;
+                    let kept =
+                        (exact / i128::from(per_t)).checked_ilog2().map_or(0, |b| b.saturating_sub(30));
+                    let (mut low, mut high) = (0_i64, 1 << 31);
+                    while low < high {
+                        let t = (low + high) / 2;
+                        if detail.is_reached((1 << 31) >> level, t as i32) { high = t } else { low = t + 1 }
+                    }
+                    let early = exact - i128::from(low) * under;
+                    if low == 1 << 31 {
+                        assert!(early > -under, "{width} {per_t} {level}");
+                        continue;
+                    }
+                    tried += 1;
+                    let unit = under << kept;
+                    assert!(-2 * under <= early, "{width} {per_t} {level}: {low}");
+                    worst = worst.max((early - (exact >> 28)) as f64 / unit as f64);
+                }
+            }
+        }
+        assert!(tried > 300 && (0.5..1.0).contains(&worst), "{worst} of {tried}");
     }
 }

@@ -1,14 +1,14 @@
 //! Where a ray meets the height field `h(x, y) = f(x) g(y)`.
 //!
-//! The cells of both pyramids span an implicit tree of boxes, `N M` parts a node; a walk through it from front to back finds the first leaf that the ray
-//! meets, in [`super::halves`] where nodes have two equal parts along each axis, in [`super::parts`] elsewhere.
+//! A walk through the hierarchy of boxes from front to back finds the first leaf that the ray meets; the part of the ray inside the leaf's box gives the hit.
 //!
 //! Formats: lengths and `t` 24 fractional bits, directions 28.
 //!
 //! Source: Cochran, Lewis, Hart, section 4, Algorithm 3.
 
 use super::boxes::range;
-use super::halves::Cone;
+use super::halves::LevelOfDetail;
+use super::hierarchy::{Hierarchy, Leaf, Profile};
 use super::ray::{Footprint, Ray};
 use super::statistics::{Count, Statistics, Uncounted};
 use crate::Error;
@@ -18,24 +18,9 @@ use crate::num::{Real, Unit, Vec3, Wide};
 /// A height field `f(x) g(y)` as the pyramids of its factors.
 #[derive(Debug, Clone, Copy)]
 pub struct HeightField<'a> {
-    pub(super) x: Side<'a>,
-    pub(super) y: Side<'a>,
-    depth: u32,
-    /// The first node of the deepest level along x.
-    pub(super) leaves: u32,
+    hierarchy: Hierarchy<'a>,
     /// Whether nodes have two equal parts along both axes.
     halved: bool,
-    /// Bounds of all heights, 24 fractional bits.
-    pub(super) heights: (i32, i32),
-}
-
-/// One factor: its pyramid and its domain with 24 fractional bits.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Side<'a> {
-    pub(super) cells: &'a [Cell],
-    pub(super) starts: &'a [u32],
-    pub(super) origin: i32,
-    pub(super) width: i32,
 }
 
 /// The leaf that a ray meets first.
@@ -59,12 +44,6 @@ impl Hit {
     }
 }
 
-/// A leaf as the walk finds it: its nodes along x and y, the ray's part above it.
-pub(super) struct Leaf {
-    pub(super) nodes: (u32, u32),
-    pub(super) span: (i32, i32),
-}
-
 /// The mean normal over a leaf, 24 fractional bits, saturated at ±64.
 #[inline(always)]
 fn normal(f: &Cell, g: &Cell) -> [i32; 3] {
@@ -75,43 +54,6 @@ fn normal(f: &Cell, g: &Cell) -> [i32; 3] {
         if (-1 << 22..1 << 22).contains(&high) { -((product >> 24) as i32) } else { saturated }
     };
     [minus_product(f.slope, g.mean), minus_product(f.mean, g.slope), 1 << 24]
-}
-
-impl<'a> Side<'a> {
-    fn new(name: &'static str, pyramid: &Pyramid<'a>) -> Result<Self, Error> {
-        let (x0, width) = pyramid.domain_bits();
-        let end = x0.saturating_add_unsigned(width);
-        // below 64, so that the width fits
-        let limit = 64 << 48;
-        if x0 < -limit || end >= limit {
-            let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
-            let value = Wide::from_bits(if end >= limit { end } else { x0 });
-            return Err(Error::OutOfRange { what: name, index: None, value, min, max });
-        }
-        let origin = (x0 >> 24) as i32;
-        Ok(Self {
-            cells: pyramid.all(),
-            starts: pyramid.starts(),
-            origin,
-            width: ((end >> 24) as i32) - origin,
-        })
-    }
-
-    /// Whether a node has two equal parts, the ordinary case, for which [`super::halves`] has a walk of its own.
-    fn is_halved(&self) -> bool {
-        self.starts == [0, 1 << 30]
-    }
-
-    /// Level of a node and its index there.
-    fn place(&self, node: u32) -> (u32, u32) {
-        let (mut level, mut first, mut count) = (0, 0_u32, 1_u32);
-        while node >= first.saturating_add(count) && level < Pyramid::MAX_DEPTH {
-            first += count;
-            count = count.saturating_mul(self.starts.len() as u32);
-            level += 1;
-        }
-        (level, node.saturating_sub(first))
-    }
 }
 
 impl<'a> HeightField<'a> {
@@ -138,25 +80,30 @@ impl<'a> HeightField<'a> {
             Some(above) => Pyramid::cells(x.branching() as usize, above) as u32,
             None => 0,
         };
-        let (x, y) = (Side::new("domain along x", x)?, Side::new("domain along y", y)?);
+        let (x, y) = (Profile::new("domain along x", x)?, Profile::new("domain along y", y)?);
         let halved = x.is_halved() && y.is_halved();
-        Ok(Self { x, y, depth, leaves, halved, heights: range(&f, &g) })
+        Ok(Self { hierarchy: Hierarchy { x, y, depth, leaves, heights: range(&f, &g) }, halved })
     }
 
     /// The depth of the tree, at most [`Pyramid::MAX_DEPTH`]: no more than this many frames are on the stack of a walk.
     pub const fn depth(&self) -> u32 {
-        self.depth
+        self.hierarchy.depth
     }
 
     /// Rigorous bounds of the heights.
     pub fn heights(&self) -> (Real, Real) {
-        (Real::from_bits(self.heights.0), Real::from_bits(self.heights.1))
+        let (low, high) = self.hierarchy.heights;
+        (Real::from_bits(low), Real::from_bits(high))
     }
 
     /// The surface's box, 24 fractional bits: both ends along x, y and z.
     pub(super) fn extent(&self) -> [[i32; 2]; 3] {
-        let side = |s: &Side<'_>| [s.origin, s.origin + s.width];
-        [side(&self.x), side(&self.y), [self.heights.0, self.heights.1]]
+        self.hierarchy.extent()
+    }
+
+    /// From where on the nodes of this surface are small enough, for rays with this footprint.
+    pub(super) fn level_of_detail(&self, footprint: Footprint) -> LevelOfDetail {
+        self.hierarchy.level_of_detail(footprint)
     }
 
     /// The first leaf that the ray meets. A node is a leaf at the deepest level, or where it is no wider than `footprint` times the ray's parameter.
@@ -167,30 +114,31 @@ impl<'a> HeightField<'a> {
     /// the edge of a box (row `HeightField::intersect (depth)`). Cost: 29.7
     /// Cortex-M4 instructions (kernel `box test`) a box test.
     pub fn intersect(&self, ray: &Ray, footprint: Unit) -> Option<Hit> {
-        self.leaf(ray, &self.cone(Footprint::new(footprint)), &mut Uncounted)
+        self.leaf(ray, &self.level_of_detail(Footprint::new(footprint)), &mut Uncounted)
             .and_then(|leaf| self.hit(ray, &leaf))
     }
 
     /// The leaf alone: all that shading needs.
     #[inline(always)]
-    pub(super) fn leaf(&self, ray: &Ray, cone: &Cone, count: &mut impl Count) -> Option<Leaf> {
+    pub(super) fn leaf(&self, ray: &Ray, detail: &LevelOfDetail, count: &mut impl Count) -> Option<Leaf> {
         if self.halved {
-            self.walk_halves(ray, cone, count)
+            self.hierarchy.walk_halves(ray, detail, count)
         } else {
-            self.walk_parts(ray, cone.footprint, count)
+            self.hierarchy.walk_parts(ray, detail.footprint, count)
         }
     }
 
     /// As [`HeightField::intersect`], and adds to `statistics` what it took.
     pub fn intersect_counted(&self, ray: &Ray, footprint: Unit, statistics: &mut Statistics) -> Option<Hit> {
-        self.leaf(ray, &self.cone(Footprint::new(footprint)), statistics)
+        self.leaf(ray, &self.level_of_detail(Footprint::new(footprint)), statistics)
             .and_then(|leaf| self.hit(ray, &leaf))
     }
 
     /// The cells of a leaf along x and y.
     #[inline(always)]
     fn cells(&self, leaf: &Leaf) -> Option<(&'a Cell, &'a Cell)> {
-        Some((self.x.cells.get(leaf.nodes.0 as usize)?, self.y.cells.get(leaf.nodes.1 as usize)?))
+        let Hierarchy { x, y, .. } = &self.hierarchy;
+        Some((x.cells.get(leaf.nodes.0 as usize)?, y.cells.get(leaf.nodes.1 as usize)?))
     }
 
     /// The mean normal over a leaf.
@@ -207,13 +155,15 @@ impl<'a> HeightField<'a> {
         let (t_in, t_out) = z.clip(low, high, leaf.span);
         // a ray that only touches the box may round to an empty part
         let t = if t_in <= t_out { t_in + (t_out - t_in) / 2 } else { leaf.span.0 };
-        let ((level, i), (_, j)) = (self.x.place(leaf.nodes.0), self.y.place(leaf.nodes.1));
+        let Hierarchy { x, y, .. } = &self.hierarchy;
+        let ((level, i), (_, j)) = (x.level_and_index(leaf.nodes.0), y.level_and_index(leaf.nodes.1));
         Some(Hit { level, index: (i, j), t: Real::from_bits(t), cells: (*f, *g) })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::exact::with_polygon;
     use super::*;
 
     /// Minus the products of slopes and means: towards plus infinity by a unit at most, saturated at 64.
@@ -239,10 +189,135 @@ mod tests {
         }
     }
 
+    /// A plane of height `c` above `[x0, x1]`, as the pyramid of one factor.
+    fn with_level<R>(x0: Wide, x1: Wide, c: Wide, depth: u32, then: impl FnOnce(&Pyramid<'_>) -> R) -> R {
+        with_polygon(&[(x0, c), (x0 + (x1 - x0) / 2, c), (x1, c)], depth, then)
+    }
+
+    /// Straight down on `f(x) g(y)` of two tents: the leaf under the ray, in the middle of its box.
     #[test]
-    fn a_node_has_its_place_in_its_level() {
-        let side = Side { cells: &[], starts: &[0, 1 << 29, 1 << 30], origin: 0, width: 1 << 24 };
-        let places = [0, 1, 3, 4, 12, 13, 39].map(|node| side.place(node));
-        assert_eq!(places, [(0, 0), (1, 0), (1, 2), (2, 0), (2, 8), (3, 0), (3, 26)]);
+    fn a_hit_is_in_the_middle_of_the_box_of_the_leaf_below() {
+        let whole = |n: i32| Wide::from_num(n);
+        let tent = [(whole(-1), whole(1)), (whole(1), whole(3)), (whole(3), whole(0))];
+        with_polygon(&tent, 3, |f| {
+            with_polygon(&tent, 5, |g| {
+                let surface = HeightField::new(f, g).unwrap();
+                // the shallower of the two
+                assert_eq!((surface.depth(), surface.hierarchy.leaves), (3, 7));
+                assert_eq!(HeightField::new(g, f).unwrap().depth(), 3);
+                let heights = surface.heights();
+                assert_eq!((heights.0.to_bits(), heights.1.to_bits()), range(&f.root(), &g.root()));
+                assert_eq!(surface.extent()[..2], [[-(1 << 24), 3 << 24]; 2]);
+                for i in 0..8 {
+                    for j in 0..8 {
+                        // leaves are 1/2 wide: a quarter and an eighth from their lower ends
+                        let place = |k: i32, part: i32| Real::from_bits((k << 23) - (1 << 24) + part);
+                        let eye = Vec3::new(place(i, 1 << 21), place(j, 1 << 22), Real::from_num(20));
+                        let down = Vec3::new(Real::ZERO, Real::ZERO, -Real::ONE / 2);
+                        let hit = surface.intersect(&Ray::new(eye, down), Unit::ZERO).unwrap();
+                        assert_eq!((hit.level, hit.index), (3, (i as u32, j as u32)));
+                        let (f, g) = (f.level(3)[i as usize], g.level(3)[j as usize]);
+                        assert_eq!(hit.cells, (f, g));
+                        let end = |a: Real, b: Real| (i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24;
+                        let (low, high) = (end(f.min, g.min), end(f.max, g.max));
+                        // twice 20 less the middle height
+                        let exact = (40 << 24) - low - high;
+                        assert!(
+                            (i64::from(hit.t.to_bits()) - exact).abs() <= 4,
+                            "{i} {j}: {} {exact}",
+                            hit.t
+                        );
+                        let up = Ray::new(eye, Vec3::new(Real::ZERO, Real::ZERO, Real::ONE));
+                        assert!(surface.intersect(&up, Unit::ZERO).is_none());
+                        let mut statistics = Statistics::default();
+                        let counted =
+                            surface.intersect_counted(&Ray::new(eye, down), Unit::ZERO, &mut statistics);
+                        assert_eq!((counted, statistics.rays), (Some(hit), 1));
+                    }
+                }
+                // a footprint as wide as the whole surface takes it for a leaf
+                let eye = Vec3::new(Real::ONE, Real::ONE, Real::from_num(20));
+                let down = Vec3::new(Real::ZERO, Real::ZERO, -Real::ONE);
+                assert_eq!(surface.intersect(&Ray::new(eye, down), Unit::ONE).unwrap().level, 0);
+            });
+        });
+    }
+
+    /// The part of the ray inside the leaf's box may round to nothing.
+    #[test]
+    fn a_ray_that_only_touches_a_box_hits_where_it_comes_above_it() {
+        let whole = |n: i32| Wide::from_num(n);
+        with_level(whole(0), whole(1), whole(1), 1, |f| {
+            let surface = HeightField::new(f, f).unwrap();
+            let ray = Ray::new(Vec3::default(), Vec3::new(Real::ONE, Real::ONE, Real::ONE));
+            let hit = |span| surface.hit(&ray, &Leaf { nodes: (1, 2), span }).unwrap();
+            // at height 1 from t = 1 on
+            assert_eq!(hit((7, 99)).t.to_bits(), 7);
+            let inside = hit((0, 5 << 24)).t.to_bits();
+            assert!((inside - (1 << 24)).abs() <= 4, "{inside}");
+            assert_eq!((hit((7, 99)).level, hit((7, 99)).index), (1, (0, 1)));
+            assert!(surface.hit(&ray, &Leaf { nodes: (1, 3), span: (0, 1) }).is_none());
+            assert_eq!(surface.normal(&Leaf { nodes: (3, 1), span: (0, 1) }), [0, 0, 1 << 24]);
+        });
+    }
+
+    /// From -64 to the last place before 64, and heights below 64.
+    #[test]
+    fn a_surface_is_refused_from_its_limits_on() {
+        let (limit, unit) = (Wide::from_num(64), Wide::DELTA);
+        let refused = |x0: Wide, x1: Wide| {
+            with_level(x0, x1, Wide::ONE, 1, |f| {
+                with_level(Wide::ZERO, Wide::ONE, Wide::ONE, 1, |g| {
+                    let error = |surface: Result<HeightField<'_>, Error>| match surface {
+                        Err(Error::OutOfRange { what, value, .. }) => Some((what, value)),
+                        other => other.map(|_| None).unwrap(),
+                    };
+                    let (x, y) = (error(HeightField::new(f, g)), error(HeightField::new(g, f)));
+                    assert_eq!(x.map(|(_, value)| value), y.map(|(_, value)| value));
+                    assert!(y.is_none_or(|(what, _)| what == "domain along y"));
+                    x
+                })
+            })
+        };
+        let along_x = |value: Wide| Some(("domain along x", value));
+        assert_eq!(refused(-limit, Wide::ONE), None);
+        assert_eq!(refused(-limit - unit, Wide::ONE), along_x(-limit - unit));
+        assert_eq!(refused(Wide::ONE, limit - unit), None);
+        assert_eq!(refused(Wide::ONE, limit), along_x(limit));
+        // ends are rounded down, each by itself
+        with_level(Wide::from_bits(-1), Wide::from_bits((3 << 24) - 1), Wide::ONE, 0, |f| {
+            let Profile { origin, width, .. } = Profile::new("x", f).unwrap();
+            assert_eq!((origin, width), (-1, 3));
+        });
+        // a factor whose greatest value is exactly 8, and one whose least value is -8
+        let (mut decided, mut below) = (0, 0);
+        for less in 0..64_i64 {
+            let eight = Wide::from_bits((8 << 48) - (less << 22));
+            for value in [eight, -eight] {
+                with_level(Wide::ZERO, Wide::ONE, value, 1, |f| {
+                    let largest = f.root().max.to_bits().max(-f.root().min.to_bits());
+                    let surface = HeightField::new(f, f);
+                    assert_eq!(surface.is_err(), largest >= 8 << 24, "{largest}");
+                    decided += u32::from(largest == 8 << 24);
+                    below += u32::from(largest < 8 << 24);
+                });
+            }
+        }
+        assert!(decided >= 2 && below >= 2, "{decided} {below}");
+    }
+
+    /// Equal halves along both axes alone have the walk of their own.
+    #[test]
+    fn a_surface_of_other_parts_is_walked_in_general() {
+        let points = |middle: i64| [0, middle, 1 << 48].map(|x| (Wide::from_bits(x), Wide::ONE));
+        with_polygon(&points(1 << 47), 1, |even| {
+            with_polygon(&points(3 << 46), 1, |uneven| {
+                let halved = |x, y| HeightField::new(x, y).unwrap().halved;
+                assert_eq!(
+                    [halved(even, even), halved(even, uneven), halved(uneven, even), halved(uneven, uneven)],
+                    [true, false, false, false]
+                );
+            });
+        });
     }
 }

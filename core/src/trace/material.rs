@@ -85,10 +85,10 @@ impl Material {
     /// `Material::tone (Phong, exponent 64)`).
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
-        match self.answer(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
-            Answer::Tone(tone) => tone,
+        match self.shade(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
+            Shade::Tone(tone) => tone,
             // a mirrored unit vector is one, but for its last bits
-            Answer::Towards(e) => {
+            Shade::Reflection(e) => {
                 let [x, y, z] = e.map(|c| Unit::from_bits(c.clamp(-(1 << 30), 1 << 30)));
                 environment.tone(Vec3::new(x, y, z))
             }
@@ -97,7 +97,7 @@ impl Material {
 
     /// What there is to see along a direction of any length below `2^31`.
     #[inline(always)]
-    pub(super) fn answer(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light) -> Answer {
+    pub(super) fn shade(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light) -> Shade {
         let along = dot(n, d);
         let lit = || {
             let lit = n.dot(light.towards);
@@ -113,18 +113,18 @@ impl Material {
                 let matt = ambient.saturating_add(times(diffuse, lit())).min(Unit::ONE);
                 matt.saturating_add(times(specular, power(highlight, shininess)))
             }
-            Self::Mirror => return Answer::Towards(mirrored(n, d, along)),
+            Self::Mirror => return Shade::Reflection(mirrored(n, d, along)),
         };
-        Answer::Tone(tone.clamp(Unit::ZERO, Unit::ONE))
+        Shade::Tone(tone.clamp(Unit::ZERO, Unit::ONE))
     }
 }
 
 /// What a surface shows.
-pub(super) enum Answer {
+pub(super) enum Shade {
     /// A tone.
     Tone(Unit),
     /// What its surroundings show in this direction, of any length.
-    Towards([i32; 3]),
+    Reflection([i32; 3]),
 }
 
 /// `n . d` in the format of `d`.
@@ -232,5 +232,90 @@ mod tests {
             let off = (i64::from(times(n.x, d.y).to_bits()) << 30) - exact;
             assert!((-(1 << 29) + 1..=1 << 29).contains(&off), "{n:?} {d:?}: {off}");
         }
+    }
+
+    /// Against integers: products rounded down, and nothing else rounded.
+    #[test]
+    fn a_mirrored_ray_is_the_exact_one_rounded_once_a_product() {
+        for (n, d) in directions() {
+            let [[a, b, c], [x, y, z]] = [n, d].map(|v| [v.x, v.y, v.z].map(|c| i128::from(c.to_bits())));
+            let along = (a * x + b * y + c * z) >> 30;
+            let ray = [d.x, d.y, d.z].map(Unit::to_bits);
+            assert_eq!(i128::from(dot(n, ray)), along);
+            let exact = [(a, x), (b, y), (c, z)].map(|(n, d)| d - ((2 * along * n) >> 30));
+            assert_eq!(mirrored(n, ray, along as i32).map(i128::from), exact, "{n:?} {d:?}");
+        }
+    }
+
+    /// What a diffuse surface shows, in integers: the ambient part, and the nearest to its rest times the light.
+    #[test]
+    fn a_diffuse_tone_is_the_nearest() {
+        let light = Light::ORDINARY;
+        let (mut dark, mut turned) = (0, 0);
+        for (n, d) in directions() {
+            let product = |v: Vec3<Unit>| {
+                [(n.x, v.x), (n.y, v.y), (n.z, v.z)]
+                    .iter()
+                    .map(|(a, b)| i128::from(a.to_bits()) * i128::from(b.to_bits()))
+                    .sum::<i128>()
+                    >> 30
+            };
+            let (along, lit) = (product(d), product(light.towards));
+            let lit = (if along > 0 { -lit } else { lit }).clamp(0, 1 << 30);
+            (dark, turned) = (dark + u32::from(lit == 0), turned + u32::from(along > 0));
+            for ambient in [0, 1, 123_456_789, 1 << 30] {
+                let exact =
+                    i128::from(ambient) + ((((1 << 30) - i128::from(ambient)) * lit + (1 << 29)) >> 30);
+                let material = Material::Diffuse { ambient: Unit::from_bits(ambient) };
+                let got = material.tone(n, d, &light, &Environment::SKY);
+                assert_eq!(i128::from(got.to_bits()), exact, "{n:?} {d:?} {ambient}");
+            }
+        }
+        assert!(dark > 1000 && turned > 1000, "{dark} {turned}");
+    }
+
+    /// A power is off by less than half a unit a product, each counted as often as it is multiplied on: its exponent.
+    #[test]
+    fn a_power_is_within_half_a_unit_for_each_of_its_factors() {
+        let mut worst: f64 = 0.0;
+        for exponent in (0..=130).chain([1000, 4097, u16::MAX]) {
+            for i in 0..400_i32 {
+                let below = i * i * i * 16;
+                let base = Unit::from_bits((1 << 30) - below);
+                // ln(1 - x) from the exact difference
+                let logarithm = (-f64::from(below) / 2_f64.powi(30)).ln_1p();
+                let exact = (logarithm * f64::from(exponent)).exp() * 2_f64.powi(30);
+                let off = (f64::from(power(base, exponent).to_bits()) - exact).abs();
+                assert!(off < 1e-4 || exponent > 1, "{base} {exponent}");
+                worst = worst.max((off - 1e-4) / f64::from(exponent.max(1)));
+            }
+        }
+        assert!((0.125..0.5).contains(&worst), "{worst}");
+    }
+
+    #[test]
+    fn parts_of_a_material_are_refused_outside_the_unit_interval() {
+        let [below, zero, one, above] = [-1, 0, 1 << 30, (1 << 30) + 1].map(Unit::from_bits);
+        let refused = |material: Material| match material.checked() {
+            Err(Error::OutOfRange { what: "part of the material", index, .. }) => index,
+            other => {
+                assert_eq!(other, Ok(material));
+                None
+            }
+        };
+        for (ambient, index) in [(below, Some(0)), (zero, None), (one, None), (above, Some(0))] {
+            assert_eq!(refused(Material::Diffuse { ambient }), index);
+        }
+        for (index, [ambient, diffuse, specular]) in [
+            (None, [zero, one, one]),
+            (Some(0), [above, one, one]),
+            (Some(1), [one, below, one]),
+            (Some(2), [one, one, above]),
+        ] {
+            assert_eq!(refused(Material::Phong { ambient, diffuse, specular, shininess: 1 }), index);
+        }
+        assert_eq!(refused(Material::Mirror), None);
+        let nowhere = Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO);
+        assert_eq!(Light::new(nowhere), Err(Error::Degenerate { what: "direction of the light" }));
     }
 }

@@ -9,8 +9,11 @@
 mod boxes;
 mod camera;
 mod environment;
+#[cfg(test)]
+mod exact;
 mod halves;
 mod height_field;
+mod hierarchy;
 mod material;
 mod outline;
 mod parts;

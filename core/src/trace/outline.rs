@@ -178,4 +178,106 @@ mod tests {
         let outline = Outline::new(extent, &camera(), COLS, ROWS);
         assert!((0..ROWS).all(|y| outline.columns(y, COLS) == (0..COLS)));
     }
+
+    /// A camera at the origin that looks along x, `tangent` with 28 fractional bits.
+    fn along_x(tangent: i32) -> Camera {
+        let (zero, one) = (Unit::ZERO, Unit::ONE);
+        let [forward, right, up] =
+            [Vec3::new(one, zero, zero), Vec3::new(zero, -one, zero), Vec3::new(zero, zero, one)];
+        Camera { eye: Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO), forward, right, up, tangent }
+    }
+
+    /// Against fractions: `offset / (depth k) rows / 2`, to the right of and below the middle, 16 fractional bits.
+    #[test]
+    fn a_projection_is_the_quotient_of_offset_and_depth() {
+        let (mut worst, mut tried) = (0_i128, 0);
+        for tangent in [2_342_571, 1 << 27, 1 << 28, 464_943_848] {
+            for depth in [1 << 16, 77_777, 1 << 20, 9_999_999, 1 << 24, 64 << 24] {
+                for (y, z) in [(0, 0), (1, -1), (-70_001, 5_001), (9_999_999, -1 << 24), (1 << 18, 123_457)] {
+                    for (cols, rows) in [(97, 61), (1, 1), (320, 16_384)] {
+                        let under = 2 * i128::from(depth) * i128::from(tangent);
+                        let exact = [-y, -z].map(|o| (i128::from(o) << 44) * i128::from(rows) / under);
+                        let is_far = exact.iter().any(|e| e.abs() > (1 << 30) - (1 << 16));
+                        let Some(got) = project([depth, y, z], &along_x(tangent), cols, rows) else {
+                            assert!(is_far, "{tangent} {depth} {y} {z} {cols} {rows}");
+                            continue;
+                        };
+                        let middle = [cols, rows].map(|n| i128::from(n) << 15);
+                        for ((got, middle), exact) in [got.0, got.1].into_iter().zip(middle).zip(exact) {
+                            // the depth times `k` has 17 bits where it is least
+                            let off = (i128::from(got) - middle - exact).abs() - (exact.abs() >> 16);
+                            worst = worst.max(off);
+                        }
+                        tried += 1;
+                    }
+                }
+            }
+        }
+        assert!(tried > 200 && worst == 1, "{worst} of {tried}");
+    }
+
+    /// From `2^-8` in front of the eye on, up to `2^14` pixels from the middle.
+    #[test]
+    fn what_is_not_in_front_or_far_outside_is_not_projected() {
+        let at = |depth: i32, y: i32, z: i32| project([depth, y, z], &along_x(1 << 28), 2, 2).is_some();
+        assert!(at(1 << 16, 0, 0) && !at((1 << 16) - 1, 0, 0) && !at(-(1 << 24), 0, 0));
+        // with two rows and a depth of 2^-8 an offset is the number of pixels less its last 16 bits
+        let most = (1 << 30) - 1;
+        for offset in [most, -most] {
+            assert!(at(1 << 16, offset, 0) && at(1 << 16, 0, offset));
+            assert!(!at(1 << 16, offset + offset.signum(), 0) && !at(1 << 16, 0, offset + offset.signum()));
+        }
+    }
+
+    /// Against fractions: from the leftmost to the rightmost point of the edges above the row and two rows on either side,
+    /// widened by two columns.
+    #[test]
+    fn columns_reach_as_far_as_the_edges_above_the_rows() {
+        let mut word = super::super::exact::words(5);
+        let (mut decided, mut empty, mut level) = (0, 0, 0);
+        for i in 0..2000 {
+            let mut corners = [(0, 0); 8];
+            for corner in &mut corners {
+                // corners on and between the planes of rows, in the picture and far outside
+                let [x, y] = [(); 2].map(|()| (word() >> 33) as i32 >> (7 + i % 3) << 1);
+                *corner = (x - (1 << 21), (y >> 4) & if i % 2 == 0 { -1 << 16 } else { -1 });
+            }
+            if i % 5 == 0 {
+                corners[1].1 = corners[0].1;
+                level += 1;
+            }
+            for y in [0, 1, 7, 30, 60] {
+                let strip = [(y - 2) << 16, (y + 3) << 16].map(i128::from);
+                // numerator and denominator of each end of what an edge has in the strip
+                let mut ends = std::vec::Vec::new();
+                for (a, b) in EDGES {
+                    let [a, b] =
+                        [a, b].map(|k| corners[usize::from(k)]).map(|(x, y)| (i128::from(x), i128::from(y)));
+                    let (top, bottom) = if a.1 <= b.1 { (a, b) } else { (b, a) };
+                    let (from, to) = (top.1.max(strip[0]), bottom.1.min(strip[1]));
+                    if from > to {
+                        continue;
+                    }
+                    let fall = (bottom.1 - top.1).max(1);
+                    let rows = if top.1 == bottom.1 { [0, 1] } else { [from - top.1, to - top.1] };
+                    ends.extend(rows.map(|row| (top.0 * fall + row * (bottom.0 - top.0)).div_euclid(fall)));
+                }
+                let got = Outline(Some(corners)).columns(y as u32, COLS);
+                let (Some(left), Some(right)) = (ends.iter().min(), ends.iter().max()) else {
+                    assert_eq!(got, 0..0);
+                    empty += 1;
+                    continue;
+                };
+                let column = |end: i128, more: i128| ((end >> 16) + more).clamp(0, i128::from(COLS)) as u32;
+                let expected = column(*left, -2)..column(*right, 3);
+                // within some units of a column's edge either
+                let near = |end: i128| (end + 8) & 0xffff <= 16;
+                if !near(*left) && !near(*right) {
+                    assert_eq!(got, expected, "{y} {corners:?}");
+                    decided += 1;
+                }
+            }
+        }
+        assert!(decided > 5000 && empty > 20 && level > 300, "{decided} {empty} {level}");
+    }
 }

@@ -7,12 +7,12 @@
 use heapless::Vec;
 
 use super::boxes::meets_bits;
-use super::height_field::{HeightField, Leaf, Side};
+use super::hierarchy::{Hierarchy, Leaf, Profile};
 use super::ray::{Axis, Footprint, Ray};
 use super::statistics::Count;
 use crate::fif::Pyramid;
 
-/// The extent of a node along one axis. Nodes are numbered level by level: the parts of node `q` are `n q + 1` to `n q + n`.
+/// The extent of a node along one axis.
 #[derive(Debug, Clone, Copy)]
 struct Extent {
     node: u32,
@@ -43,7 +43,7 @@ struct Frame {
     t_out: i32,
 }
 
-impl Side<'_> {
+impl Profile<'_> {
     fn whole(&self) -> Extent {
         Extent { node: 0, low: self.origin, width: self.width }
     }
@@ -104,7 +104,7 @@ fn step(axis: &Axis) -> u32 {
 /// A walk stands at most once on each level above the leaves.
 const FRAMES: usize = Pyramid::MAX_DEPTH as usize;
 
-impl HeightField<'_> {
+impl Hierarchy<'_> {
     /// The first leaf that the ray meets.
     #[inline(never)]
     pub(super) fn walk_parts(&self, ray: &Ray, footprint: Footprint, count: &mut impl Count) -> Option<Leaf> {
@@ -124,6 +124,7 @@ impl HeightField<'_> {
         if self.leaves == 0 || is_small(&x, &y, t_in, footprint) {
             return Some(Leaf { nodes: (0, 0), span: (t_in, t_out) });
         }
+        count.depth(1);
         let mut stack = Vec::<Frame, FRAMES>::new();
         let mut frame = self.enter(&axes, (x, y), t_in, az.at(t_in), t_out);
         loop {
@@ -173,4 +174,108 @@ impl HeightField<'_> {
 /// Whether a node is no wider than the footprint at `t`.
 fn is_small(x: &Extent, y: &Extent, t: i32, footprint: Footprint) -> bool {
     i64::from(t) >= footprint.reaches(x.width.max(y.width))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::exact::{Surface, first_leaf};
+    use super::super::statistics::Statistics;
+    use super::*;
+    use crate::fif::Cell;
+    use crate::num::{Real, Unit};
+
+    const THIRDS: [u32; 3] = [0, 700_000_001, 1_400_000_003];
+    const UNEVEN: [u32; 2] = [0, 600_000_007];
+
+    /// Against fractions: the leaf, its span, and every box that is tested on the way.
+    #[test]
+    fn the_first_leaf_of_uneven_parts_is_the_exact_one() {
+        let (mut found, mut missed, mut small, mut close, mut worst) = (0, 0, 0, 0, 0);
+        for (seed, (starts, depth, domain)) in [
+            ([&THIRDS[..], &UNEVEN], 3, [[-(1 << 23), (1 << 24) + 1], [1 << 20, 15_000_001]]),
+            ([&UNEVEN, &THIRDS], 2, [[-(1 << 24), 3 << 23], [-(5 << 24), 9_999_999]]),
+            ([&UNEVEN, &UNEVEN], 1, [[0, 1 << 24], [-(1 << 24), 1 << 23]]),
+            ([&[0], &THIRDS], 2, [[0, 1 << 24], [-(1 << 24), 1 << 24]]),
+            ([&THIRDS, &UNEVEN], 0, [[0, 1 << 24], [0, 1 << 24]]),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let surface = Surface::new(starts, depth, domain, 7 + seed as u64);
+            let hierarchy = surface.hierarchy();
+            for (k, ray) in surface.rays(99 + seed as u64, 3000).enumerate() {
+                let per_t = [1, 1 << 26, 1 << 28][k % 3];
+                let truth = first_leaf(&hierarchy, &ray, per_t, true);
+                if truth.is_close {
+                    close += 1;
+                    continue;
+                }
+                let mut statistics = Statistics::default();
+                let leaf =
+                    hierarchy.walk_parts(&ray, Footprint::new(Unit::from_bits(per_t)), &mut statistics);
+                assert_eq!(leaf.as_ref().map(|leaf| leaf.nodes), truth.nodes, "{ray:?} {truth:?}");
+                let expected = Statistics { stack: truth.unfinished, ..truth.statistics };
+                assert_eq!(statistics, expected, "{ray:?} {truth:?}");
+                let Some(leaf) = leaf else {
+                    missed += 1;
+                    continue;
+                };
+                found += 1;
+                small += usize::from(leaf.nodes.0 < hierarchy.leaves);
+                worst = worst.max(truth.error(leaf.span, &ray));
+            }
+        }
+        assert!(
+            found > 3000 && missed > 1000 && small > 500 && close < 500,
+            "{found} {missed} {small} {close}"
+        );
+        // a plane is rounded down once a level: in sixteenths of a unit
+        assert!((16..=48).contains(&worst), "{worst}");
+    }
+
+    /// A ray that starts on a plane is above the part that it goes into, not above the one that it leaves.
+    #[test]
+    fn a_part_ends_before_its_far_plane() {
+        let cell = |max: i32| Cell { max: Real::from_bits(max), ..Cell::ZERO };
+        let (tall, flat) = (cell(1 << 24), cell(1 << 20));
+        for (low, high, direction) in [(tall, flat, 1 << 28), (flat, tall, -(1 << 28))] {
+            for axis in 0..2 {
+                let (walked, other) = ([tall, low, high], [tall; 3]);
+                let profile =
+                    |cells, origin| Profile { cells, starts: &[0, 1 << 30], origin, width: 1 << 24 };
+                let [x, y] = if axis == 0 { [&walked, &other] } else { [&other, &walked] };
+                // the planes between the parts at 0, and the ray in the middle of a part along the other axis
+                let origins = if axis == 0 { [-(1 << 23), 0] } else { [0, -(1 << 23)] };
+                let (x, y) = (profile(x, origins[0]), profile(y, origins[1]));
+                let hierarchy = Hierarchy { x, y, depth: 1, leaves: 1, heights: (0, (1 << 24) + 1) };
+                let mut ray = Ray::from_bits([1 << 22, 1 << 22, 1 << 23], [1 << 24, 1 << 24, 0]);
+                (ray.origin[axis], ray.direction[axis]) = (0, direction);
+                let walk = |ray: &Ray| {
+                    hierarchy.walk_parts(ray, Footprint::new(Unit::DELTA), &mut Statistics::default())
+                };
+                assert_eq!(walk(&ray), None, "{axis} {direction}");
+                ray.direction[axis] = -direction;
+                let part = if direction > 0 { 1 } else { 2 };
+                let nodes = walk(&ray).unwrap().nodes;
+                assert_eq!(nodes, if axis == 0 { (part, 1) } else { (1, part) });
+            }
+        }
+    }
+
+    /// A box of nothing has a part of nothing: the ray is above it where it touches it, and it alone.
+    #[test]
+    fn a_ray_may_end_where_the_heights_do() {
+        let cells = [Cell { min: Real::ONE, max: Real::ONE, ..Cell::ZERO }; 1];
+        let profile = Profile { cells: &cells, starts: &[0], origin: 0, width: 1 << 24 };
+        let hierarchy =
+            Hierarchy { x: profile, y: profile, depth: 0, leaves: 0, heights: (1 << 24, (1 << 24) + 1) };
+        let walk = |z: i32, dz: i32| {
+            let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 26, 1 << 26, dz]);
+            hierarchy.walk_parts(&ray, Footprint::new(Unit::DELTA), &mut Statistics::default())
+        };
+        // from the top of the heights upwards, from a unit above it, and from outside towards it
+        assert_eq!(walk((1 << 24) + 1, 1 << 28).unwrap().span, (0, 0));
+        assert_eq!(walk((1 << 24) + 2, 1 << 28), None);
+        assert!(walk(2 << 24, -(1 << 28)).is_some());
+    }
 }

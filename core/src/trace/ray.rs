@@ -200,4 +200,31 @@ mod tests {
         assert_eq!(ray.origin, [64 << 24, 1 - (64 << 24), 1 << 24]);
         assert_eq!(ray.direction, [1 << 30, -(1 << 30), 1 << 28]);
     }
+
+    /// What many planes share: the same quotient for each distance, and for a footprint's parts.
+    #[test]
+    fn parameters_are_within_two_units_and_the_reciprocals_error() {
+        let mut worst = 0;
+        for magnitude in DIRECTIONS.map(|d| d.unsigned_abs()) {
+            for distance in PLACES {
+                let exact = (i128::from(distance) << 28).div_euclid(i128::from(magnitude));
+                if exact.abs() < 1 << 31 {
+                    let [one, other] = parameters([77, distance], NonZeroU32::new(magnitude).unwrap());
+                    assert_eq!(one, parameters([77], NonZeroU32::new(magnitude).unwrap())[0]);
+                    let off = exact - i128::from(other);
+                    worst = worst.max(off.abs() - (exact.abs() >> 28));
+                    // towards 0 by the reciprocal, then down
+                    assert!(
+                        if distance < 0 { off >= -8 } else { off >= 0 },
+                        "{distance} / {magnitude}: {off}"
+                    );
+                }
+            }
+        }
+        assert_eq!(worst, 1);
+        for (per_t, n) in [(1 << 28, 3), (77_777, 7), (5, 8), (1 << 30, 1)] {
+            let part = Footprint::new(Unit::from_bits(per_t)).part(n);
+            assert_eq!(part.per_t().to_bits(), (per_t / n as i32).max(1));
+        }
+    }
 }

@@ -9,9 +9,9 @@ use embedded_graphics_core::geometry::Size;
 
 use super::Camera;
 use super::environment::Environment;
-use super::halves::Cone;
+use super::halves::LevelOfDetail;
 use super::height_field::HeightField;
-use super::material::{Answer, Light, Material};
+use super::material::{Light, Material, Shade};
 use super::outline::Outline;
 use super::ray::{Footprint, Ray};
 use super::sampling::{Filter, Pattern, Sampling};
@@ -57,10 +57,10 @@ pub struct RayCaster<'a> {
     corner: [i64; 3],
     right: [i64; 3],
     down: [i64; 3],
-    /// Width of a sample's cone a unit of `t`.
+    /// Width of a pixel's cone a unit of `t`.
     footprint: Footprint,
-    /// The same for one sample.
-    cone: Cone,
+    /// From where on nodes are no wider than a sample's cone.
+    detail: LevelOfDetail,
     outline: Outline,
 }
 
@@ -98,7 +98,7 @@ impl<'a> RayCaster<'a> {
             right,
             down,
             footprint,
-            cone: surface.cone(footprint),
+            detail: surface.level_of_detail(footprint),
             outline: Outline::new(surface.extent(), &camera, size.width, size.height),
         })
     }
@@ -137,7 +137,7 @@ impl<'a> RayCaster<'a> {
         self.pattern = Pattern::new(sampling, filter)?;
         let (cols, rows) = (i64::from(self.size.width), i64::from(self.size.height));
         in_reach(&self.camera, cols, rows, filter.margin())?;
-        self.cone = self.surface.cone(self.footprint.part(self.pattern.parts_a_side()));
+        self.detail = self.surface.level_of_detail(self.footprint.part(self.pattern.parts_a_side()));
         Ok(self)
     }
 
@@ -150,7 +150,7 @@ impl<'a> RayCaster<'a> {
                     let direction = self.offset(self.direction(x, y), dx, dy);
                     let ray = Ray::from_bits(self.eye(), direction);
                     let _ =
-                        self.surface.intersect_counted(&ray, self.cone.footprint.per_t(), &mut statistics);
+                        self.surface.intersect_counted(&ray, self.detail.footprint.per_t(), &mut statistics);
                 }
             }
         }
@@ -163,7 +163,7 @@ impl<'a> RayCaster<'a> {
             return None;
         }
         let ray = Ray::from_bits(self.eye(), self.direction(x, y).map(narrow));
-        self.surface.intersect(&ray, self.cone.footprint.per_t())
+        self.surface.intersect(&ray, self.detail.footprint.per_t())
     }
 
     fn eye(&self) -> [i32; 3] {
@@ -195,16 +195,16 @@ impl<'a> RayCaster<'a> {
     #[inline]
     fn tone(&self, direction: [i32; 3], visible: bool) -> Unit {
         let leaf = if visible {
-            self.surface.leaf(&Ray::from_bits(self.eye(), direction), &self.cone, &mut Uncounted)
+            self.surface.leaf(&Ray::from_bits(self.eye(), direction), &self.detail, &mut Uncounted)
         } else {
             None
         };
         let towards = match leaf {
             None => direction,
             Some(leaf) => {
-                match self.material.answer(unit(self.surface.normal(&leaf)), direction, &self.light) {
-                    Answer::Tone(tone) => return tone,
-                    Answer::Towards(mirrored) => mirrored,
+                match self.material.shade(unit(self.surface.normal(&leaf)), direction, &self.light) {
+                    Shade::Tone(tone) => return tone,
+                    Shade::Reflection(mirrored) => mirrored,
                 }
             }
         };
@@ -223,9 +223,15 @@ impl<'a> RayCaster<'a> {
             }
             (sum >> 30).clamp(0, 1 << 30) as u32
         };
-        // times 65535 / 2^30, rounded
-        Tone::from_bits(((tone - (tone >> 16) + (1 << 13)) >> 14) as u16)
+        rounded(tone)
     }
+}
+
+/// A tone with 30 fractional bits, at most 1, as a part of 65535: the nearest, or the other within `2^-14` of a half.
+#[inline(always)]
+fn rounded(tone: u32) -> Tone {
+    // times 65535 / 2^30
+    Tone::from_bits(((tone - (tone >> 16) + (1 << 13)) >> 14) as u16)
 }
 
 /// Checks that directions stay inside ±4 on a picture with `margin` pixels around it: `|w| + k (cols / rows |r| + |u|) < 4`.
@@ -306,3 +312,200 @@ impl Iterator for Directions<'_, '_> {
 
 impl ExactSizeIterator for Directions<'_, '_> {}
 impl FusedIterator for Directions<'_, '_> {}
+
+#[cfg(test)]
+mod tests {
+    use super::super::exact::with_polygon;
+    use super::*;
+    use crate::num::Real;
+    use std::vec::Vec;
+
+    fn camera(degrees: i32) -> Camera {
+        let at = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+        Camera::new(at(-3, -2, 5), at(1, 1, 1), at(0, 0, 1), Real::from_num(degrees)).unwrap()
+    }
+
+    fn with_surface<R>(then: impl FnOnce(HeightField<'_>) -> R) -> R {
+        let tent = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| (Wide::from_num(x), Wide::from_num(y)));
+        with_polygon(&tent, 4, |f| then(HeightField::new(f, f).unwrap()))
+    }
+
+    /// Against fractions: `w + (2 (i + 1/2 + dx) - cols) / rows k r + (rows - 2 (j + 1/2 + dy)) / rows k u`, to nearest.
+    #[test]
+    fn the_ray_of_a_sample_is_the_nearest_to_its_definition() {
+        let bits = |v: Vec3<Unit>| [v.x, v.y, v.z].map(|c| i128::from(c.to_bits()));
+        let (mut worst, mut tried) = (0, 0);
+        for (size, degrees) in [((7, 5), 40), ((64, 48), 70), ((1, 1), 1), ((96, 16), 12), ((1, 33), 90)] {
+            let camera = camera(degrees);
+            let (cols, rows) = (i128::from(size.0), i128::from(size.1));
+            let caster = with_surface(|surface| {
+                let caster = RayCaster::new(surface, camera, Size::new(size.0, size.1)).unwrap();
+                let mut directions = Vec::new();
+                for (y, x) in (0..size.1).flat_map(|y| (0..size.0).map(move |x| (y, x))) {
+                    for (dx, dy) in [(0, 0), (1 << 23, -(1 << 23)), (-33_333_333, 12_345_678)] {
+                        directions.push((x, y, dx, dy, caster.offset(caster.direction(x, y), dx, dy)));
+                    }
+                }
+                directions
+            });
+            let (w, r, u, k) =
+                (bits(camera.forward), bits(camera.right), bits(camera.up), i128::from(camera.tangent));
+            for (x, y, dx, dy, got) in caster {
+                // in half pixels with 24 fractional bits
+                let half = |n: u32, d: i32| ((2 * i128::from(n) + 1) << 24) + 2 * i128::from(d);
+                let (a, b) = (half(x, dx) - (cols << 24), (rows << 24) - half(y, dy));
+                let under = rows << 54;
+                for i in 0..3 {
+                    let exact = (w[i] * rows << 52) + a * k * r[i] + b * k * u[i];
+                    // in thousandths of a unit
+                    worst = worst.max(((i128::from(got[i]) * under - exact).abs() * 1000) / under);
+                    tried += 1;
+                }
+            }
+        }
+        assert!((490..=510).contains(&worst) && tried > 10_000, "{worst} of {tried}");
+    }
+
+    #[test]
+    fn a_tone_is_the_nearest_part_of_65535() {
+        let mut beyond = 0;
+        for tone in (0..=1 << 30).step_by(997).chain([
+            1,
+            (1 << 13) - 1,
+            1 << 13,
+            (1 << 13) + 1,
+            (1 << 30) - 1,
+            1 << 30,
+        ]) {
+            let off = (i64::from(rounded(tone).to_bits()) << 30) - i64::from(tone) * 65535;
+            assert!((-(1 << 29)..=(1 << 29) + (1 << 16)).contains(&off), "{tone}: {off}");
+            beyond += u32::from(off > 1 << 29);
+        }
+        assert!(beyond > 0);
+    }
+
+    /// The cone of a pixel is `2 k / rows` wide, that of one of `n` samples a side an `n`-th of it, and below 2.
+    #[test]
+    fn a_footprint_is_the_width_of_a_pixel_or_of_a_part() {
+        with_surface(|surface| {
+            for (size, degrees, n) in [((7, 5), 40, 3), ((64, 48), 70, 8), ((2, 1), 1, 1), ((1, 2), 110, 2)] {
+                let camera = camera(degrees);
+                let caster = RayCaster::new(surface, camera, Size::new(size.0, size.1)).unwrap();
+                let width = (i64::from(camera.tangent) << 3) / i64::from(size.1);
+                assert_eq!(i64::from(caster.footprint.per_t().to_bits()), width);
+                assert_eq!(caster.detail.footprint, caster.footprint);
+                let sampled = caster.with_sampling(Sampling::Grid(n), Filter::Box).unwrap();
+                assert_eq!(i64::from(sampled.detail.footprint.per_t().to_bits()), width / i64::from(n));
+            }
+            // 2 tan(55 degrees) is beyond the format
+            let caster = RayCaster::new(surface, camera(110), Size::new(1, 1)).unwrap();
+            assert_eq!(caster.footprint.per_t(), Unit::MAX);
+        });
+    }
+
+    /// `k (cols + rows + 4 margin) / rows` below 3.
+    #[test]
+    fn a_view_is_refused_from_where_its_rays_could_leave_their_format() {
+        let fits = |tangent, cols, rows, margin| {
+            let refused = in_reach(&Camera { tangent, ..camera(1) }, cols, rows, margin);
+            assert!(match &refused {
+                Ok(()) => true,
+                // reported with 48 fractional bits
+                Err(Error::OutOfRange { value, .. }) =>
+                    value.to_bits() >> 20 == i64::from(tangent) * (cols + rows + 4 * margin) / rows,
+                Err(_) => false,
+            });
+            refused.is_ok()
+        };
+        let limit = 3 << 27;
+        assert_eq!([fits(limit - 1, 5, 5, 0), fits(limit, 5, 5, 0)], [true, false]);
+        // 3/2 of half as much, and one pixel of margin on all sides
+        assert_eq!([fits((1 << 28) - 1, 20, 12, 1), fits(1 << 28, 20, 12, 1)], [true, false]);
+        assert_eq!([fits((1 << 27) - 1, 5, 1, 0), fits(1 << 27, 5, 1, 0)], [true, false]);
+        let at = |filter| {
+            with_surface(|surface| {
+                let caster = RayCaster::new(surface, camera(90), Size::new(5, 3)).unwrap();
+                caster.with_sampling(Sampling::Grid(2), filter).is_ok()
+            })
+        };
+        // 8/3 of a tangent of 1; with a margin of one pixel 12/3
+        let wide = Filter::Gaussian { deviation: Real::ONE, width: Real::from_num(2) };
+        assert_eq!([at(Filter::Box), at(wide)], [true, false]);
+    }
+
+    /// Each pixel by itself, a row from any column on, and skipping, show the same.
+    #[test]
+    fn a_row_is_the_row_of_its_pixels() {
+        let size = Size::new(24, 20);
+        with_surface(|surface| {
+            for sampling in [Sampling::Centre, Sampling::Jittered { n: 2, seed: 5 }] {
+                let caster = RayCaster::new(surface, camera(40), size).unwrap();
+                let caster = caster.with_sampling(sampling, Filter::Box).unwrap();
+                let mut tones = [0; 2];
+                for y in 0..size.height {
+                    let row: Vec<_> = caster.row(y, 0..size.width).collect();
+                    assert_eq!(row.len(), 24);
+                    let visible = caster.outline.columns(y, size.width);
+                    for (x, tone) in (0..).zip(&row) {
+                        let pixel = |visible| caster.pixel(x, y, caster.direction(x, y), visible);
+                        assert_eq!((*tone, *tone), (pixel(visible.contains(&x)), pixel(true)), "{x} {y}");
+                        tones[usize::from(caster.hit(x, y).is_some())] += 1;
+                    }
+                    assert!(caster.row(y, 5..20).eq(row[5..20].iter().copied()));
+                    let mut skipping = caster.row(y, 3..20);
+                    assert_eq!([skipping.nth(4), skipping.next()], [Some(row[7]), Some(row[8])]);
+                    assert_eq!((skipping.size_hint(), skipping.nth(99)), ((11, Some(11)), None));
+                }
+                assert!(tones.iter().all(|n| *n > 40), "{tones:?}");
+                assert_eq!((caster.row(0, 30..40).count(), caster.row(99, 20..99).count()), (0, 4));
+                assert!(caster.row(99, 0..24).eq(caster.row(19, 0..24)));
+                assert!(caster.hit(24, 0).is_none() && caster.hit(0, 20).is_none());
+            }
+        });
+    }
+
+    /// What is seen has the tone that material, light and surroundings give it; what is not, that of its direction.
+    #[test]
+    fn a_tone_is_that_of_the_leaf_or_of_the_surroundings() {
+        with_surface(|surface| {
+            let plain = Unit::from_num(0.25);
+            let caster = RayCaster::new(surface, camera(40), Size::new(24, 20)).unwrap();
+            let caster = caster.with_environment(Environment::Plain(plain)).unwrap();
+            let light = Light::new(Vec3::new(Real::ZERO, Real::ZERO, Real::ONE)).unwrap();
+            let mirror = caster.clone().with_material(Material::Mirror).unwrap();
+            let lit = caster.clone().with_light(light);
+            let (mut met, mut statistics) = (0, Statistics::default());
+            for (x, y) in (0..20).flat_map(|y| (0..24).map(move |x| (x, y))) {
+                let direction = caster.direction(x, y).map(narrow);
+                let eye = caster.camera.eye;
+                let ray = Ray::from_bits([eye.x, eye.y, eye.z].map(Real::to_bits), direction);
+                let hit = surface.intersect_counted(&ray, caster.footprint.per_t(), &mut statistics);
+                assert_eq!(hit, caster.hit(x, y));
+                assert_eq!((mirror.tone(direction, true), caster.tone(direction, false)), (plain, plain));
+                let Some(hit) = hit else {
+                    assert_eq!(lit.tone(direction, true), plain);
+                    continue;
+                };
+                met += 1;
+                // lit from straight above: n_z, an eighth of it ambient
+                let n = hit.normal().normalised().unwrap();
+                let exact = 0.125 + 0.875 * n.z.to_num::<f64>();
+                assert!(
+                    (lit.tone(direction, true).to_num::<f64>() - exact).abs() < 2_f64.powi(-27),
+                    "{x} {y}"
+                );
+            }
+            assert!(met > 50 && caster.statistics() == statistics && statistics.rays == 480, "{met}");
+            // a row of pixels of one tone, whatever the samples
+            for (sampling, rays) in [(Sampling::Grid(3), 9), (Sampling::Jittered { n: 8, seed: 1 }, 64)] {
+                let filter = Filter::Gaussian { deviation: Real::ONE, width: Real::from_num(3) };
+                let many = mirror.clone().with_sampling(sampling, filter).unwrap();
+                assert!(many.row(10, 0..24).all(|tone| (16383..=16384).contains(&tone.to_bits())));
+                assert_eq!(many.statistics().rays, 480 * rays);
+            }
+            let white = mirror.with_environment(Environment::Plain(Unit::ONE)).unwrap();
+            let white = white.with_sampling(Sampling::Grid(7), Filter::Box).unwrap();
+            assert!(white.row(10, 0..24).all(|tone| tone == Tone::from_bits(65535)));
+        });
+    }
+}

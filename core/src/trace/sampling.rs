@@ -101,9 +101,9 @@ impl Pattern {
             let weight = match filter {
                 Filter::Box => Unit::ONE,
                 Filter::Gaussian { deviation, .. } => {
-                    // (place / deviation)^2 / 2, below 2^8
+                    // (place / deviation)^2 / 2: a place is at most 7/4, so that it is at most 14^2 / 2 = 98
                     let ratio = quotient(place, 24, u64::from(deviation.to_bits().unsigned_abs()));
-                    exp_minus(Real::from_bits(((ratio * ratio) >> 25).min(i64::from(i32::MAX)) as i32))
+                    exp_minus(Real::from_bits(((ratio * ratio) >> 25) as i32))
                 }
             };
             sum += u64::from(weight.to_bits().unsigned_abs());
@@ -246,5 +246,95 @@ mod tests {
                 && *high > side - (side >> 6)),
             "{extremes:?}"
         );
+    }
+
+    /// Places are `width (2 i + 1 - n) / 2 n`, towards 0; equal weights are `1 / n`, downwards.
+    #[test]
+    fn places_and_equal_weights_are_exact_quotients() {
+        for n in 1..=8_i64 {
+            for width in [Real::ONE, Real::from_num(4), Real::from_bits(33_333_333)] {
+                let filter = Filter::Gaussian { deviation: Real::ONE, width };
+                for (filter, width) in [(Filter::Box, 1 << 24), (filter, i64::from(width.to_bits()))] {
+                    let pattern = Pattern::new(Sampling::Grid(n as u8), filter).unwrap();
+                    assert_eq!((pattern.parts_a_side(), pattern.side), (n as u32, (width / n) as i32));
+                    for (i, (place, weight)) in (0..).zip(pattern.parts).take(n as usize) {
+                        assert_eq!(i64::from(place), width * (2 * i + 1 - n) / (2 * n), "{n} {i}");
+                        assert!(filter != Filter::Box || i64::from(weight) == (1 << 30) / n, "{n} {i}");
+                    }
+                }
+            }
+        }
+        let centre = [Sampling::Grid(1), Sampling::Centre, Sampling::Grid(2)]
+            .map(|sampling| Pattern::new(sampling, Filter::Box).unwrap().is_centre());
+        assert_eq!(centre, [true, true, false]);
+    }
+
+    #[test]
+    fn samples_and_filters_are_refused_outside_their_ranges() {
+        let fits = |sampling, filter| Pattern::new(sampling, filter).is_ok();
+        let samples = [0, 1, 8, 9].map(|n| fits(Sampling::Grid(n), Filter::Box));
+        assert_eq!(samples, [false, true, true, false]);
+        let gaussian = |deviation: i32, width: i32| {
+            let (deviation, width) = (Real::from_bits(deviation), Real::from_bits(width));
+            fits(Sampling::Jittered { n: 2, seed: 0 }, Filter::Gaussian { deviation, width })
+        };
+        let (least, one, four) = (1 << 21, 1 << 24, 4 << 24);
+        let deviations = [least - 1, least, four, four + 1].map(|d| gaussian(d, one));
+        let widths = [one - 1, one, four, four + 1].map(|w| gaussian(one, w));
+        assert_eq!((deviations, widths), ([false, true, true, false], [false, true, true, false]));
+    }
+
+    /// Every bit of the result changes with about half of the words when one bit of the word changes.
+    #[test]
+    fn a_hash_mixes_every_bit_into_every_other() {
+        let words = || (0..4000_u32).map(|i| i.wrapping_mul(0x9e37_79b9));
+        let mut worst = 0_i32;
+        for bit in 0..32 {
+            let mut changed = [0_i32; 32];
+            for word in words() {
+                let difference = hash(word) ^ hash(word ^ 1 << bit);
+                for (k, count) in changed.iter_mut().enumerate() {
+                    *count += (difference >> k & 1) as i32;
+                }
+            }
+            worst = changed.iter().fold(worst, |w, count| w.max((count - 2000).abs()));
+        }
+        // 3.9 standard deviations of 31.6 are to be expected among 1024 counts
+        assert!((60..190).contains(&worst), "{worst}");
+    }
+
+    /// What is random in a pixel has nothing to do with its neighbours, with the seed beside it or with its next sample.
+    #[test]
+    fn neighbouring_samples_are_independent() {
+        let pattern = |seed| Pattern::new(Sampling::Jittered { n: 2, seed }, Filter::Box).unwrap();
+        let offsets =
+            |seed, x, y| pattern(seed).samples(x, y).map(|s| [s.0, s.1]).collect::<std::vec::Vec<_>>();
+        // products of deviations from the parts' centres, in parts of the side
+        let mut sums = [0.0_f64; 6];
+        let count = 3000;
+        for i in 0..count {
+            let (x, y) = (i % 60, i / 60);
+            let centre =
+                |s: usize, k: usize| if (if k == 0 { s % 2 } else { s / 2 }) == 0 { -0.25 } else { 0.25 };
+            let off = |samples: &[[i32; 2]], s: usize, k: usize| {
+                (f64::from(samples[s][k]) / 16_777_216.0 - centre(s, k)) / 0.5
+            };
+            let here = offsets(7, x, y);
+            let pairs = [
+                (off(&here, 0, 0), off(&here, 0, 1)),
+                (off(&here, 0, 0), off(&here, 1, 0)),
+                (off(&here, 1, 1), off(&here, 2, 1)),
+                (off(&here, 0, 0), off(&offsets(7, x + 1, y), 0, 0)),
+                (off(&here, 0, 0), off(&offsets(7, x, y + 1), 0, 0)),
+                (off(&here, 0, 0), off(&offsets(8, x, y), 0, 0)),
+            ];
+            for (sum, (a, b)) in sums.iter_mut().zip(pairs) {
+                assert!(a.abs() <= 0.5 && b.abs() <= 0.5, "{a} {b}");
+                *sum += 12.0 * a * b;
+            }
+        }
+        // a correlation's standard deviation is 1 / sqrt(3000)
+        let worst = sums.iter().fold(0.0_f64, |w, s| w.max(s.abs() / f64::from(count)));
+        assert!(worst > 0.0 && worst < 4.0 / f64::from(count).sqrt(), "{sums:?}");
     }
 }

@@ -96,7 +96,10 @@ fn systems() -> Result<(), Error> {
 }
 
 fn curves() -> Result<(), Error> {
-    use attractor::curve::{Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Orientation, Part, TwoVariable, dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over};
+    use attractor::curve::{
+        Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Orientation, Part, TwoVariable,
+        dimension_of_ratio, dimension_of_spectrum, displaced, koch, turn_over,
+    };
     use attractor::num::{Parameter, RandomFunction};
     let (one, seed) = (bb(Real::ONE), bb(1));
     if let Some(curve) = attractor::curve::catalogue::find(bb("gosper")) {

@@ -192,4 +192,27 @@ mod tests {
         assert_eq!(row.nth(4), Some(picture.value_at(picture.0.view().point(7, 7))));
         assert_eq!(row.next(), Some(picture.value_at(picture.0.view().point(8, 7))));
     }
+
+    /// The limit itself, rounded down, except where it lies within the logarithms' error of a step: `2^-22`.
+    #[test]
+    fn a_limit_is_the_formula_rounded_down() {
+        let (mut beside, mut tried) = (0, 0);
+        for i in 1..200_000_u64 {
+            // |z| from 2^10 to 2^19, parts with 10 fractional bits
+            let x = (1 << 20) + i * 2_663;
+            let y = i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (44 + i % 16);
+            let square = (x as f64 / 1024.0).powi(2) + (y as f64 / 1024.0).powi(2);
+            let exact = (f64::from(77_u8) + 1.0 - (square.log2() / 2.0).log2()) * 2048.0;
+            let step = (exact - exact.round()) * 2_f64.powi(13);
+            if step.abs() > 4.0 {
+                assert_eq!(f64::from(limit(x << 10, y << 10, 77).to_bits()), exact.floor(), "{x} {y}");
+                tried += 1;
+                // these would notice a constant that is off by 3e-6
+                beside += u32::from(step.abs() < 24.0);
+            }
+        }
+        assert!(tried > 190_000 && beside > 200, "{beside} of {tried}");
+        // powers of 2 have exact logarithms: log2(log2 |z|) = 4
+        assert_eq!(limit(1 << 36, 0, 5), U21F11::from_num(2));
+    }
 }
