@@ -8,10 +8,12 @@
 
 use heapless::Vec;
 
-use super::Fif;
-use super::function::{Map, POWERS, in_range, value};
+use super::function::{Fif, POWERS};
+use super::map::Map;
+use super::polynomial::{Polynomial, times, twice_high};
+use super::value::{ONE, in_range, value};
 use crate::Error;
-use crate::num::{ONE, Polynomial, Wide, mul_high_u, nth, quotient, times, twice_high};
+use crate::num::{Wide, mul_high_u, nth, quotient};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function `initial + integral of f from x_0 to x`, with room for polynomials of degree `E`.

@@ -3,12 +3,8 @@
 //! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
 //! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
-use super::{mul_high, mul_high_u, nth};
-
-/// Fractional bits of values and coefficients.
-pub(crate) const FRACTION: u32 = 55;
-/// One, as an abscissa with 63 fractional bits.
-pub(crate) const ONE: u64 = 1 << 63;
+use super::value::ONE;
+use crate::num::{mul_high, mul_high_u, nth};
 
 /// A polynomial of degree at most `D` on the unit interval, 55 fractional bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
