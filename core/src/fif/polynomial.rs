@@ -60,11 +60,8 @@ impl<const D: usize> Polynomial<D> {
     }
 
     /// The sum of the magnitudes of the coefficients, saturated.
-    #[inline(never)]
     pub(crate) fn norm(&self) -> i64 {
-        self.powers
-            .iter()
-            .fold(self.constant.saturating_abs(), |sum, c| sum.saturating_add(c.saturating_abs()))
+        norm(self.constant, &self.powers)
     }
 
     /// The degree, 0 for a constant.
@@ -74,6 +71,7 @@ impl<const D: usize> Polynomial<D> {
 
     /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D` units a coefficient
     /// (`a_polynomial_keeps_its_bounds`).
+    #[inline(never)]
     pub(crate) fn part(&self, start: u64, width: u64) -> Self {
         let mut part = Self::ZERO;
         // Horner: part <- part * (start + width s) + c
@@ -124,6 +122,12 @@ impl<const D: usize> Polynomial<D> {
             powers => hull(self.constant, powers),
         }
     }
+}
+
+/// There once for all degrees.
+#[inline(never)]
+fn norm(constant: i64, powers: &[i64]) -> i64 {
+    powers.iter().fold(constant.saturating_abs(), |sum, c| sum.saturating_add(c.saturating_abs()))
 }
 
 /// The hull of the Bernstein coefficients `b_i = sum over k <= i of C(i, k) / C(D, k) c_k`.

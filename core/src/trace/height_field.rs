@@ -78,6 +78,7 @@ fn normal(f: &Cell, g: &Cell) -> [i32; 3] {
 }
 
 impl<'a> Side<'a> {
+    #[inline(never)]
     fn new(name: &'static str, pyramid: &Pyramid<'a>) -> Result<Self, Error> {
         let (x0, width) = pyramid.domain_bits();
         let end = x0.saturating_add_unsigned(width);
