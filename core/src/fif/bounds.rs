@@ -2,9 +2,11 @@
 //!
 //! A map is summed up without its polynomial, so that the rest is there once for all degrees.
 
-use super::function::{Map, wide};
+use super::map::Map;
+use super::polynomial::twice_high;
+use super::value::{FRACTION, ONE, wide};
 use crate::Error;
-use crate::num::{FRACTION, ONE, quotient, ratio, twice_high};
+use crate::num::{quotient, ratio};
 
 /// `2^7` with 55 fractional bits: the values of a function stay below it.
 const LIMIT: i64 = 1 << (FRACTION + 7);
@@ -148,7 +150,8 @@ fn levels(widest: u64, steepest: u64) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::{Polynomial, Reciprocal};
+    use crate::fif::polynomial::Polynomial;
+    use crate::num::Reciprocal;
 
     fn image(scaling: i32, constant: i64, power: i64) -> Image {
         Image::of(&Map {

@@ -8,10 +8,12 @@
 
 use heapless::Vec;
 
-use super::Fif;
-use super::function::{Map, POWERS, in_range, value};
+use super::function::{Fif, POWERS};
+use super::map::Map;
+use super::polynomial::{Polynomial, times, twice_high};
+use super::value::{ONE, in_range, value};
 use crate::Error;
-use crate::num::{ONE, Polynomial, Wide, mul_high_u, nth, quotient, times, twice_high};
+use crate::num::{Wide, mul_high_u, nth, quotient};
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function `initial + integral of f from x_0 to x`, with room for polynomials of degree `E`.
@@ -29,7 +31,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         in_range("initial value", None, initial)?;
         let start = value(initial);
         // eq. 30: the whole integral is w (sum of a_n mean(q_n)) / (1 - sum of a_n alpha_n)
-        let total = self.times_width(self.mean())?;
+        let total = self.times_width(self.mean());
+        inside(total)?;
         let mut maps = Vec::new();
         let mut knot = start; // Y_(j-1)
         for map in &self.maps {
@@ -38,12 +41,14 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             q.constant = knot.wrapping_sub(twice_high(start, scaling));
             let integrated = [map.q.constant].into_iter().chain(map.q.powers).zip(1..);
             for (to, (c, n)) in q.powers.iter_mut().zip(integrated) {
-                *to = self.times_width(times(nth(c, n), map.width))?;
+                *to = self.times_width(times(nth(c, n), map.width));
+                inside(*to)?;
             }
             let step = q.powers.iter().fold(0_i64, |sum, c| sum.wrapping_add(*c));
             knot = knot.saturating_add(step).saturating_add(twice_high(total, scaling));
             let map = Map { scaling, q, start: map.start, width: map.width, per_width: map.per_width };
-            maps.push(map).map_err(|_| Error::Capacity { what: "maps", needed: N + 1, capacity: N })?;
+            // as many as those of the function: never full
+            let _ = maps.push(map);
         }
         Fif::from_maps(maps, self.x0, self.width)
     }
@@ -74,7 +79,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
                 *to = per_length(c);
             }
             let map = Map { scaling, q, start: map.start, width: map.width, per_width: map.per_width };
-            maps.push(map).map_err(|_| Error::Capacity { what: "maps", needed: N + 1, capacity: N })?;
+            let _ = maps.push(map); // as in the integral
         }
         Fif::from_maps(maps, self.x0, self.width)?.joined()
     }
@@ -91,20 +96,23 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         quotient(sum, 63, rest)
     }
 
-    /// `value * (x_N - x_0)`; an error where it leaves 64 bits.
+    /// `value * (x_N - x_0)`, saturated.
     #[inline(never)]
-    fn times_width(&self, v: i64) -> Result<i64, Error> {
+    fn times_width(&self, v: i64) -> i64 {
         let high = mul_high_u(v as u64, self.width).wrapping_sub(if v < 0 { self.width } else { 0 }) as i64;
         let low = (v as u64).wrapping_mul(self.width);
         if high >> 47 == high >> 63 {
-            return Ok(high << 16 | (low >> 48) as i64);
+            return high << 16 | (low >> 48) as i64;
         }
-        Err(Error::OutOfRange {
-            what: "integral",
-            index: None,
-            value: if v < 0 { Wide::MIN } else { Wide::MAX },
-            min: Wide::from_num(-128),
-            max: Wide::from_num(128),
-        })
+        (v >> 63) ^ i64::MAX
     }
+}
+
+/// Whether an integral has kept inside its format, and is not saturated.
+fn inside(v: i64) -> Result<(), Error> {
+    if v != (v >> 63) ^ i64::MAX {
+        return Ok(());
+    }
+    let (min, max) = (Wide::from_num(-128), Wide::from_num(128));
+    Err(Error::OutOfRange { what: "integral", index: None, value: Wide::from_bits(v), min, max })
 }

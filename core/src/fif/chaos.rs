@@ -7,9 +7,11 @@
 
 use rand_core::Rng;
 
-use super::Fif;
-use super::function::Map;
-use crate::num::{FRACTION, Real, mul_high_u, real_from, twice_high};
+use super::function::Fif;
+use super::map::Map;
+use super::polynomial::twice_high;
+use super::value::FRACTION;
+use crate::num::{Real, mul_high_u, real_from};
 use crate::plane::Point2;
 
 /// An endless iterator of points of the graph; `x` is the unit abscissa in `[0, 1]`.

@@ -3,9 +3,11 @@
 //! The composite of an address `j1 j2 ... jk` sends the whole graph onto its part above one small interval. It evaluates a function as the paper
 //! does; the boxes of a ray caster are images under composites. For plain values the forward walk of [`Fif::at`] is faster.
 
-use super::Fif;
-use super::function::Map;
-use crate::num::{FRACTION, ONE, Polynomial, Real, Scaling, Wide, mul_high_u, real_from, twice_high};
+use super::function::Fif;
+use super::map::Map;
+use super::polynomial::{Polynomial, twice_high};
+use super::value::{FRACTION, ONE};
+use crate::num::{Real, Scaling, Wide, mul_high_u, real_from};
 use crate::plane::Point2;
 
 /// A composition of maps: `(u, y) -> (start + width u, scaling y + q(u))` in the unit abscissa.

@@ -9,8 +9,9 @@ use core::num::NonZeroU32;
 
 use heapless::Vec;
 
-use super::Fif;
-use crate::num::{Angle, FRACTION, ONE, Real, product, real_from, round_shift};
+use super::function::Fif;
+use super::value::{FRACTION, ONE};
+use crate::num::{Angle, Real, product, real_from, round_shift};
 
 /// One map in 32-bit words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,9 +11,10 @@
 //!
 //! Source: M. F. Barnsley, "Fractal functions and interpolation", 1986, on Hölder exponents.
 
-use super::Fif;
 use super::bounds::LEVELS;
-use crate::num::{FRACTION, ONE, Real, exp_minus, log2, mul_high_u, ratio};
+use super::function::Fif;
+use super::value::{FRACTION, ONE};
+use crate::num::{Real, exp_minus, log2, mul_high_u, ratio};
 
 /// One halving, as logarithms are written.
 const HALVING: u32 = 1 << 24;
@@ -80,7 +81,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 
     /// The largest magnitude of a polynomial's slope, 55 fractional bits, rounded up.
     fn slope(&self) -> u64 {
-        let slope = |q: &crate::num::Polynomial<D>| q.derivative().norm().unsigned_abs();
+        let slope = |q: &super::polynomial::Polynomial<D>| q.derivative().norm().unsigned_abs();
         self.maps.iter().map(|m| slope(&m.q)).max().unwrap_or(0).saturating_add(1 << (FRACTION - 47))
     }
 
@@ -249,8 +250,8 @@ mod tests {
         for alphas in [[0.3, -0.2, 0.25], [0.6, 0.1, -0.7], [0.95, 0.9, 0.99], [0.1, 0.0, 0.05]] {
             let f = Fif::<3, 1>::interpolating(&knots, &alphas.map(Scaling::from_num)).unwrap();
             let real = |bits: u64| bits as f64 / 2_f64.powi(55);
-            let width = |m: &crate::fif::function::Map<1>| m.width as f64 / 2_f64.powi(63);
-            let scaling = |m: &crate::fif::function::Map<1>| m.scaling.unsigned_abs() as f64 / 2_f64.powi(63);
+            let width = |m: &crate::fif::map::Map<1>| m.width as f64 / 2_f64.powi(63);
+            let scaling = |m: &crate::fif::map::Map<1>| m.scaling.unsigned_abs() as f64 / 2_f64.powi(63);
             let narrowest = f.maps.iter().map(width).fold(1.0, f64::min);
             for halvings in [2, 7, 15, 24] {
                 let formula = |k: i32| {

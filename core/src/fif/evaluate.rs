@@ -7,9 +7,10 @@
 //!
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
-use super::Fif;
-use super::function::Map;
-use crate::num::{FRACTION, ONE, Real, Wide, mul_high, ratio, real_from};
+use super::function::Fif;
+use super::map::Map;
+use super::value::{FRACTION, ONE, wide};
+use crate::num::{Real, Wide, mul_high, ratio, real_from};
 
 /// A product of horizontal factors counts as 0 when 1 has been halved so often (24 fractional bits).
 const VANISHED: u32 = 63 << 24;
@@ -32,7 +33,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     ///
     /// Error: that of [`Fif::at`] less the final rounding to [`Real`] (row `Fif::at_wide (g of figure 1)`).
     pub fn at_wide(&self, x: Wide) -> Wide {
-        super::function::wide(self.evaluate(self.unit(x)))
+        wide(self.evaluate(self.unit(x)))
     }
 
     /// The value at a unit abscissa with 63 fractional bits, with 55 fractional bits.

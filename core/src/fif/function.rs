@@ -3,8 +3,11 @@
 use heapless::Vec;
 
 use super::bounds::{Bounds, Image, too_large};
+use super::map::Map;
+use super::polynomial::{Polynomial, twice_high};
+use super::value::{FRACTION, ONE, in_range, real_above, real_below, value, wide};
 use crate::Error;
-use crate::num::{FRACTION, ONE, Polynomial, Real, Reciprocal, Scaling, Wide, quotient, ratio, twice_high};
+use crate::num::{Real, Reciprocal, Scaling, Wide, mul_high_u, quotient, ratio};
 
 /// A point that the graph passes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,19 +32,6 @@ impl Knot {
     pub const fn lit(x: &str, y: &str) -> Self {
         Self::new(Wide::lit(x), Wide::lit(y))
     }
-}
-
-/// One map in the unit abscissa: `f(start + width u) = scaling f(u) + q(u)`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Map<const D: usize> {
-    /// 63 fractional bits.
-    pub(crate) scaling: i64,
-    pub(crate) q: Polynomial<D>,
-    /// 63 fractional bits.
-    pub(crate) start: u64,
-    /// 63 fractional bits.
-    pub(crate) width: u64,
-    pub(crate) per_width: Reciprocal,
 }
 
 /// A fractal interpolation function of at most `N` maps with polynomials of degree at most `D`.
@@ -199,7 +189,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
                 width: end - start,
                 per_width: Reciprocal::of(end - start),
             };
-            maps.push(map).map_err(|_| Error::Capacity { what: "maps", needed: count - 1, capacity: N })?;
+            // count - 1 <= N: never full
+            let _ = maps.push(map);
         }
         Self::from_maps(maps, x0, width)
     }
@@ -291,37 +282,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         if u >= ONE {
             return self.domain().1;
         }
-        let offset = crate::num::mul_high_u(self.width, u << 1);
+        let offset = mul_high_u(self.width, u << 1);
         Wide::from_bits(self.x0.wrapping_add_unsigned(offset))
-    }
-}
-
-/// A description's number with 55 fractional bits; the caller has checked its range.
-pub(crate) fn value(y: Wide) -> i64 {
-    y.to_bits() << (FRACTION - 48)
-}
-
-pub(crate) fn wide(value: i64) -> Wide {
-    Wide::from_bits(crate::num::round_shift(value, FRACTION - 48))
-}
-
-#[inline(never)]
-pub(crate) fn real_below(value: i64) -> Real {
-    Real::from_bits((value >> (FRACTION - 24)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
-}
-
-pub(crate) fn real_above(value: i64) -> Real {
-    let up = value.saturating_add((1 << (FRACTION - 24)) - 1);
-    real_below(up)
-}
-
-pub(crate) fn in_range(what: &'static str, index: Option<usize>, y: Wide) -> Result<(), Error> {
-    let limit = Wide::from_num(128);
-    // not `abs`: the least number has none
-    if y.unsigned_abs() >= limit.unsigned_abs() {
-        Err(Error::OutOfRange { what, index, value: y, min: -limit, max: limit })
-    } else {
-        Ok(())
     }
 }
 

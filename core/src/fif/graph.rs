@@ -2,7 +2,7 @@
 
 use core::iter::FusedIterator;
 
-use super::Fif;
+use super::function::Fif;
 use crate::num::Real;
 use crate::plane::{PathElement, Point2};
 

@@ -18,8 +18,11 @@ mod error;
 mod evaluate;
 mod function;
 mod graph;
+mod map;
+mod polynomial;
 mod pyramid;
 mod surface;
+mod value;
 
 pub use chaos::ChaosGame;
 pub use compose::Composite;

@@ -9,12 +9,12 @@
 //! No polynomial is ever composed. Ranges are rounded outward. After Cochran, Lewis, Hart, eq. 47-48, which need composites and give
 //! boxes two to three times as many (DESIGN).
 
-use super::Fif;
-use super::function::{Map, real_above, real_below};
+use super::function::Fif;
+use super::map::Map;
+use super::polynomial::{Polynomial, part_of, twice_high};
+use super::value::{FRACTION, ONE, real_above, real_below};
 use crate::Error;
-use crate::num::{
-    FRACTION, ONE, Polynomial, Real, mul_high, mul_high_u, part_of, quotient, real_from, twice_high,
-};
+use crate::num::{Real, mul_high, mul_high_u, quotient, real_from};
 
 /// A function above one of its cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

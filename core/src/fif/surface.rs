@@ -5,9 +5,11 @@
 //!
 //! Source: Cochran, Lewis, Hart, section 3.1; the mean is left as future work there (section 6.1).
 
-use super::Fif;
+use super::function::Fif;
+use super::polynomial::twice_high;
+use super::value::FRACTION;
 use crate::Error;
-use crate::num::{FRACTION, Real, Vec3, Wide, quotient, real_from, twice_high};
+use crate::num::{Real, Vec3, Wide, quotient, real_from};
 
 /// One factor of a tensor product: a differentiable function with its derivative and its integral.
 ///

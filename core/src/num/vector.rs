@@ -52,9 +52,8 @@ impl Vec3<Real> {
             .map(|(a, b)| i64::from(b.to_bits()) - i64::from(a.to_bits()));
         // 33 bits: where they do not fit 32, halves have 30 bits of the greatest left
         let far = differences.iter().any(|d| i32::try_from(*d).is_err());
-        let direction = differences.map(|d| (d >> u32::from(far)) as i32);
-        let [x, y, z] = direction;
-        if x | y | z == 0 { None } else { Some(unit(direction)) }
+        let [x, y, z] = differences.map(|d| Real::from_bits((d >> u32::from(far)) as i32));
+        Self::new(x, y, z).normalised()
     }
 
     /// The unit vector in this direction, none for the zero vector. Error: below `2^-27` in each component

@@ -3,7 +3,7 @@
 //! `i128` multiplication is a library call on 32-bit machines; these are a handful of `SMULL`/`UMULL` each.
 
 use super::product::{self, product, product_u};
-use super::{log2, ratio};
+use super::ratio;
 
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
 ///
@@ -79,9 +79,7 @@ impl Reciprocal {
         let d = d.max(1);
         let shift = d.leading_zeros();
         // 2^63 / m, m = d 2^shift / 2^63 in [1, 2): in (2^62, 2^63]
-        // a logarithm is off by less than a unit
-        let halvings = (63_u32 << 24).saturating_sub(log2(d)).saturating_sub(2);
-        Self { mantissa: ratio(1 << 63, 63, d << shift), shift, halvings }
+        Self { mantissa: ratio(1 << 63, 63, d << shift), shift, halvings: halvings(d << shift, shift) }
     }
 
     /// How often 1 has to be halved to reach `d` with 63 fractional bits: its negative logarithm with 24 fractional bits. Error: low by less
@@ -114,6 +112,24 @@ impl Reciprocal {
         }
         quotient
     }
+}
+
+/// What [`Reciprocal::halvings`] says of `m / 2^shift`, `m` with 63 fractional bits in `[1, 2)`.
+///
+/// Digit by digit: squaring a number doubles its logarithm, and a carry beyond 2 is the next digit (Knuth, TAOCP vol. 1, 1.2.2, exercise 25). A function
+/// asks once a map: the table of [`super::log2`] would take ten times the space.
+fn halvings(m: u64, shift: u32) -> u32 {
+    let mut mantissa = (m >> 32) as u32; // 31 fractional bits
+    // 25 digits behind a mark, which ends the loop
+    let mut digits = 1_u32;
+    while digits >> 25 == 0 {
+        let square = product::high_of_square_u(mantissa); // 30
+        let carry = square >> 31;
+        mantissa = square << (carry ^ 1);
+        digits = digits << 1 | carry;
+    }
+    // to nearest; what squares leave out adds up to less than a unit, and what is left of one keeps the result low
+    (shift << 24).saturating_sub(((digits + 1) >> 1) - (1 << 24)).saturating_sub(2)
 }
 
 #[cfg(test)]

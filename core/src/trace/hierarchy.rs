@@ -40,6 +40,7 @@ pub(super) struct Leaf {
 }
 
 impl<'a> Profile<'a> {
+    #[inline(never)]
     pub(super) fn new(name: &'static str, pyramid: &Pyramid<'a>) -> Result<Self, Error> {
         let (x0, width) = pyramid.domain_bits();
         let end = x0.saturating_add_unsigned(width);

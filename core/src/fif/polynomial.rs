@@ -3,12 +3,8 @@
 //! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
 //! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
-use super::{mul_high, mul_high_u, nth};
-
-/// Fractional bits of values and coefficients.
-pub(crate) const FRACTION: u32 = 55;
-/// One, as an abscissa with 63 fractional bits.
-pub(crate) const ONE: u64 = 1 << 63;
+use super::value::ONE;
+use crate::num::{mul_high, mul_high_u, nth};
 
 /// A polynomial of degree at most `D` on the unit interval, 55 fractional bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,11 +60,8 @@ impl<const D: usize> Polynomial<D> {
     }
 
     /// The sum of the magnitudes of the coefficients, saturated.
-    #[inline(never)]
     pub(crate) fn norm(&self) -> i64 {
-        self.powers
-            .iter()
-            .fold(self.constant.saturating_abs(), |sum, c| sum.saturating_add(c.saturating_abs()))
+        norm(self.constant, &self.powers)
     }
 
     /// The degree, 0 for a constant.
@@ -78,6 +71,7 @@ impl<const D: usize> Polynomial<D> {
 
     /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D` units a coefficient
     /// (`a_polynomial_keeps_its_bounds`).
+    #[inline(never)]
     pub(crate) fn part(&self, start: u64, width: u64) -> Self {
         let mut part = Self::ZERO;
         // Horner: part <- part * (start + width s) + c
@@ -128,6 +122,12 @@ impl<const D: usize> Polynomial<D> {
             powers => hull(self.constant, powers),
         }
     }
+}
+
+/// There once for all degrees.
+#[inline(never)]
+fn norm(constant: i64, powers: &[i64]) -> i64 {
+    powers.iter().fold(constant.saturating_abs(), |sum, c| sum.saturating_add(c.saturating_abs()))
 }
 
 /// The hull of the Bernstein coefficients `b_i = sum over k <= i of C(i, k) / C(D, k) c_k`.

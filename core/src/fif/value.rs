@@ -1,0 +1,38 @@
+//! Abscissae and values inside: 63 fractional bits on the unit interval, 55 above it.
+
+use crate::Error;
+use crate::num::{Real, Wide, round_shift};
+
+/// Fractional bits of values and coefficients.
+pub(crate) const FRACTION: u32 = 55;
+/// One, as an abscissa with 63 fractional bits.
+pub(crate) const ONE: u64 = 1 << 63;
+
+/// A description's number with 55 fractional bits; the caller has checked its range.
+pub(crate) fn value(y: Wide) -> i64 {
+    y.to_bits() << (FRACTION - 48)
+}
+
+pub(crate) fn wide(value: i64) -> Wide {
+    Wide::from_bits(round_shift(value, FRACTION - 48))
+}
+
+#[inline(never)]
+pub(crate) fn real_below(value: i64) -> Real {
+    Real::from_bits((value >> (FRACTION - 24)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+}
+
+pub(crate) fn real_above(value: i64) -> Real {
+    let up = value.saturating_add((1 << (FRACTION - 24)) - 1);
+    real_below(up)
+}
+
+pub(crate) fn in_range(what: &'static str, index: Option<usize>, y: Wide) -> Result<(), Error> {
+    let limit = Wide::from_num(128);
+    // not `abs`: the least number has none
+    if y.unsigned_abs() >= limit.unsigned_abs() {
+        Err(Error::OutOfRange { what, index, value: y, min: -limit, max: limit })
+    } else {
+        Ok(())
+    }
+}
