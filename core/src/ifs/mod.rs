@@ -34,6 +34,7 @@ mod copier;
 mod density;
 mod disc;
 mod moments;
+mod step;
 mod system;
 
 pub use affine::Affine;
