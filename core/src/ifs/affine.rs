@@ -77,47 +77,6 @@ impl Affine {
         Point2::new(row(self.a, self.b, self.e), row(self.c, self.d, self.f))
     }
 
-    /// The image of a point whose image is known to lie in the format: an [`super::Ifs`] proves that for the points of its invariant disc,
-    /// where `|x|, |y| <= 64`, and its maps have coefficients of at most 1, so that the sum stays below `2^62`.
-    #[inline(always)]
-    pub(super) fn step(&self, p: Point2) -> Point2 {
-        if cfg!(no_long_product) {
-            return self.step_by_halves(p);
-        }
-        let row = |l: Unit, m: Unit, t: Real| {
-            let sum = translated(t).wrapping_add(product(l, p.x)).wrapping_add(product(m, p.y));
-            Real::from_bits((sum >> 30) as i32)
-        };
-        Point2::new(row(self.a, self.b, self.e), row(self.c, self.d, self.f))
-    }
-
-    /// The same bits on a machine without a long product, at half the cost of four such products by halves: only the sum's upper part is put together.
-    ///
-    /// With `v = vh 2^16 + vl`, `vl` signed, `l x + m y = H 2^32 + M 2^16 + L` for `H = lh xh + mh yh`, `M = lh xl + ll xh + mh yl + ml yh`,
-    /// `L = ll xl + ml yl`. A contraction has `l^2 + m^2 <= 1`, so that `|M| <= sqrt(2) 2^14 2^15 + 2 2^14 2^15 < 2^31 - 2^17`.
-    #[inline(always)]
-    fn step_by_halves(&self, p: Point2) -> Point2 {
-        #[inline(always)]
-        fn split(v: i32) -> (i32, i32) {
-            let low = i32::from(v as i16);
-            (v.wrapping_sub(low) >> 16, low)
-        }
-        let ((xh, xl), (yh, yl)) = (split(p.x.to_bits()), split(p.y.to_bits()));
-        let row = |l: Unit, m: Unit, t: Real| {
-            let ((lh, ll), (mh, ml)) = (split(l.to_bits()), split(m.to_bits()));
-            // L / 2^16, rounded down: a product is at most 2^30, so that one carries its lower half to the other
-            let first = ll.wrapping_mul(xl);
-            let second = ml.wrapping_mul(yl).wrapping_add(first & 0xffff);
-            let carried = (first >> 16).wrapping_add(second >> 16);
-            let cross = lh.wrapping_mul(xl).wrapping_add(ll.wrapping_mul(xh));
-            let cross = cross.wrapping_add(mh.wrapping_mul(yl)).wrapping_add(ml.wrapping_mul(yh));
-            let middle = cross.wrapping_add(carried).wrapping_add(1 << 13) >> 14;
-            let top = lh.wrapping_mul(xh).wrapping_add(mh.wrapping_mul(yh)) << 2;
-            Real::from_bits(t.to_bits().wrapping_add(top).wrapping_add(middle))
-        };
-        Point2::new(row(self.a, self.b, self.e), row(self.c, self.d, self.f))
-    }
-
     /// The map that applies `first`, then `self`: `self o first`.
     ///
     /// Domain: all; coefficients saturate. Error: half a unit in the last place of each
@@ -222,7 +181,7 @@ impl Affine {
 }
 
 #[inline(always)]
-fn product(l: Unit, x: Real) -> i64 {
+pub(super) fn product(l: Unit, x: Real) -> i64 {
     num::product(l.to_bits(), x.to_bits())
 }
 
@@ -233,8 +192,8 @@ fn entries(l: Unit, m: Unit) -> i64 {
 
 /// A translation with 54 fractional bits, and the half unit that rounds.
 #[inline(always)]
-fn translated(t: Real) -> i64 {
-    (i64::from(t.to_bits()) << 30) + (1 << 29)
+pub(super) const fn translated(t: Real) -> i64 {
+    ((t.to_bits() as i64) << 30) + (1 << 29)
 }
 
 /// `sqrt(x^2 + y^2)` rounded up, for `|x|, |y| <= 2^31`.
@@ -462,38 +421,5 @@ mod tests {
         assert_eq!(FROND.b, Unit::from_num(0.04));
         assert_eq!(FROND.f, Real::from_num(1.6));
         assert_eq!(Affine::from_ratios([1, -1, 0, 0, 2, 0], 3).b, Unit::from_num(-1.0 / 3.0));
-    }
-
-    /// The sum by halves is that of 64 bits: for the catalogue's maps over the square that a system may fill, and for rotations and the like at its corners.
-    #[test]
-    fn a_step_by_halves_has_the_bits_of_a_step() {
-        let mut rng = Xoshiro128PlusPlus::seed_from_u64(5);
-        let ends =
-            [-(1 << 30), -(1 << 30) + 1, -32_769, -32_768, -1, 0, 1, 32_767, 32_768, (1 << 30) - 1, 1 << 30];
-        let mut word = |reach: u32| match rng.next_u32() {
-            w if w & 3 == 0 => ends[(w >> 2) as usize % ends.len()] >> (30 - reach),
-            w => (w as i32) >> (31 - reach),
-        };
-        let mut maps: std::vec::Vec<Affine> =
-            catalogue::ALL.iter().flat_map(|a| a.maps.iter().copied()).collect();
-        while maps.len() < 400 {
-            let [a, b, c, d, e, f] = [word(30), word(30), word(30), word(30), word(29), word(29)];
-            let map = Affine::new([a, b, c, d].map(Unit::from_bits), [e, f].map(Real::from_bits));
-            if map.is_contraction() || [a, d].map(i32::abs) == [1 << 30; 2] && (b, c) == (0, 0) {
-                maps.push(map);
-            }
-        }
-        for map in maps {
-            for _ in 0..500 {
-                let p = Point2::new(Real::from_bits(word(30)), Real::from_bits(word(30)));
-                // a system's disc keeps the image in the format
-                let near = |v: i64, t: Real| (v >> 30) + i64::from(t.to_bits());
-                let x = near(product(map.a, p.x) + product(map.b, p.y), map.e);
-                let y = near(product(map.c, p.x) + product(map.d, p.y), map.f);
-                if x.abs().max(y.abs()) < 1 << 31 {
-                    assert_eq!(map.step_by_halves(p), map.apply(p), "{map:?} {p:?}");
-                }
-            }
-        }
     }
 }

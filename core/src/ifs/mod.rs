@@ -33,6 +33,7 @@ mod chaos;
 mod copier;
 mod disc;
 mod moments;
+mod step;
 mod system;
 
 pub use affine::Affine;
