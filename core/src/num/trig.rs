@@ -78,7 +78,7 @@ mod tests {
                 .max((s.to_num::<f64>() - radians.sin()).abs())
                 .max((c.to_num::<f64>() - radians.cos()).abs());
         }
-        assert!(worst > 0.0 && worst < 2_f64.powi(-28), "{worst:e}");
+        assert!(worst > 2_f64.powi(-30) && worst < 2_f64.powi(-28), "{worst:e}");
     }
 
     #[test]
