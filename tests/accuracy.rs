@@ -92,7 +92,7 @@ fn numbers() -> Vec<Row> {
         row(
             "num::reciprocal_sqrt",
             "31 bits",
-            two_to(-28),
+            two_to(-29),
             positive().map(|w| {
                 let v = u64::from(w) * u64::from(w >> 3 | 1);
                 let (m, s) = num::reciprocal_sqrt(v);
@@ -111,7 +111,7 @@ fn numbers() -> Vec<Row> {
         row(
             "num::exp_minus",
             "I2F30",
-            two_to(-27),
+            two_to(-29),
             words.iter().map(|w| {
                 let x = Real::from_bits((*w >> 1) as i32);
                 num::exp_minus(x).to_num::<f64>() - (-x.to_num::<f64>()).exp()

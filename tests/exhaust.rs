@@ -29,7 +29,7 @@ pub const ALL: [Sweep; 8] = [
         bound: 1.0 / (1_u64 << 28) as f64,
         error: sin_cos,
     },
-    Sweep { name: "exp_minus", inputs: "every Real", bound: 1.0 / (1_u64 << 28) as f64, error: exp_minus },
+    Sweep { name: "exp_minus", inputs: "every Real", bound: 1.0 / (1_u64 << 29) as f64, error: exp_minus },
     Sweep { name: "log2", inputs: "every h", bound: 1.0 / (1_u64 << 24) as f64, error: log2_low },
     Sweep {
         name: "log2 of 64 bits",

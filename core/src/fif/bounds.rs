@@ -214,4 +214,62 @@ mod tests {
         }
         assert_eq!(levels(ONE - 1, ONE - 1), LEVELS);
     }
+
+    /// The range of a function ends below 128, the sum of a map's coefficients below 256.
+    #[test]
+    fn limits_are_where_the_format_ends() {
+        let what = |maps: &[Image]| match Bounds::of(maps) {
+            Ok(_) => None,
+            Err(Error::OutOfRange { what, .. }) => Some(what),
+            Err(other) => panic!("{other:?}"),
+        };
+        let one = |constant: i64, power: i64| image(0, constant << 39, power << 39);
+        let ends = 1 << 16;
+        for sign in [1, -1] {
+            // outward by two units of 2^-16
+            assert_eq!(what(&[one(sign * (128 * ends - 3), 0)]), None);
+            assert_eq!(what(&[one(sign * 128 * ends, 0)]), Some("range of the function"));
+            assert_eq!(what(&[one(sign * 100 * ends, sign * -155 * ends)]), None);
+            assert_eq!(
+                what(&[one(sign * 101 * ends, sign * -155 * ends)]),
+                Some("sum of the coefficients of map")
+            );
+        }
+    }
+
+    /// Against the ends that iterating the hull in rationals tends to: `low = min(alpha_j end) + low_j`, outward by what 16 fractional bits lose.
+    #[test]
+    fn a_hull_is_outward_by_three_units_over_one_less_the_scaling() {
+        for k in 0..300_i32 {
+            let scalings = [k.wrapping_mul(0x2545_f491), k.wrapping_mul(0x6c07_8965) >> (k % 4)];
+            let maps = [
+                image(scalings[0], i64::from(k) << 45, i64::from(k % 11) << 52),
+                image(scalings[1], -(i64::from(k % 7) << 52), i64::from(k) << 40),
+            ];
+            let Ok(bounds) = Bounds::of(&maps) else { continue };
+            let (mut low, mut high) = (0.0_f64, 0.0_f64);
+            let real = |v: i64| v as f64 / 2_f64.powi(55);
+            for _ in 0..200_000 {
+                let images = maps.map(|m| {
+                    let alpha = m.scaling as f64 / 2_f64.powi(63);
+                    let (a, b) = (alpha * low, alpha * high);
+                    (a.min(b) + real(m.low), a.max(b) + real(m.high))
+                });
+                let next = (images[0].0.min(images[1].0), images[0].1.max(images[1].1));
+                if next == (low, high) {
+                    break;
+                }
+                (low, high) = next;
+            }
+            let steepest =
+                maps.iter().map(|m| m.scaling.unsigned_abs() as f64 / 2_f64.powi(63)).fold(0.0, f64::max);
+            let slack = 3.0 * 2_f64.powi(-16) / (1.0 - steepest) + 1e-9;
+            let (got_low, got_high) = (real(bounds.range.0), real(bounds.range.1));
+            assert!(got_low <= low + 1e-9 && got_low >= low - slack, "{k}: {got_low} against {low}, {slack}");
+            assert!(
+                got_high >= high - 1e-9 && got_high <= high + slack,
+                "{k}: {got_high} against {high}, {slack}"
+            );
+        }
+    }
 }

@@ -116,3 +116,153 @@ fn inside(v: i64) -> Result<(), Error> {
     let (min, max) = (Wide::from_num(-128), Wide::from_num(128));
     Err(Error::OutOfRange { what: "integral", index: None, value: Wide::from_bits(v), min, max })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fif::Knot;
+    use crate::num::Scaling;
+
+    fn through<const N: usize>(knots: &[(i32, i32)], scalings: [f64; N]) -> Fif<N, 1> {
+        let knots = knots.iter().map(|(x, y)| Knot::new(Wide::from_num(*x), Wide::from_num(*y)));
+        let knots: heapless::Vec<Knot, 8> = knots.collect();
+        Fif::interpolating(&knots, &scalings.map(Scaling::from_num)).unwrap()
+    }
+
+    /// Whether a number is `numerator / denominator` within so many units of the last place.
+    fn is(got: Wide, (numerator, denominator): (i64, i64), units: i64) -> bool {
+        let off = i128::from(got.to_bits()) * i128::from(denominator) - (i128::from(numerator) << 48);
+        off.abs() <= i128::from(denominator * units)
+    }
+
+    /// `a = (1/4, 3/4)`, `alpha = (1/2, -1/4)`: the mean is `(sum of a mean(q)) / (1 - sum of a alpha) = (77/32) / (17/16)`, and the integral over the
+    /// first part `a_1 w (alpha_1 mean + mean(q_1)) = 77/68 + 13/4`.
+    #[test]
+    fn an_integral_is_the_exact_one_at_its_knots() {
+        let f = through(&[(1, 2), (2, 5), (5, -1)], [0.5, -0.25]);
+        assert!((i128::from(f.mean()) * 34 - (77 << 55)).abs() <= 2 * 34, "{}", f.mean());
+        for initial in [0, 3, -5] {
+            let integral = f.integral::<2>(Wide::from_num(initial)).unwrap();
+            let start = 1088 * i64::from(initial);
+            // 1 + 1/4 is the image of the middle knot under the first map: a_1 (alpha_1 149/34 + 25/16) = 1021/1088
+            for (x, numerator) in [(1.0, 0), (1.25, 1021), (2.0, 149 * 32), (5.0, 154 * 64)] {
+                let got = integral.at_wide(Wide::from_num(x));
+                assert!(is(got, (start + numerator, 1088), 1), "{initial} + {numerator}/1088: {got}");
+            }
+        }
+    }
+
+    /// What was integrated comes back: scalings to the bit, values within a few units.
+    #[test]
+    fn the_derivative_of_an_integral_is_the_function() {
+        let f = through(&[(1, 2), (2, 5), (5, -1)], [0.125, -0.25]);
+        let back = f.integral::<2>(Wide::ONE).unwrap().derivative::<1>().unwrap();
+        for (map, own) in back.maps.iter().zip(&f.maps) {
+            assert_eq!((map.scaling, map.start, map.width), (own.scaling, own.start, own.width));
+            assert!((map.q.constant - own.q.constant).abs() <= 1 << 6);
+            assert!((map.q.powers[0] - own.q.powers[0]).abs() <= 1 << 6);
+        }
+        for x in [1.0, 1.0625, 1.25, 1.5, 2.0, 2.75, 4.5, 5.0].map(Wide::from_num) {
+            assert!((f.at_wide(x) - back.at_wide(x)).abs() <= 2 * Wide::DELTA, "{x}");
+        }
+        // f(L_1(2)) = alpha_1 f(2) + q_1(1/4): 5/8 + 7/4 + 27/32
+        assert_eq!(back.at(Wide::from_num(1.25)), f.at(Wide::from_num(1.25)));
+        assert!(is(f.at_wide(Wide::from_num(1.25)), (103, 32), 1), "{}", f.at_wide(Wide::from_num(1.25)));
+    }
+
+    /// `x^3` over two parts of `[-1, 3]`: `f(L(x))` is the cube of `(x - 1) / 2` and of `(x + 3) / 2`; its derivative is `3 x^2`.
+    fn cube() -> Fif<2, 3> {
+        let eighths = |cs: [i32; 4]| cs.map(|c| Wide::from_num(c) / 8);
+        let (left, right) = (eighths([-1, 3, -3, 1]), eighths([27, 27, 9, 1]));
+        let knots = [-1, 1, 3].map(Wide::from_num);
+        Fif::with_polynomials(&knots, &[Scaling::ZERO; 2], &[&left, &right]).unwrap()
+    }
+
+    #[test]
+    fn a_cube_has_the_derivative_and_the_integral_of_the_textbooks() {
+        let f = cube();
+        let slope = f.derivative::<2>().unwrap();
+        let integral = f.integral::<4>(Wide::from_num(-1)).unwrap();
+        for eighths in -8..=24_i64 {
+            let x = Wide::from_num(eighths) / 8;
+            assert!(is(f.at_wide(x), (eighths.pow(3), 512), 1), "{x}");
+            assert!(is(slope.at_wide(x), (3 * eighths.pow(2), 64), 1), "{x}: {}", slope.at_wide(x));
+            // -1 + (x^4 - 1) / 4
+            let quarters = eighths.pow(4) - 4096 - 4 * 4096;
+            assert!(is(integral.at_wide(x), (quarters, 4 * 4096), 1), "{x}: {}", integral.at_wide(x));
+        }
+    }
+
+    #[test]
+    fn room_for_one_power_less_is_refused() {
+        let f = cube();
+        let (needed, capacity) = (4, 3);
+        assert_eq!(
+            f.integral::<3>(Wide::ZERO).unwrap_err(),
+            Error::Capacity { what: POWERS, needed, capacity }
+        );
+        let (needed, capacity) = (2, 1);
+        assert_eq!(f.derivative::<1>().unwrap_err(), Error::Capacity { what: POWERS, needed, capacity });
+        let flat = through(&[(0, 1), (1, 1)], [0.0]);
+        assert!(flat.integral::<1>(Wide::ZERO).is_ok() && flat.derivative::<0>().is_ok());
+        let far = flat.integral::<1>(Wide::from_num(128)).unwrap_err();
+        assert!(matches!(far, Error::OutOfRange { what: "initial value", .. }));
+    }
+
+    #[test]
+    fn a_map_as_steep_as_narrow_has_no_derivative() {
+        let level = |scaling| {
+            let knots = [0, 1, 2].map(|x| Knot::new(Wide::from_num(x), Wide::ZERO));
+            Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO, scaling]).unwrap().derivative::<1>()
+        };
+        let half = Scaling::from_num(0.5);
+        for steep in [half, -half] {
+            assert_eq!(level(steep).unwrap_err(), Error::NotDifferentiable { map: 1 });
+        }
+        let less = half - Scaling::from_num(0.002);
+        assert!(level(less).is_ok() && level(-less).is_ok());
+        // a scaling of 1 - 2^-30 has no range in the format
+        for least in [half - Scaling::DELTA, Scaling::DELTA - half] {
+            assert!(matches!(level(least), Err(Error::OutOfRange { .. })));
+        }
+        // a corner is no derivative
+        assert_eq!(
+            through(&[(0, 0), (1, 1), (2, 0)], [0.0; 2]).derivative::<1>().unwrap_err(),
+            Error::NotJoined { knot: 1 }
+        );
+    }
+
+    /// Against 128 bits: every product rounded down, and an error where it leaves 64.
+    #[test]
+    fn an_integral_that_leaves_the_format_is_refused() {
+        let over = |y: i32, width: i32| through(&[(0, y), (width, y)], [0.0]).integral::<2>(Wide::ZERO);
+        for (y, width, what) in [
+            (1, 127, None),
+            (-1, 127, None),
+            (1, 128, Some("range of the function")),
+            (-1, 128, Some("range of the function")),
+            (1, 256, Some("integral")),
+            (-1, 257, Some("integral")),
+            (100, 3000, Some("integral")),
+            (-100, 3000, Some("integral")),
+        ] {
+            let got = match over(y, width) {
+                Ok(_) => None,
+                Err(Error::OutOfRange { what, .. }) => Some(what),
+                Err(other) => panic!("{other:?}"),
+            };
+            assert_eq!(got, what, "{y} over {width}");
+        }
+        let (mut fits, mut leaves) = (0, 0);
+        for k in 0..4000_i64 {
+            let width = k.wrapping_mul(0x2545_f491_4f6c_dd1d) as u64 >> (k % 64) | 1;
+            let f = Fif::<1, 1> { width, ..through(&[(0, 1), (1, 1)], [0.0]) };
+            let v = k.wrapping_mul(0x1f12_3bb5_159a_55e5) >> (k / 64 % 16);
+            let exact = (i128::from(v) * i128::from(width)) >> 48;
+            let saturated = exact.clamp(i64::MIN.into(), i64::MAX.into());
+            assert_eq!(i128::from(f.times_width(v)), saturated, "{v} {width}");
+            *if exact == i128::from(exact as i64) { &mut fits } else { &mut leaves } += 1;
+        }
+        assert!(fits > 1000 && leaves > 300, "{fits} {leaves}");
+    }
+}

@@ -128,7 +128,7 @@ fn power(halvings: u32, k: u32) -> (u32, u32) {
 }
 
 /// A number with 55 fractional bits, rounded up.
-fn up(value: u64) -> Real {
+pub(super) fn up(value: u64) -> Real {
     Real::from_bits(value.div_ceil(1 << (FRACTION - 24)).min(i32::MAX as u64) as i32)
 }
 
@@ -269,5 +269,41 @@ mod tests {
                 assert!(exact <= got && got <= allowed, "{alphas:?} {halvings}: {got} against {exact}");
             }
         }
+    }
+
+    /// Against its formula in integers with 95 fractional bits: never below, and above by less than a unit of the result.
+    #[test]
+    fn an_error_bound_is_that_of_its_formula() {
+        let mut state = 3_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state >> 16
+        };
+        let mut decided = [0_u32; 3];
+        for _ in 0..3000 {
+            // a map that hardly contracts adds up what is small; only so low a function keeps a range then
+            let steepest = (1 << 31) - (1 << 12) - (next() >> 34 << (next() % 6));
+            let [first, middle, last] = [(); 3].map(|()| Wide::from_bits((next() >> 13) as i64 - (1 << 34)));
+            let knots = [(0, first), (1, last), (2, middle), (4, last)];
+            let knots = knots.map(|(x, y)| Knot::new(Wide::from_num(x), y));
+            let scalings = [Scaling::from_bits(steepest as i32), Scaling::ZERO, Scaling::ZERO];
+            let f = Fif::<3, 1>::interpolating(&knots, &scalings).unwrap();
+            assert!(f.levels < LEVELS);
+            let largest = u128::from(f.range.0.unsigned_abs().max(f.range.1.unsigned_abs()));
+            let slope = f.maps.iter().map(|m| u128::from(m.q.powers[0].unsigned_abs())).max().unwrap();
+            // a quarter, a quarter, a half: 1 + 1/2 + ... is below 3, so that the abscissa moves by less than 3 2^-60
+            let shares = [largest << 8, 1 << 48, slope >> 18]
+                .map(|share| (share << 24) / u128::from((1 << 31) - steepest) << 7);
+            let exact = shares.iter().sum::<u128>() + (1 << 70) + (1 << 65);
+            let got = u128::from(f.error_bound().to_bits().unsigned_abs()) << 71;
+            // divisions, and the slope's unit of 2^-47
+            let lost = 1 << 48;
+            assert!(got + lost >= exact && got < exact + (1 << 71) + lost, "{f:?}: {got} against {exact}");
+            // how often each of them decides
+            for (share, count) in [shares[0], shares[1], 1 << 65].into_iter().zip(&mut decided) {
+                *count += u32::from(got >= (1 << 71) + exact - share + lost);
+            }
+        }
+        assert!(decided.iter().all(|count| *count > 5), "{decided:?}");
     }
 }

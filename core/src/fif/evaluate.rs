@@ -152,4 +152,75 @@ mod tests {
         }
         assert!(f.starts.iter().filter(|start| **start == 0).count() == 60);
     }
+
+    /// A function over `[-2^14, 2^14]`, whose abscissae have 63 digits, with halves for scalings: the value from the last digit to the first with 118
+    /// fractional bits, each of them exact.
+    #[test]
+    fn a_walk_ends_where_its_scalings_are_below_two_to_the_minus_40() {
+        let knots =
+            [(-1, 0), (0, 32), (1, 24)].map(|(x, y)| Knot::new(Wide::from_num(x << 14), Wide::from_num(y)));
+        let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.5); 2]).unwrap();
+        let value = |u: u64| {
+            let (mut y, mut t) = (0_i128, 0_i128);
+            for k in 0..63 {
+                let digit = u >> k & 1;
+                // q(0) = y_(j-1), q(1) = y_j - 12
+                let (left, right) = [(0, 20), (32, 12)][digit as usize];
+                y = (left << 118) + (((right - left) * t) << 55) + (y >> 1);
+                t = (t + (i128::from(digit) << 63)) >> 1;
+            }
+            y
+        };
+        let off = |u: u64| {
+            let got = f.at_wide(Wide::from_bits((u as i64).wrapping_sub(1 << 62)));
+            (value(u) - (i128::from(got.to_bits()) << 70)).abs()
+        };
+        let (third, mut worst) = (ONE / 3, 0);
+        let mut word = 1_u64;
+        for _ in 0..2000 {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let head = word >> 1 & !((1 << 22) - 1);
+            // what follows the 41st digit begins another walk: at a third of the domain, and beside its ends
+            worst = worst.max(off(head | third >> 41));
+            assert!(off(head) < 1 << 74, "{head:#x}");
+            for near_an_end in [head | 1, head | ((1 << 22) - 1)] {
+                assert!(off(near_an_end) < 1 << 74, "{near_an_end:#x}: {}", off(near_an_end));
+            }
+        }
+        // the nearer end is 0
+        let left_out = value(third) >> 41;
+        assert!(worst > left_out - (1 << 74) && worst < left_out + (1 << 74), "{worst} {left_out}");
+    }
+
+    /// Scalings that hardly vanish: the walk takes all 63 digits. Against integers with 80 fractional bits.
+    #[test]
+    fn a_walk_takes_every_digit() {
+        let knots = [(-1, 1), (0, 5), (1, -3)]
+            .map(|(x, y)| Knot::new(Wide::from_num(x << 14), Wide::from_num(y) / 16));
+        let scalings = [0.96875, -0.9375].map(Scaling::from_num);
+        let f = Fif::<2, 1>::interpolating(&knots, &scalings).unwrap();
+        let mut word = 7_u64;
+        for k in 0..3000 {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let u = [word >> 1, 1 << (k % 63), (1 << 62) - 1, ONE - 1, ONE - (1 << (k % 63))][k % 5];
+            let (mut y, mut t) = (1_i128 << 76, 0_i128);
+            for i in 0..63 {
+                let digit = (u >> i & 1) as usize;
+                let alpha = i128::from(scalings[digit].to_bits());
+                // q(0) = y_(j-1) - alpha y_0, q(1) = y_j - alpha y_N with 31 fractional bits
+                let (left, right) = [(1_i128, 5_i128), (5, -3)][digit];
+                let (q0, q1) = ((left << 31) - alpha, (right << 31) + 3 * alpha);
+                y = (q0 << 45) + (((q1 - q0) * t) >> 18) + ((y * alpha) >> 31);
+                t = (t + ((digit as i128) << 63)) >> 1;
+            }
+            let got = f.at_wide(Wide::from_bits((u as i64).wrapping_sub(1 << 62)));
+            let off = y - (i128::from(got.to_bits()) << 32);
+            // half a unit of 2^-48, and 63 products of 2^-53
+            assert!(off.abs() < 1 << 34, "{u:#x}: {got} off by {off}");
+        }
+        for knot in knots {
+            assert_eq!(f.at_wide(knot.x), knot.y);
+        }
+        assert_eq!((f.at_wide(Wide::MIN), f.at_wide(Wide::MAX)), (knots[0].y, knots[2].y));
+    }
 }

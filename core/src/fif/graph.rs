@@ -62,3 +62,50 @@ impl<const N: usize, const D: usize> Iterator for Graph<'_, N, D> {
 
 impl<const N: usize, const D: usize> ExactSizeIterator for Graph<'_, N, D> {}
 impl<const N: usize, const D: usize> FusedIterator for Graph<'_, N, D> {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fif::Knot;
+    use crate::num::{Scaling, Wide};
+
+    fn tent() -> Fif<2, 1> {
+        let knots = [(1, 0), (2, 1), (3, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        Fif::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap()
+    }
+
+    /// The straight tent: `y = min(2 u, 2 - 2 u)` at `u = i / n`, rounded to nearest; `x` rounded down.
+    #[test]
+    fn a_graph_goes_from_end_to_end_in_equal_parts() {
+        let f = tent();
+        for n in [1, 2, 3, 7, 10, 1000_u32] {
+            let mut count = 0_i64;
+            for (i, step) in f.graph(n).enumerate() {
+                let (i, n) = (i as i64, i64::from(n));
+                let point = match step {
+                    PathElement::MoveTo(point) if i == 0 => point,
+                    PathElement::LineTo(point) if i > 0 => point,
+                    other => panic!("{i}: {other:?}"),
+                };
+                assert_eq!(i64::from(point.x.to_bits()), (i << 24) / n, "{i} / {n}");
+                let y = (2 * i).min(2 * (n - i)) << 24;
+                assert!((2 * (i64::from(point.y.to_bits()) * n - y)).abs() <= n, "{i} / {n}: {}", point.y);
+                count += 1;
+            }
+            assert_eq!(count, i64::from(n) + 1);
+        }
+    }
+
+    #[test]
+    fn a_graph_knows_how_long_it_is() {
+        let f = tent();
+        let mut graph = f.graph(3);
+        for left in (1..=4).rev() {
+            assert_eq!(graph.size_hint(), (left, Some(left)));
+            assert!(graph.next().is_some());
+        }
+        assert!(graph.next().is_none() && graph.next().is_none());
+        assert_eq!(graph.len(), 0);
+        assert_eq!((f.graph(0).len(), f.graph(u32::MAX).len()), (2, u32::MAX as usize));
+    }
+}

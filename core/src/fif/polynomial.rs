@@ -299,4 +299,34 @@ mod tests {
             assert!(least - 3 * low < slack && 3 * high - most < slack, "{p:?}: {low} {high}");
         }
     }
+
+    #[test]
+    fn a_degree_a_norm_and_a_derivative_are_the_textbooks() {
+        let p = |constant: i64, powers: [i64; 4]| Polynomial { constant, powers };
+        assert_eq!([p(5, [0; 4]), p(0, [0, 0, -1, 0]), p(0, [0, 0, 0, 1])].map(|p| p.degree()), [0, 3, 4]);
+        assert_eq!(p(-5, [1, -2, 3, -4]).norm(), 15);
+        assert_eq!(p(i64::MIN, [i64::MIN, 0, 0, 0]).norm(), i64::MAX);
+        assert_eq!(p(9, [1, -2, 3, -4]).derivative(), p(1, [-4, 9, -16, 0]));
+        assert_eq!(p(9, [0, i64::MAX, 0, 0]).derivative(), p(0, [i64::MAX, 0, 0, 0]));
+        assert_eq!(p(60, [60, -60, 60, -60]).mean(), 60 + 30 - 20 + 15 - 12);
+    }
+
+    /// Above degree 16 the sum of all magnitudes; at 16 still the Bernstein coefficients, whose binomials are the largest.
+    #[test]
+    fn a_range_of_a_high_degree_holds_the_ends() {
+        // 2^46 (1 - t)^n: between 0 and 2^46, its coefficients C(n, k) with alternating signs
+        fn power<const D: usize>() -> Polynomial<D> {
+            let mut p = Polynomial::<D> { constant: 1 << 46, powers: [0; D] };
+            let mut c = 1_i64;
+            for (k, to) in p.powers.iter_mut().enumerate() {
+                c = -c * (D - k) as i64 / (k as i64 + 1);
+                *to = c << 46;
+            }
+            p
+        }
+        let (low, high) = power::<16>().range();
+        let pad = 1 << 22;
+        assert!((-pad..=0).contains(&low) && (1 << 46..=(1 << 46) + pad).contains(&high), "{low} {high}");
+        assert_eq!(power::<17>().range(), (-i64::MAX, i64::MAX));
+    }
 }

@@ -120,3 +120,122 @@ fn product(a: i64, b: i64) -> Real {
     // 55 + 55 - 63 = 47 fractional bits, less than 2^15 * 2^47
     real_from(twice_high(a, b), FRACTION - 8)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Scaling;
+
+    /// `c x^power` over `[low, high]` with two parts, from `f(L(x)) = c L(x)^power`.
+    fn monomial(low: i32, high: i32, power: i32, factor: f64) -> Factor<2, 4> {
+        let ends = [low, (low + high) / 2, high];
+        let q = |start: i32| {
+            // L(x) = start + (x - low) / 2
+            let c = f64::from(start) - f64::from(low) / 2.0;
+            let powers: [f64; 4] = match power {
+                1 => [c, 0.5, 0.0, 0.0],
+                2 => [c * c, c, 0.25, 0.0],
+                _ => [c * c * c, 1.5 * c * c, 0.75 * c, 0.125],
+            };
+            powers.map(|p| Wide::from_num(p * factor))
+        };
+        let (left, right) = (q(ends[0]), q(ends[1]));
+        let f =
+            Fif::<2, 3>::with_polynomials(&ends.map(Wide::from_num), &[Scaling::ZERO; 2], &[&left, &right]);
+        Factor::new(&f.unwrap()).unwrap()
+    }
+
+    /// The nearest number to `numerator / denominator`, ties and `2^-40` beside them either way.
+    fn nearest(got: Real, numerator: i64, denominator: i64) -> bool {
+        let (n, d) = (i128::from(numerator), i128::from(denominator));
+        let off = 2 * (i128::from(got.to_bits()) * d - (n << 24));
+        off.abs() <= d.abs() + (d.abs() >> 16) + 1
+    }
+
+    /// `x^2 y^3`: height, slopes and normal at sixteenths.
+    #[test]
+    fn a_product_of_powers_has_the_slopes_of_the_textbooks() {
+        let (f, g) = (monomial(-1, 3, 2, 1.0), monomial(0, 2, 3, 0.5));
+        let h = Surface::new(&f, &g);
+        let wide = |n: i64| Wide::from_num(n) / 16;
+        for i in -16..=48_i64 {
+            for j in 0..=32_i64 {
+                let (x, y) = (wide(i), wide(j));
+                let sixteenths = |k: u32| 16_i64.pow(k);
+                assert!(nearest(h.height(x, y), i * i * j * j * j, 2 * sixteenths(5)), "{x} {y}");
+                let (dx, dy) = h.partials(x, y);
+                assert!(nearest(dx, 2 * i * j * j * j, 2 * sixteenths(4)), "{x} {y}: {dx}");
+                assert!(nearest(dy, 3 * i * i * j * j, 2 * sixteenths(4)), "{x} {y}: {dy}");
+                assert_eq!(h.normal(x, y), Vec3::new(-dx, -dy, Real::ONE));
+            }
+        }
+    }
+
+    /// `(x1^2 - x0^2) / (x1 - x0) = x0 + x1` times the mean `(y1^4 - y0^4) / (8 (y1 - y0))`, and so on.
+    #[test]
+    fn a_mean_normal_is_the_closed_form() {
+        let (f, g) = (monomial(-1, 3, 2, 1.0), monomial(0, 2, 3, 0.5));
+        let h = Surface::new(&f, &g);
+        let wide = |n: i64| Wide::from_num(n) / 8;
+        for (x0, x1) in [(-8, 24), (-3, 1), (5, 6), (0, 17), (7, 7), (24, 24), (-8, -8)] {
+            for (y0, y1) in [(0, 16), (3, 4), (1, 15), (9, 9), (16, 16)] {
+                let cubes = (y1 + y0) * (y1 * y1 + y0 * y0);
+                let squares = x1 * x1 + x1 * x0 + x0 * x0;
+                let expected = [
+                    // mean slope of f: eighths; mean of g: 8 of 8^3
+                    (-(x0 + x1) * cubes, 8 * 8 * 512),
+                    // mean of f: thirds of 8^2; mean slope of g: halves of 8^2
+                    (-squares * (y1 * y1 + y1 * y0 + y0 * y0), 3 * 64 * 2 * 64),
+                ];
+                let one = h.mean_normal((wide(x0), wide(x1)), (wide(y0), wide(y1)));
+                let turned = h.mean_normal((wide(x1), wide(x0)), (wide(y1), wide(y0)));
+                assert_eq!(one, turned);
+                assert_eq!(one.z, Real::ONE);
+                for (got, (numerator, denominator)) in [one.x, one.y].into_iter().zip(expected) {
+                    assert!(nearest(got, numerator, denominator), "{x0} {x1} {y0} {y1}: {got}");
+                }
+            }
+        }
+        // what lies outside does not count
+        let all = h.mean_normal((wide(-8), wide(24)), (wide(0), wide(16)));
+        assert_eq!(h.mean_normal((Wide::MIN, Wide::MAX), (wide(-3), wide(99))), all);
+        let corner = h.mean_normal((wide(24), wide(24)), (wide(0), wide(0)));
+        assert_eq!(h.mean_normal((wide(25), Wide::MAX), (Wide::MIN, wide(-1))), corner);
+    }
+
+    #[test]
+    fn a_factor_from_its_slope_has_that_slope() {
+        let slope = monomial(-1, 3, 2, 3.0);
+        let factor = Factor::<2, 4>::from_slope(slope.value(), Wide::from_num(-1)).unwrap();
+        for i in -16..=48_i64 {
+            let x = Wide::from_num(i) / 16;
+            assert!(
+                (factor.value().at_wide(x) - Wide::from_bits(i.pow(3) << 36)).abs() <= 8 * Wide::DELTA,
+                "{x}"
+            );
+            assert!((factor.slope().at_wide(x) - slope.value().at_wide(x)).abs() <= 8 * Wide::DELTA, "{x}");
+            // (x^4 - 1) / 4 from -1 on
+            let exact = Wide::from_bits((i.pow(4) - 65_536) << 30);
+            assert!((factor.integral().at_wide(x) - exact).abs() <= 8 * Wide::DELTA, "{x}");
+        }
+    }
+
+    #[test]
+    fn products_are_rounded_to_nearest_and_saturate() {
+        for (a, b) in [(100, 100), (-100, 100), (11, 11), (11, 12), (-127, 1), (12, -12)] {
+            let got = product(i64::from(a) << 55, i64::from(b) << 55);
+            assert_eq!(got, Real::saturating_from_num(a * b), "{a} {b}");
+        }
+        for k in 0..2000_i64 {
+            let (a, b) = (
+                k.wrapping_mul(0x2545_f491_4f6c_dd1d) >> (3 + k % 7),
+                k.wrapping_mul(0x1f12_3bb5_159a_55e5) >> 5,
+            );
+            let exact = i128::from(a) * i128::from(b); // 110 fractional bits
+            let limits = (i128::from(i32::MIN) << 86, i128::from(i32::MAX) << 86);
+            let off = (exact.clamp(limits.0, limits.1) - (i128::from(product(a, b).to_bits()) << 86)).abs();
+            // half a unit, and two of 2^-47
+            assert!(off <= (1 << 85) + (2 << 63), "{a} {b}");
+        }
+    }
+}

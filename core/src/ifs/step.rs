@@ -9,7 +9,7 @@ use super::affine::Affine;
 #[cfg(any(test, not(no_long_product)))]
 use super::affine::{product, translated};
 use crate::num::{Real, Unit};
-use crate::picture::Point2;
+use crate::plane::Point2;
 
 /// A contraction of a system, prepared. Size: 32 bytes; 40 on a machine without a long product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,7 +171,9 @@ mod tests {
                     [map.a.to_bits(), map.b.to_bits(), map.e.to_bits()],
                     [map.c.to_bits(), map.d.to_bits(), map.f.to_bits()],
                 ];
-                rows.map(|row| agree(row, [p.x.to_bits(), p.y.to_bits()]));
+                for row in rows {
+                    agree(row, [p.x.to_bits(), p.y.to_bits()]);
+                }
             }
         }
     }

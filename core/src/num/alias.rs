@@ -159,7 +159,7 @@ mod tests {
                 lists.push((0..n).map(|_| rng.next_u32() >> (rng.next_u32() % (shift + 1))).collect());
             }
         }
-        let mut inexact = 0;
+        let (mut inexact, mut most) = (0, 0.0_f64);
         for weights in lists {
             let words = words(&Alias::<256>::new(&weights).unwrap());
             let sum: i128 = weights.iter().map(|w| i128::from(*w)).sum();
@@ -170,8 +170,28 @@ mod tests {
                 assert!(off.abs() < sum, "{weights:?}: {words} for {weight} of {sum}");
                 assert!(*weight > 0 || *words == 0, "an item without weight was drawn");
                 inexact += u32::from(off != 0);
+                most = most.max(off.abs() as f64 / sum as f64);
             }
         }
-        assert!(inexact > 1000, "{inexact}");
+        assert!(inexact > 1000 && most > 0.9, "{inexact} {most}");
+    }
+
+    #[test]
+    fn a_table_holds_256_items_and_no_more() {
+        assert!(matches!(
+            Alias::<300>::new(&[1; 257]),
+            Err(Error::Capacity { needed: 257, capacity: 256, .. })
+        ));
+        assert!(matches!(Alias::<3>::new(&[1; 4]), Err(Error::Capacity { needed: 4, capacity: 3, .. })));
+        assert!(matches!(Alias::<3>::new(&[]), Err(Error::TooFew { .. })));
+        assert!(matches!(Alias::<3>::new(&[0; 3]), Err(Error::TooFew { .. })));
+        let table = Alias::<300>::new(&[1; 256]).unwrap();
+        assert_eq!((table.len(), table.is_empty()), (256, false));
+        for slot in 0..256_u32 {
+            assert_eq!(
+                (table.pick(slot << 24), table.pick(slot << 24 | 0xff_ffff)),
+                (slot as usize, slot as usize)
+            );
+        }
     }
 }

@@ -315,4 +315,39 @@ mod tests {
         assert_eq!(one.plus_units(1).window(31), 1);
         assert_eq!(one.plus_units(1).window(3), 1 << 28);
     }
+
+    /// Limbs of 1: whatever is cut off is seen. `Limbs<2>` against 128 bits: a product loses less than 2 units towards 0.
+    #[test]
+    fn two_limbs_calculate_as_64_bits_do() {
+        let two = |bits: i64| Limbs::<2>::from_limbs([bits as u32, (bits >> 32) as u32]);
+        let mut worst = 0.0_f64;
+        for a in samples().map(|a| (a >> 64) as i64) {
+            assert_eq!((two(a).top64(), two(a).to_wide()), (a, Wide::from_bits(a >> 12)));
+            assert_eq!(two(a).is_negative(), a < 0);
+            for b in samples().step_by(7).map(|b| (b >> 64) as i64) {
+                let exact = i128::from(a) * i128::from(b);
+                let got = i128::from(two(a).times(&two(b)).top64());
+                if (exact >> 60) == i128::from((exact >> 60) as i64) {
+                    let lost = exact.abs() - (got.abs() << 60);
+                    assert!(
+                        (0..2 << 60).contains(&lost) && (got == 0 || (got < 0) == (exact < 0)),
+                        "{a} {b}"
+                    );
+                    worst = worst.max(lost as f64 / 2_f64.powi(60));
+                }
+                let small = b as i32;
+                assert_eq!(two(a).times_small(small).top64(), a.wrapping_mul(i64::from(small)));
+                assert_eq!(two(a).plus_units(b).top64(), a.wrapping_add(b));
+            }
+            assert_eq!(two(a).plus_whole(3).top64(), a.wrapping_add(3 << 60));
+            let bits = a as u64;
+            assert_eq!(two(a).highest_bit(), bits.checked_ilog2());
+            for position in [0, 1, 30, 31, 32, 33, 62, 63] {
+                let want = if position > 31 { bits >> (position - 31) } else { bits << (31 - position) };
+                assert_eq!(two(a).window(position), want as u32, "{a} {position}");
+            }
+        }
+        assert!((0.9..2.0).contains(&worst), "{worst}");
+        assert_eq!(two(5).divided(0), (two(5), 0));
+    }
 }

@@ -92,4 +92,24 @@ mod tests {
     fn no_parts_count_as_one() {
         assert_eq!([nth(1 << 40, 0), nth(-77, 0)], [1 << 40, -77]);
     }
+
+    /// Seeded words of every length, against 128 bits.
+    #[test]
+    fn quotients_of_words_of_every_length_are_those_of_128_bits() {
+        let mut word = 1_u64;
+        let mut next = |k: u64| {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (word ^ word >> 32) >> (k % 64)
+        };
+        for k in 0..20_000 {
+            let (v, d, shift) = (next(k), next(k / 64).max(1), (k % 64) as u32);
+            let exact = ((u128::from(v) << shift) / u128::from(d)).min(u128::from(u64::MAX)) as u64;
+            assert_eq!(ratio(v, shift, d), exact, "{v} << {shift} / {d}");
+            let (signed, n) = (v as i64, (d & 0xffff) as u32);
+            let exact = (i128::from(signed) << shift) / i128::from(d);
+            let exact = exact.clamp(i128::from(i64::MIN), i128::from(i64::MAX));
+            assert_eq!(i128::from(quotient(signed, shift, d)), exact, "{signed} << {shift} / {d}");
+            assert_eq!(nth(signed, n), signed / i64::from(n.max(1)), "{signed} / {n}");
+        }
+    }
 }
