@@ -100,6 +100,14 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         Self::new(Complex::new(re.parse()?, im.parse()?), width.parse()?, size)
     }
 
+    /// The whole Mandelbrot set, as [`View::home`]: where a zoom begins.
+    ///
+    /// # Errors
+    /// As [`View::home`], and [`Error::OutOfRange`] for displays so flat or so high that a side of the view reaches 4.
+    pub fn home(size: Size) -> Result<Self, Error> {
+        View::home(size)?.try_into()
+    }
+
     /// The point that was in the middle when the view was made.
     pub const fn centre(&self) -> &Complex<Limbs<LIMBS>> {
         &self.centre
@@ -180,6 +188,12 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         self.half_pitch.times_small(steps).plus_units(units)
     }
 
+    /// The distance of two neighbouring pixels, rounded down.
+    pub fn pitch(&self) -> Limbs<LIMBS> {
+        let carry = i64::from(self.rest >= self.raster.size().width);
+        self.half_pitch.plus(&self.half_pitch).plus_units(carry)
+    }
+
     /// The exponent of 2 just below the pitch: `2^e <= pitch < 2^(e + 1)`.
     pub fn pitch_exponent(&self) -> i32 {
         let highest = self.half_pitch.highest_bit().unwrap_or(0) as i32;
@@ -253,6 +267,17 @@ fn half_pitch_block<const LIMBS: usize>(width: &Limbs<LIMBS>, size: Size) -> Blo
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn both_views_have_the_same_home_and_pitch() {
+        for size in [Size::new(24, 20), Size::new(333, 240), Size::new(7, 5), Size::new(16_384, 12_000)] {
+            let (shallow, deep) = (View::home(size).unwrap(), DeepView::<4>::home(size).unwrap());
+            assert_eq!(deep.pitch().to_wide(), shallow.pitch(), "{size}");
+            assert_eq!(deep.pitch_exponent(), shallow.pitch_exponent(), "{size}");
+            assert_eq!(deep.width().to_wide(), shallow.width());
+        }
+        assert!(DeepView::<4>::home(Size::new(300, 100)).is_err());
+    }
 
     #[test]
     fn a_view_goes_on_at_the_same_points() {

@@ -147,6 +147,12 @@ impl View {
         Wide::from_bits(self.whole_pitch().0)
     }
 
+    /// The exponent of 2 just below the pitch: `2^e <= pitch < 2^(e + 1)`.
+    pub fn pitch_exponent(&self) -> i32 {
+        // a pitch has at least 2^19 units of 2^-48
+        self.pitch().to_bits().checked_ilog2().unwrap_or(0) as i32 - Wide::FRAC_NBITS as i32
+    }
+
     /// `W / cols` as quotient and remainder over `2 cols`.
     const fn whole_pitch(&self) -> (i64, i32) {
         let (pitch, rest) = (self.half_pitch << 1, self.rest << 1);
