@@ -10,7 +10,7 @@ use embedded_graphics_core::geometry::Size;
 use super::Dwell;
 use super::escape_time::EscapeTime;
 use crate::Error;
-use crate::picture::Field;
+use crate::picture::{Field, checked_size};
 
 /// An escape-time picture, computed, in a lent buffer of 16 bits a pixel.
 ///
@@ -35,9 +35,11 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
     /// Computes the whole picture.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] unless there is one count a pixel, [`Error::Capacity`] for more than 65535 iterations.
+    /// [`Error::BufferLength`] unless there is one count a pixel, [`Error::Capacity`] for more than 65535 iterations,
+    /// [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
     pub fn new(picture: P, counts: &'a mut [u16]) -> Result<Self, Error> {
-        let size = picture.size();
+        let size = checked_size(picture.size())?;
+        // at most 2^28
         let needed = size.width as usize * size.height as usize;
         if counts.len() != needed {
             return Err(Error::BufferLength { what: "counts", given: counts.len(), needed });
@@ -141,8 +143,12 @@ impl<P: EscapeTime> Field for Canvas<'_, P> {
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> CanvasRow<'_> {
-        let start = y as usize * self.picture.size().width as usize + x.start as usize;
-        let counts = self.counts.get(start..start + x.len()).unwrap_or(&[]);
+        let Size { width, height } = self.picture.size();
+        // what lies outside the picture has no pixels
+        let (y, end) = if y < height { (y, x.end.min(width)) } else { (0, 0) };
+        let start = y.saturating_mul(width);
+        let range = start.saturating_add(x.start.min(end)) as usize..start.saturating_add(end) as usize;
+        let counts = self.counts.get(range).unwrap_or(&[]);
         CanvasRow { counts: counts.iter(), max: self.picture.max_dwell() }
     }
 }

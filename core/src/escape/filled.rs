@@ -17,7 +17,7 @@ use embedded_graphics_core::geometry::Size;
 
 use super::Dwell;
 use crate::Error;
-use crate::picture::Field;
+use crate::picture::{Field, checked_size};
 
 /// Any picture of dwells whose inside is filled in as its rows are drawn, with two lent bits a pixel.
 ///
@@ -60,7 +60,7 @@ const OUTSIDE: u8 = 2;
 impl<P> Filled<'_, P> {
     /// How many bytes a picture takes.
     pub const fn bytes(size: Size) -> usize {
-        (size.width as usize * size.height as usize).div_ceil(4)
+        (size.width as usize).saturating_mul(size.height as usize).div_ceil(4)
     }
 }
 
@@ -88,9 +88,10 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     /// Nothing is known yet.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] unless `bits` has [`Filled::bytes`] elements.
+    /// [`Error::BufferLength`] unless `bits` has [`Filled::bytes`] elements, [`Error::OutOfRange`] for a size that
+    /// [`checked_size`] refuses.
     pub fn new(picture: P, bits: &'a mut [u8]) -> Result<Self, Error> {
-        let needed = Self::bytes(picture.size());
+        let needed = Self::bytes(checked_size(picture.size())?);
         if bits.len() != needed {
             return Err(Error::BufferLength { what: "bytes of known pixels", given: bits.len(), needed });
         }
@@ -104,13 +105,15 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
         &self.picture
     }
 
-    /// The dwell at a pixel.
+    /// The dwell at a pixel; beyond the picture that of the nearest.
     pub fn dwell_at(&self, column: u32, row: u32) -> Dwell {
+        let Size { width, height } = self.picture.size();
+        let (column, row) = (column.min(width.saturating_sub(1)), row.min(height.saturating_sub(1)));
         self.settle(column, row);
         if self.state(column, row) == INSIDE {
             return self.inner.get();
         }
-        match self.picture.row(row, column..column.saturating_add(1)).next() {
+        match self.picture.row(row, column..column + 1).next() {
             Some(dwell) => self.found(column, row, dwell),
             None => self.inner.get(),
         }
@@ -163,10 +166,13 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     fn fill(&self, x: u32, y: u32) {
         // the hand on the wall to the left
         let start = Place { x, y, ahead: 0 };
+        // at most 2^28 pixels, seen from four sides: the walk ends, also where a picture changes its mind
+        let Size { width, height } = self.picture.size();
+        let places = width.saturating_mul(height).saturating_mul(4);
         // once round to see the wall, and once more to fill from it
         for fills in [false, true] {
             let mut place = start;
-            loop {
+            for _ in 0..places {
                 if fills && place.ahead == 0 {
                     self.fill_run(place);
                 }
@@ -223,8 +229,12 @@ impl<P: Field<Value = Dwell>> Field for Filled<'_, P> {
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> FilledRow<'_, P> {
-        let row = self.picture.row(y, x.clone());
-        FilledRow { filled: self, row, behind: 0, y, columns: x, settled: false }
+        // what lies outside the picture has no pixels
+        let Size { width, height } = self.picture.size();
+        let y = y.min(height.saturating_sub(1));
+        let columns = x.start.min(width)..x.end.min(width);
+        let row = self.picture.row(y, columns.clone());
+        FilledRow { filled: self, row, behind: 0, y, columns, settled: false }
     }
 }
 

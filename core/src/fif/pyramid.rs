@@ -213,9 +213,13 @@ impl Span {
 /// Offset and number of the cells of a level, saturated.
 #[inline(never)]
 const fn level_at(maps: usize, level: u32) -> (usize, usize) {
+    if maps == 1 {
+        return (level as usize, 1);
+    }
     let (mut offset, mut count) = (0_usize, 1_usize);
     let mut k = 0;
-    while k < level {
+    // nothing is added to what is saturated, and nothing comes of no maps
+    while k < level && count > 0 && offset < usize::MAX {
         offset = offset.saturating_add(count);
         count = count.saturating_mul(maps);
         k += 1;

@@ -308,8 +308,10 @@ impl<C: Counter> Field for Toned<'_, C> {
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {
-        let start = y.wrapping_mul(self.size.width) as usize;
-        let range = start.wrapping_add(x.start as usize)..start.wrapping_add(x.end as usize);
+        let Size { width, height } = self.size;
+        // what lies outside the picture has no pixels; inside, an index is at most 2^28
+        let (y, end) = if y < height { (y, x.end.min(width)) } else { (0, 0) };
+        let range = (y * width + x.start.min(end)) as usize..(y * width + end) as usize;
         TonedRow {
             counts: self.counts.get(range.clone()).unwrap_or_default().iter(),
             maps: self.maps.get(range).unwrap_or_default().iter(),

@@ -76,15 +76,20 @@ pub(crate) fn square(v: [i32; 3]) -> u64 {
 }
 
 impl Vec3<Unit> {
-    /// The scalar product, for vectors no longer than 1.
+    /// The scalar product.
+    ///
+    /// Domain: vectors no longer than 1; that of others wraps.
     pub fn dot(self, other: Self) -> Unit {
-        let sum = i64::from(self.x.to_bits()) * i64::from(other.x.to_bits())
-            + i64::from(self.y.to_bits()) * i64::from(other.y.to_bits())
-            + i64::from(self.z.to_bits()) * i64::from(other.z.to_bits());
+        let product = |a: Unit, b: Unit| i64::from(a.to_bits()) * i64::from(b.to_bits());
+        let sum = product(self.x, other.x)
+            .wrapping_add(product(self.y, other.y))
+            .wrapping_add(product(self.z, other.z));
         Unit::from_bits((sum >> 30) as i32)
     }
 
-    /// The vector product, for vectors no longer than 1.
+    /// The vector product.
+    ///
+    /// Domain: vectors no longer than 1; that of others wraps.
     pub fn cross(self, other: Self) -> Self {
         let minor = |a: Unit, b: Unit, c: Unit, d: Unit| {
             let sum = i64::from(a.to_bits()) * i64::from(b.to_bits())

@@ -8,7 +8,7 @@ use crate::num::Real;
 
 /// Whether a ray that runs from height `z_in` to `z_out` over a part of the surface meets the part's box: the test of which a walk consists.
 ///
-/// Heights of magnitude below 64, and so the products of the ranges' ends.
+/// Domain: heights of magnitude below 64, and so the products of the ranges' ends; others wrap.
 #[inline]
 pub fn meets(f: &Cell, g: &Cell, z_in: Real, z_out: Real) -> bool {
     meets_bits(f, g, z_in.to_bits(), z_out.to_bits())
@@ -22,7 +22,7 @@ pub(super) fn meets_bits(f: &Cell, g: &Cell, z_in: i32, z_out: i32) -> bool {
         return meets_any(f, g, z_low, z_high);
     }
     // no maximum is negative and at most one minimum: the maximum is that of the maxima
-    let top = product(f.max, g.max) + 1;
+    let top = product(f.max, g.max).wrapping_add(1);
     if z_low > top {
         return false;
     }
@@ -53,7 +53,7 @@ pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
     for end in ends {
         (low, high) = (low.min(end), high.max(end));
     }
-    (low, high + 1)
+    (low, high.wrapping_add(1))
 }
 
 #[cfg(test)]

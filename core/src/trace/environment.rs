@@ -69,12 +69,14 @@ impl Environment {
         Ok(self)
     }
 
-    /// The tone in direction `e`, a unit vector. Result: in `[0, 1]`. Error: below `2^-26`
+    /// The tone in direction `e`, a unit vector.
+    ///
+    /// Domain: any parts; `RayCaster::with_environment` takes only those in their ranges. Result: in `[0, 1]`. Error: below `2^-26`
     /// (row `Environment::tone (gradient)`), and a square's edge is off by less than `2^-15 (scale + d)` of a square at
     /// the distance `d = max(|e_x|, |e_y|) / |e_z|` (`an_edge_is_where_it_should_be`).
     #[inline]
     pub fn tone(&self, e: Vec3<Unit>) -> Unit {
-        self.seen([e.x, e.y, e.z].map(Unit::to_bits), |z| z)
+        self.seen([e.x, e.y, e.z].map(Unit::to_bits), |z| z).clamp(Unit::ZERO, Unit::ONE)
     }
 
     /// The tone in a direction of any length.
@@ -128,8 +130,9 @@ fn part(elevation: u32, fade: Unit) -> i32 {
 /// `from + (to - from) part`.
 #[inline]
 fn mix(from: Unit, to: Unit, part: i32) -> Unit {
-    let difference = to.to_bits() - from.to_bits();
-    from + Unit::from_bits(((i64::from(difference) * i64::from(part)) >> 30) as i32)
+    // tones of a scene are in [0, 1]; others wrap
+    let difference = to.to_bits().wrapping_sub(from.to_bits());
+    from.wrapping_add(Unit::from_bits(((i64::from(difference) * i64::from(part)) >> 30) as i32))
 }
 
 pub(crate) fn between(

@@ -130,7 +130,8 @@ pub(super) enum Answer {
 #[inline]
 fn dot(n: Vec3<Unit>, [x, y, z]: [i32; 3]) -> i32 {
     let product = |n: Unit, d: i32| i64::from(n.to_bits()) * i64::from(d);
-    ((product(n.x, x) + product(n.y, y) + product(n.z, z)) >> 30) as i32
+    // what is longer than 1 wraps
+    (product(n.x, x).wrapping_add(product(n.y, y)).wrapping_add(product(n.z, z)) >> 30) as i32
 }
 
 /// `d - 2 (d . n) n`, as long as `d`.
