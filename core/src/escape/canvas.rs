@@ -242,4 +242,16 @@ mod tests {
         assert_eq!(error, Some(Error::BufferLength { what: "counts", given: 62, needed: 63 }));
         assert!(matches!(Canvas::new(picture, &mut [0; 63]), Err(Error::Capacity { needed: 70_000, .. })));
     }
+
+    #[test]
+    fn there_is_nothing_beyond_the_picture() {
+        let view = View::home(Size::new(9, 7)).unwrap();
+        let mut counts = [0; 63];
+        let canvas = Canvas::new(Mandelbrot::new(view, 50).unwrap(), &mut counts).unwrap();
+        for (y, x, expected) in
+            [(7, 0..9, 0), (u32::MAX, 0..9, 0), (2, 7..u32::MAX, 2), (6, 9..12, 0), (0, 0..9, 9)]
+        {
+            assert_eq!(canvas.row(y, x.clone()).count(), expected, "{y}, {x:?}");
+        }
+    }
 }

@@ -299,6 +299,7 @@ mod tests {
     use super::*;
     use crate::escape::{Complex, Julia, Mandelbrot, View};
     use crate::num::Wide;
+    use crate::picture::from_fn;
     use rand_xoshiro::Xoshiro128PlusPlus;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
     use std::vec;
@@ -532,6 +533,48 @@ mod tests {
             let error = Filled::new(picture, &mut bits).err();
             let (what, given) = ("bytes of known pixels", bits.len());
             assert_eq!(error, Some(Error::BufferLength { what, given, needed: given - 1 }));
+        }
+    }
+
+    #[test]
+    fn beyond_the_picture_is_the_nearest_pixel_at_no_cost() {
+        let view = View::home(Size::new(9, 7)).unwrap();
+        let picture = Mandelbrot::new(view, 50).unwrap();
+        let looked = Cell::new(0);
+        let field = from_fn(view.size(), |x, y| {
+            looked.set(looked.get() + 1);
+            picture.dwell_at(view.point(x, y))
+        });
+        let mut bits = [0; Filled::<Mandelbrot>::bytes(Size::new(9, 7))];
+        let filled = Filled::new(field, &mut bits).unwrap();
+        assert_eq!(filled.dwell_at(u32::MAX, 3), filled.dwell_at(8, 3));
+        assert_eq!(filled.dwell_at(4, u32::MAX), filled.dwell_at(4, 6));
+        assert_eq!(filled.row(2, 5..u32::MAX).count(), 4);
+        assert!(looked.get() < 3 * 63, "{} pixels", looked.get());
+    }
+
+    /// A walk along the edge of what is different each time has no way back, and ends.
+    #[test]
+    fn a_picture_that_changes_its_mind_is_filled_in_a_bounded_time() {
+        for seed in 0..3000_u64 {
+            let rng = core::cell::RefCell::new(Xoshiro128PlusPlus::seed_from_u64(seed));
+            let field = from_fn(Size::new(6, 6), |_, _| Dwell {
+                count: 8 - (rng.borrow_mut().next_u32() & 1),
+                max: 8,
+            });
+            let mut bits = [0; 9];
+            let filled = Filled::new(field, &mut bits).unwrap();
+            for k in 0..100 {
+                filled.dwell_at(k * 5 % 6, k * 7 / 6 % 6);
+            }
+        }
+    }
+
+    #[test]
+    fn sizes_that_no_picture_has_are_refused() {
+        for (width, height) in [(0, 1), (1, 0), (1 << 16, 1 << 16), (u32::MAX, u32::MAX)] {
+            let field = from_fn(Size::new(width, height), |_, _| Dwell { count: 1, max: 1 });
+            assert!(matches!(Filled::new(field, &mut []), Err(Error::OutOfRange { .. })));
         }
     }
 }

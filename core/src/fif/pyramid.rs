@@ -442,4 +442,14 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn cells_are_counted_without_walking_through_the_levels() {
+        assert_eq!(level_at(1, u32::MAX), (u32::MAX as usize, 1));
+        assert_eq!(level_at(0, u32::MAX), (1, 0));
+        assert_eq!(Pyramid::cells(2, u32::MAX), usize::MAX);
+        for (maps, cells) in [(0, 1), (1, 4), (2, 15), (3, 40), (10, 1111)] {
+            assert_eq!(Pyramid::cells(maps, 3), cells);
+        }
+    }
 }

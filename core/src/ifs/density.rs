@@ -504,4 +504,18 @@ mod tests {
         let hit = |hits: &Hits| hits.count > 0;
         assert!((0..64).flat_map(|y| toned.row(y, 0..64)).filter(hit).count() > 800);
     }
+
+    #[test]
+    fn there_is_nothing_beyond_the_picture() {
+        let mut counts = [0_u8; 63];
+        let density = Density::new(window(9, 7), &mut counts).unwrap();
+        let toned = density.linear(1);
+        // a row that is 0 modulo 2^32 / 9, and columns that belong to the next row
+        let far = (u32::MAX / 9) + 1;
+        for (y, x, expected) in
+            [(7, 0..9, 0), (far, 0..9, 0), (2, 7..u32::MAX, 2), (6, 9..12, 0), (0, 0..9, 9)]
+        {
+            assert_eq!(toned.row(y, x.clone()).count(), expected, "{y}, {x:?}");
+        }
+    }
 }

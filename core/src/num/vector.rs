@@ -179,4 +179,17 @@ mod tests {
             }
         }
     }
+
+    /// Modulo 4, as the format is: the exact sum of products, whatever its size.
+    #[test]
+    fn products_of_vectors_of_any_length_are_those_modulo_the_format() {
+        let ends = [Unit::MIN, Unit::MAX, Unit::ONE, Unit::ZERO, -Unit::ONE];
+        let vectors = || (0..125).map(|k| Vec3::new(ends[k % 5], ends[k / 5 % 5], ends[k / 25]));
+        for (a, b) in vectors().flat_map(|a| vectors().map(move |b| (a, b))) {
+            let product = |a: Unit, b: Unit| i128::from(a.to_bits()) * i128::from(b.to_bits());
+            let exact = |sum: i128| Unit::from_bits((sum >> 30) as i32);
+            assert_eq!(a.dot(b), exact(product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z)));
+            assert_eq!(a.cross(b).z, exact(product(a.x, b.y) - product(a.y, b.x)));
+        }
+    }
 }

@@ -121,4 +121,18 @@ mod tests {
         }
         assert!(met > 1000 && missed > 1000);
     }
+
+    /// 128 less a unit is the largest top that there is, and wraps where a unit is added.
+    #[test]
+    fn products_at_the_end_of_the_format_are_compared() {
+        let cell = |min, max| Cell { min, max, ..Cell::ZERO };
+        let one = cell(Real::ZERO, Real::ONE);
+        let low = Real::from_num(3);
+        for (end, other) in [(Real::MAX, Real::MAX), (Real::MIN, -Real::ONE), (Real::MIN, Real::MAX)] {
+            let f = cell(end.min(other), end.max(other));
+            let _ =
+                [meets(&f, &one, low, Real::MAX), meets(&one, &f, Real::MIN, low), meets(&f, &f, low, low)];
+        }
+        assert!(meets(&cell(Real::ZERO, low), &one, Real::MIN, Real::MAX));
+    }
 }

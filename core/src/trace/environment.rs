@@ -240,4 +240,21 @@ mod tests {
         assert!(tried > 300_000 && other > 5 && worst < 1.0, "{worst} of {other} of {tried}");
         assert!(worst > 0.25, "{worst}");
     }
+
+    #[test]
+    fn the_tone_of_parts_outside_their_ranges_is_a_tone() {
+        let down = Vec3::new(Unit::ZERO, Unit::ZERO, -Unit::ONE);
+        assert_eq!(Environment::Plain(Unit::MAX).tone(down), Unit::ONE);
+        assert_eq!(Environment::Plain(Unit::MIN).tone(down), Unit::ZERO);
+        let ends = [Unit::MIN, Unit::MAX, Unit::ZERO, Unit::ONE, Unit::DELTA];
+        for k in 0..625 {
+            let [a, b, c, z] = [k % 5, k / 5 % 5, k / 25 % 5, k / 125].map(|k| ends[k]);
+            let scale = Real::from_bits(c.to_bits());
+            let checkers = Environment::Checkerboard { bright: a, dark: b, horizon: c, scale, fade: z };
+            for sky in [Environment::Gradient { zenith: a, horizon: b, nadir: c }, checkers] {
+                let tone = sky.tone(Vec3::new(a, b, z));
+                assert!((Unit::ZERO..=Unit::ONE).contains(&tone), "{tone} of {sky:?}");
+            }
+        }
+    }
 }

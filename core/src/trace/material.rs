@@ -233,4 +233,20 @@ mod tests {
             assert!((-(1 << 29) + 1..=1 << 29).contains(&off), "{n:?} {d:?}: {off}");
         }
     }
+
+    #[test]
+    fn the_tone_of_anything_is_between_black_and_white() {
+        let ends = [Unit::MIN, Unit::MAX, Unit::ZERO];
+        let vectors = || (0..27).map(|k| Vec3::new(ends[k % 3], ends[k / 3 % 3], ends[k / 9]));
+        for (n, d) in vectors().flat_map(|n| vectors().map(move |d| (n, d))) {
+            for part in ends {
+                let phong = Material::Phong { ambient: part, diffuse: part, specular: part, shininess: 9 };
+                let sky = Environment::Gradient { zenith: part, horizon: Unit::MAX, nadir: Unit::MIN };
+                for material in [Material::Mirror, Material::Diffuse { ambient: part }, phong] {
+                    let tone = material.tone(n, d, &Light::ORDINARY, &sky);
+                    assert!((Unit::ZERO..=Unit::ONE).contains(&tone), "{tone} of {material:?}: {n:?} {d:?}");
+                }
+            }
+        }
+    }
 }
