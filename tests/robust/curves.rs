@@ -1,11 +1,13 @@
-//! Generators, refinements and random curves of any description.
+//! Generators, refinements, L-systems and random curves of any description.
 
+use attractor::Error;
 use attractor::curve::{
-    Displacement, Elbow, Generator, LineToLine, OneVariable, Orientation, Stop, Subdivision, TwoVariable,
-    dimension_of_ratio, dimension_of_spectrum, koch,
+    Displacement, Elbow, Generator, LSystem, LineToLine, MAX_LETTERS, OneVariable, Orientation, Part, Stop,
+    Subdivision, TwoVariable, catalogue, dimension_of_ratio, dimension_of_spectrum, displaced, koch,
+    turn_over,
 };
-use attractor::num::{Parameter, RandomFunction};
-use attractor::num::{Real, Unit, Wide};
+use attractor::num::{Angle, Real, Unit, Wide};
+use attractor::num::{Deviate, Parameter, RandomFunction};
 use attractor::plane::{PathElement, Point2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -81,6 +83,13 @@ fn subdivide(law: &(impl Displacement + Clone), knots: &[Point2], stop: Stop, pi
     let most = (knots.len() - 1) * (1 << 12) + 2;
     let count = walk(curve.clone().take(20_000), most);
     assert!(count >= knots.len(), "{count} points for {} knots", knots.len());
+    let mut last = curve.parameter();
+    let mut halves = curve.clone();
+    while halves.next().is_some() {
+        assert!(last <= halves.parameter(), "{last} after {}", halves.parameter());
+        last = halves.parameter();
+    }
+    assert_eq!(last, Parameter::from_num(knots.len() - 1));
     let part = walk(curve.between(piece[0], piece[1]).take(20_000), most);
     assert!(part <= count + 2, "{part} of {count}");
     true
@@ -156,4 +165,116 @@ fn dimensions_and_exact_lengths_of_anything() {
         let _ = OneVariable::new(offset, order.into());
         dimension.is_ok() || spectral.is_ok()
     });
+}
+
+/// What a law makes of a part that no curve has.
+#[test]
+fn midpoints_of_any_part() {
+    let part = (point(), point(), any::<i64>(), word(), any::<u32>());
+    let laws = (unit(), prop_oneof![(1 << 24..=3 << 24).prop_map(Real::from_bits), real()], any::<u64>());
+    fuzz(
+        (part, laws, word(), word()),
+        40,
+        |((from, to, middle, span, level), (offset, beta, seed), along, across)| {
+            let part = Part {
+                from,
+                to,
+                middle: Parameter::from_bits(middle),
+                level: if seed % 2 == 0 { level } else { level % 32 },
+                span: Real::from_bits(span),
+            };
+            displaced(&part, Deviate::from_bits(along), Deviate::from_bits(across));
+            let elbows = [Elbow::new(offset, beta, seed), Elbow::self_similar(beta, seed)];
+            let lines = [LineToLine::new(offset, seed), LineToLine::with_spectrum(offset, beta, seed)];
+            let made = elbows.iter().flatten().map(|law| law.midpoint(&part)).count()
+                + lines.iter().flatten().map(|law| law.midpoint(&part)).count()
+                + OneVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)).count()
+                + TwoVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)).count();
+            made > 0
+        },
+    );
+}
+
+#[test]
+fn turtles_of_any_word() {
+    let letters = "[FABab+-]{0,9}";
+    let word = prop_oneof![4 => letters, 1 => "[FABab+-]{6,40}", 1 => any::<String>()];
+    fuzz((word, any::<u32>(), any::<u32>()), 40, |(word, angle, parts)| {
+        let parts = turn_over(if parts % 2 == 0 { parts } else { parts % 9 });
+        let mut made = false;
+        for angle in [Angle::from_bits(angle), parts] {
+            if let Ok(generator) = Generator::<12>::turtle(&word, angle) {
+                assert!(generator.len() <= 12 && generator.contraction_factor() < 1);
+                made |= true;
+            }
+            assert!(Generator::<0>::turtle(&word, angle).is_err());
+        }
+        made
+    });
+    for curve in catalogue::ALL {
+        let generator = curve.generator::<32>().expect("the catalogue is right");
+        assert!(curve.generator::<0>().is_err());
+        assert!(generator.refined::<0>(&koch::SEGMENT, 1).is_err());
+        // a segment itself, or the middle of its tile
+        let points = if curve.marker.is_some() { 1 } else { 2 };
+        assert_eq!(walk(generator.refined::<0>(&koch::SEGMENT, 0).expect("a segment"), 2), points);
+        assert_eq!(catalogue::find(curve.name), Some(*curve));
+    }
+}
+
+/// A walk comes by no more letters than the limit, and none of a word that grows beyond it begins.
+#[test]
+fn l_systems_of_any_rules() {
+    let balanced = "[FGfXa]{0,3}(\\[[FX+-]{0,3}(\\[[F|]{0,2}\\])?[f-]?\\])?[FGX+|-]{0,3}";
+    let word = || prop_oneof![9 => balanced.prop_map(String::from), 1 => any::<String>()];
+    let letter = prop_oneof![9 => prop::sample::select(vec!['F', 'G', 'X', 'f', 'a']), 1 => any::<char>()];
+    let rules = vec((letter, word()), 0..4);
+    let turns = (wide(), wide());
+    fuzz(
+        (word(), rules, turns, 0..12_u32, any::<u32>()),
+        40,
+        |(axiom, rules, (angle, heading), order, far)| {
+            let rules: Vec<(char, &str)> =
+                rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();
+            let Ok(system) = LSystem::new(&axiom, &rules, angle) else { return false };
+            let system = system.heading(heading);
+            assert!(far <= 9 || system.path::<9, 64>(far).is_err());
+            let turtle = match system.path::<9, 64>(order) {
+                Ok(turtle) => turtle,
+                Err(Error::Capacity { needed, capacity, .. }) => {
+                    assert!(
+                        needed > capacity
+                            && (order > 9 || capacity == 64 || capacity == MAX_LETTERS as usize)
+                    );
+                    return true;
+                }
+                Err(error) => panic!("{error}"),
+            };
+            let (step, steps) = (turtle.step(), turtle.steps());
+            assert!(
+                step > 0 && step <= 1 && i128::from(step.to_bits()) * i128::from(steps) <= 64 << 48,
+                "{steps} of {step}"
+            );
+            // two steps of a path for each of the turtle, at most
+            let most = 2 * steps as usize;
+            assert!(walk(turtle.clone().take(20_000), most + 1) <= most);
+            let reach = Real::from_num(65);
+            for place in turtle.take(2_000) {
+                let (PathElement::MoveTo(p) | PathElement::LineTo(p)) = place;
+                assert!(p.x.abs() < reach && p.y.abs() < reach, "{p:?}");
+            }
+            true
+        },
+    );
+    let empty = LSystem::new("", &[], Wide::MIN).expect("nothing to draw");
+    assert_eq!(empty.path::<0, 0>(0).expect("no order").count(), 0);
+    assert!(empty.path::<0, 0>(1).is_err());
+    // words of nothing and letters that only rewrite: letters are counted all the same
+    let silent = [('X', "XX"), ('Y', "")];
+    let silent = LSystem::new("XY", &silent, Wide::ZERO).expect("two rules");
+    assert!(
+        silent.path::<64, 0>(26).expect("2^27 letters").steps() == 0 && silent.path::<64, 0>(64).is_err()
+    );
+    let void = LSystem::new("YYYY", &[('Y', "")], Wide::ZERO);
+    assert!(void.is_ok_and(|void| void.path::<1, 0>(1).is_ok_and(|mut turtle| turtle.next().is_none())));
 }

@@ -1,13 +1,11 @@
-//! Deep views, and what colours and buffers make of shallow and deep pictures.
+//! Deep views of any centre and width, in every arithmetic.
 
-use attractor::draw::{Equalised, gradients};
 use attractor::escape::{
-    Arithmetic, Buffered, DeepMandelbrot, DeepView, Distance, Filled, Interior, Mandelbrot, OrbitPoint,
+    Arithmetic, DeepMandelbrot, DeepView, Distance, EscapeTime, Interior, MAX_DWELL, MAX_PERIOD, OrbitPoint,
     Smooth, View,
 };
 use attractor::num::Complex;
 use attractor::num::{Limbs, Wide};
-use attractor::plane::Field;
 use embedded_graphics::geometry::Size;
 use proptest::prelude::*;
 
@@ -49,10 +47,16 @@ fn deep_pictures_of_any_view() {
         (limbs(), limbs(), width(), size, 1..400_u32, any::<[u32; 4]>(), (any::<i32>(), any::<i32>()));
     fuzz(description, 20, |(re, im, width, size, max, at, by)| {
         let Ok(view) = DeepView::<LIMBS>::new(Complex::new(re, im), width, size) else { return false };
+        assert!(view.centre() == &Complex::new(re, im) && view.width() == &width);
         view.point(at[0], at[1]);
+        assert_eq!(view.point(u32::MAX, u32::MAX), view.point(size.width - 1, size.height - 1));
+        let _ = view.pan(i32::MIN, i32::MAX).map(|view| view.point(0, 0));
         let _ = view.pan(by.0, by.1).map(|view| view.point(u32::MAX, u32::MAX));
         let moved = view.pan(by.0 >> 20, by.1 >> 20).unwrap_or(view);
+        assert!(moved.panned() == (by.0 >> 20, by.1 >> 20) || moved == view);
         let needed = DeepMandelbrot::orbit_points(&view, max);
+        assert_eq!(Arithmetic::of(view.pitch_exponent(), max).orbit_points(max), needed);
+        assert!(view.pitch().plus(&view.pitch()).minus(view.width()).is_negative() || size.width < 3);
         let mut orbit = vec![OrbitPoint::default(); needed.max(max as usize + 1) + 64];
         if needed > 0 {
             assert!(DeepMandelbrot::new(view, max, &mut orbit[..needed - 1]).is_err());
@@ -64,7 +68,21 @@ fn deep_pictures_of_any_view() {
                 let Ok(set) = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut orbit) else {
                     continue;
                 };
-                assert!(set.dwell_at(at[0], at[1]).count <= max);
+                assert_eq!((set.view(), set.max_dwell(), set.arithmetic()), (&view, max, arithmetic));
+                assert!(set.reference_len() <= max.max(2) as usize);
+                let dwell = set.dwell_at(at[0], at[1]);
+                assert!(dwell.count <= max);
+                let (x, y) = (at[0].min(size.width - 1), at[1].min(size.height - 1));
+                assert_eq!(set.dwell_at(x, y), dwell);
+                let smooth = Smooth(&set).value_at((at[0], at[1]));
+                assert!(
+                    smooth.is_inside() == dwell.is_inside() && smooth.dwell <= max,
+                    "{smooth:?}: {dwell:?}"
+                );
+                assert_eq!(Distance(&set).value_at((at[0], at[1])).is_none(), dwell.is_inside());
+                let period = Interior(&set).value_at((at[0], at[1]));
+                assert!(period.is_none_or(|period| period.length() <= MAX_PERIOD), "{period:?}");
+                assert_eq!(set.line(at[1], size.width..u32::MAX).len(), 0);
                 let (x, y) = (at[0] % size.width, at[1] % size.height);
                 let skip = (at[2] % 16) as usize;
                 part_of_a_row(&set, y, x, skip);
@@ -77,44 +95,61 @@ fn deep_pictures_of_any_view() {
     });
 }
 
-/// What needs a buffer, over a picture small enough to be computed whole.
+/// Iterations without end: what perturbation and words are asked for at most, and buffers that are too short for it.
 #[test]
-fn buffers_and_colourings_of_any_view() {
-    let size = (1..=20_u32, 1..=20_u32).prop_map(|(w, h)| Size::new(w, h));
-    let width = prop_oneof![wide(), (1_i64 << 22..1 << 50).prop_map(Wide::from_bits)];
-    let description =
-        (complex(), width, size, 1..200_u32, any::<[u32; 2]>(), (-30..30_i32, -30..30_i32), 0..900_usize);
-    fuzz(description, 20, |(centre, width, size, max, at, by, length)| {
-        let Ok(view) = View::new(centre, width, size) else { return false };
-        let set = Mandelbrot::new(view, max).expect("a limit above 0");
-        let pixels = (size.width * size.height) as usize;
-        let plain: Vec<_> = (0..size.height).flat_map(|y| set.row(y, 0..size.width)).collect();
-        for y in 0..size.height {
-            part_of_a_row(&Smooth(&set), y, at[0], 1);
-            part_of_a_row(&Distance(&set), y, at[0], 1);
-            part_of_a_row(&Interior(&set), y, at[0], 1);
-        }
-        let mut counts = vec![0_u16; pixels];
-        let mut canvas = Buffered::new(set, &mut counts).expect("a count a pixel");
-        let shown: Vec<_> = (0..size.height).flat_map(|y| canvas.row(y, 0..size.width)).collect();
-        assert_eq!(shown, plain);
-        let _ = canvas.pan(by.0, by.1);
-        let mut bits = vec![0_u8; length];
-        assert_eq!(Filled::new(set, &mut bits).is_ok(), length >= Filled::<'_, Mandelbrot>::bytes(size));
-        let mut bits = vec![0_u8; Filled::<'_, Mandelbrot>::bytes(size)];
-        let filled = Filled::new(set, &mut bits).expect("two bits a pixel");
-        for i in 0..pixels as u32 {
-            let (x, y) = (i.wrapping_mul(at[1] | 1) % size.width, i % size.height);
-            // filling changes what has no edge of its own, never the outside into something else than the inside
-            let (got, exact) = (filled.at(x, y), plain[(y * size.width + x) as usize]);
-            assert!(got == exact || got.is_inside(), "{got:?} for {exact:?} at {x}, {y}");
-        }
-        let mut histogram = vec![0_u32; max as usize];
-        if let Ok(palette) = Equalised::new(&set, &mut histogram, gradients::FIRE) {
-            for count in [0, 1, max, u32::MAX] {
-                palette.level(count);
+fn iterations_of_any_number() {
+    let size = Size::new(3, 2);
+    let views =
+        ["1", "1e-9", "1e-20", "1e-50"].map(|width| DeepView::<LIMBS>::parse("-0.1", "0", width, size));
+    for (view, max) in views
+        .into_iter()
+        .flat_map(|view| [0, 1, 2, MAX_DWELL, MAX_DWELL + 1, u32::MAX].map(|max| (view, max)))
+    {
+        let view = view.expect("a view within the disc");
+        let needed = DeepMandelbrot::orbit_points(&view, max);
+        let mut short = vec![OrbitPoint::default(); needed.saturating_sub(1).min(1 << 8)];
+        let made = DeepMandelbrot::new(view, max, &mut short).is_ok();
+        assert_eq!(made, needed == 0 && (1..=MAX_DWELL).contains(&max), "{max}");
+    }
+}
+
+/// Texts, and shallow views as deep ones.
+#[test]
+fn deep_views_of_any_text_or_view() {
+    let number = "-?[0-3]?(\\.[0-9]{0,40})?(e-[0-9]{1,2})?";
+    let text = || prop_oneof![8 => number.prop_map(String::from), 1 => any::<String>()];
+    let near = (-5_i64 << 46..5_i64 << 46, -5_i64 << 46..5_i64 << 46);
+    let near = near.prop_map(|(re, im)| Complex::new(Wide::from_bits(re), Wide::from_bits(im)));
+    let width = (any::<u64>(), 16..34_u32).prop_map(|(bits, down)| Wide::from_bits((bits >> down) as i64));
+    let shallow = (prop_oneof![9 => near, 1 => complex()], prop_oneof![9 => width, 1 => wide()], size());
+    fuzz(
+        (text(), text(), text(), shallow, any::<[u32; 2]>()),
+        25,
+        |(re, im, width, (centre, wide, size), at)| {
+            let small = Size::new(size.width.clamp(1, 30), size.height.clamp(1, 30));
+            let parsed = DeepView::<LIMBS>::parse(&re, &im, &width, small);
+            for view in [parsed, DeepView::parse(&re, &im, "1e-12", small)].into_iter().flatten() {
+                view.point(at[0], at[1]);
+                let mut orbit = [OrbitPoint::default(); 50];
+                let set = DeepMandelbrot::new(view, 50, &mut orbit);
+                assert!(set.is_err() || view.pitch_exponent() > -200);
             }
-        }
-        true
-    });
+            let _ = DeepView::<2>::parse(&re, &im, &width, small);
+            let home = (View::home(small), DeepView::<LIMBS>::home(small));
+            assert!(home.0.is_ok_and(|view| home.1.is_ok() || view.width() >= 4 || small.height > small.width));
+            let _ = DeepView::<1>::parse(&re, &im, &width, small);
+            let Ok(view) = View::new(centre, wide, small) else { return false };
+            let view = view.pan(at[0] as i32 >> 20, at[1] as i32 >> 20).unwrap_or(view);
+            let Ok(deep) = DeepView::<LIMBS>::try_from(view) else { return false };
+            assert!(DeepView::<1>::try_from(view).is_err());
+            assert_eq!((deep.panned(), deep.size()), (view.panned(), small));
+            for (column, row) in [(0, 0), (at[0], at[1]), (u32::MAX, u32::MAX)] {
+                let (near, exact) = (view.point(column, row), deep.point(column, row));
+                for (near, exact) in [(near.re, exact.re), (near.im, exact.im)] {
+                    assert!((exact.to_wide() - near).abs() <= Wide::from_bits(2), "{near} for {exact:?}");
+                }
+            }
+            true
+        },
+    );
 }

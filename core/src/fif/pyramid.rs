@@ -213,9 +213,13 @@ impl Span {
 /// Offset and number of the cells of a level, saturated.
 #[inline(never)]
 const fn level_at(maps: usize, level: u32) -> (usize, usize) {
+    if maps == 1 {
+        return (level as usize, 1);
+    }
     let (mut offset, mut count) = (0_usize, 1_usize);
     let mut k = 0;
-    while k < level {
+    // nothing is added to what is saturated, and nothing comes of no maps
+    while k < level && count > 0 && offset < usize::MAX {
         offset = offset.saturating_add(count);
         count = count.saturating_mul(maps);
         k += 1;
@@ -436,6 +440,16 @@ mod tests {
                 let (low, high) = pyramid.bounds(x, x);
                 assert!(low <= cell.min && cell.max <= high, "{index} at {x}");
             }
+        }
+    }
+
+    #[test]
+    fn cells_are_counted_without_walking_through_the_levels() {
+        assert_eq!(level_at(1, u32::MAX), (u32::MAX as usize, 1));
+        assert_eq!(level_at(0, u32::MAX), (1, 0));
+        assert_eq!(Pyramid::cells(2, u32::MAX), usize::MAX);
+        for (maps, cells) in [(0, 1), (1, 4), (2, 15), (3, 40), (10, 1111)] {
+            assert_eq!(Pyramid::cells(maps, 3), cells);
         }
     }
 }

@@ -82,15 +82,20 @@ pub(crate) fn square(v: [i32; 3]) -> u64 {
 }
 
 impl Vec3<Unit> {
-    /// The scalar product, for vectors no longer than 1.
+    /// The scalar product.
+    ///
+    /// Domain: vectors no longer than 1; that of others wraps.
     pub fn dot(self, other: Self) -> Unit {
-        let sum = i64::from(self.x.to_bits()) * i64::from(other.x.to_bits())
-            + i64::from(self.y.to_bits()) * i64::from(other.y.to_bits())
-            + i64::from(self.z.to_bits()) * i64::from(other.z.to_bits());
+        let product = |a: Unit, b: Unit| i64::from(a.to_bits()) * i64::from(b.to_bits());
+        let sum = product(self.x, other.x)
+            .wrapping_add(product(self.y, other.y))
+            .wrapping_add(product(self.z, other.z));
         Unit::from_bits((sum >> 30) as i32)
     }
 
-    /// The vector product, for vectors no longer than 1.
+    /// The vector product.
+    ///
+    /// Domain: vectors no longer than 1; that of others wraps.
     pub fn cross(self, other: Self) -> Self {
         let minor = |a: Unit, b: Unit, c: Unit, d: Unit| {
             let sum = i64::from(a.to_bits()) * i64::from(b.to_bits())
@@ -196,5 +201,18 @@ mod tests {
             up.x == 0 && up.y == 0 && up.z.abs_diff(Unit::ONE) <= 4 * Unit::DELTA.unsigned_abs(),
             "{up:?}"
         );
+    }
+
+    /// Modulo 4, as the format is: the exact sum of products, whatever its size.
+    #[test]
+    fn products_of_vectors_of_any_length_are_those_modulo_the_format() {
+        let ends = [Unit::MIN, Unit::MAX, Unit::ONE, Unit::ZERO, -Unit::ONE];
+        let vectors = || (0..125).map(|k| Vec3::new(ends[k % 5], ends[k / 5 % 5], ends[k / 25]));
+        for (a, b) in vectors().flat_map(|a| vectors().map(move |b| (a, b))) {
+            let product = |a: Unit, b: Unit| i128::from(a.to_bits()) * i128::from(b.to_bits());
+            let exact = |sum: i128| Unit::from_bits((sum >> 30) as i32);
+            assert_eq!(a.dot(b), exact(product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z)));
+            assert_eq!(a.cross(b).z, exact(product(a.x, b.y) - product(a.y, b.x)));
+        }
     }
 }

@@ -5,9 +5,11 @@
 //! for measures that span decades (S. Draves, E. Reckase, "The Fractal Flame Algorithm", 2003, section on log-density display).
 //! A second buffer keeps the last map that hit each pixel. Left out: anti-aliasing, decay of old hits.
 
+use core::ops::Range;
+
 use embedded_graphics_core::geometry::Size;
 
-use super::field::Field;
+use super::field::{Field, along};
 use super::point::{Bounds2, Point2};
 use super::window::{Window, from, part};
 use crate::Error;
@@ -311,10 +313,18 @@ impl<C: Counter> Field for Toned<'_, C> {
     }
 
     fn at(&self, x: u32, y: u32) -> Hits {
+        // inside, an index is at most 2^28
         let index = y.wrapping_mul(self.size.width).wrapping_add(x) as usize;
         let count = self.counts.get(index).map_or(0, |count| count.count());
         let tone = if count == 0 { 0 } else { self.scale.tone(count) };
         Hits { count, tone, map: self.maps.get(index).copied().unwrap_or(0) }
+    }
+
+    fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Hits> {
+        let Size { width, height } = self.size;
+        // what lies outside the picture has no pixels
+        let end = if y < height { x.end.min(width) } else { 0 };
+        along(x.start.min(end)..end, move |x| self.at(x, y))
     }
 }
 
@@ -472,5 +482,19 @@ mod tests {
         assert!(seen.iter().sum::<u32>() > 19_000 && seen.iter().all(|n| *n > 6000), "{seen:?}");
         let hit = |hits: &Hits| hits.count > 0;
         assert!((0..64).flat_map(|y| toned.row(y, 0..64)).filter(hit).count() > 800);
+    }
+
+    #[test]
+    fn there_is_nothing_beyond_the_picture() {
+        let mut counts = [0_u8; 63];
+        let density = Density::new(window(9, 7), &mut counts).unwrap();
+        let toned = density.linear(1);
+        // a row that is 0 modulo 2^32 / 9, and columns that belong to the next row
+        let far = (u32::MAX / 9) + 1;
+        for (y, x, expected) in
+            [(7, 0..9, 0), (far, 0..9, 0), (2, 7..u32::MAX, 2), (6, 9..12, 0), (0, 0..9, 9)]
+        {
+            assert_eq!(toned.row(y, x.clone()).count(), expected, "{y}, {x:?}");
+        }
     }
 }

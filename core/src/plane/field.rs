@@ -46,11 +46,12 @@ pub trait Field {
     /// The value at column `x` and row `y`, `(0, 0)` at the upper left. Both must lie inside [`Field::size`].
     fn at(&self, x: u32, y: u32) -> Self::Value;
 
-    /// The values at row `y` of the columns `x`, from left to right: what [`Field::at`] gives for each. Both must lie inside [`Field::size`];
-    /// the iterator yields exactly `x.len()` values. Its `nth` must not evaluate what it skips: drivers skip what they clip.
+    /// The values at row `y` of the columns `x`, from left to right: what [`Field::at`] gives for each. The row must lie inside
+    /// [`Field::size`]; columns beyond it have no pixels and are left out. The iterator's `nth` must not evaluate what it skips: drivers
+    /// skip what they clip.
     #[inline]
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Self::Value> {
-        along(x, move |x| self.at(x, y))
+        along(inside(x, self.size().width), move |x| self.at(x, y))
     }
 }
 
@@ -70,6 +71,12 @@ impl<F: Field> Field for &F {
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = F::Value> {
         (**self).row(y, x)
     }
+}
+
+/// What of a range of columns lies inside a picture.
+#[inline]
+pub(crate) fn inside(columns: Range<u32>, width: u32) -> Range<u32> {
+    columns.start.min(width)..columns.end.min(width)
 }
 
 /// A row: the value at each of the places, evaluated as it is asked for. Skipped places are not evaluated, as [`Field::row`] promises; the

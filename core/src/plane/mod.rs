@@ -23,6 +23,7 @@ mod tone;
 mod window;
 
 pub use density::{Counter, Density, Hits, Toned};
+pub(crate) use field::inside;
 pub use field::{Field, along};
 pub use from_fn::{FromFn, from_fn};
 pub use path::PathElement;

@@ -8,7 +8,7 @@ use crate::num::Real;
 
 /// Whether a ray that runs from height `z_in` to `z_out` over a part of the surface meets the part's box: the test of which a walk consists.
 ///
-/// Heights of magnitude below 64, and so the products of the ranges' ends.
+/// Domain: heights of magnitude below 64, and so the products of the ranges' ends; others wrap.
 #[inline]
 pub fn meets(f: &Cell, g: &Cell, z_in: Real, z_out: Real) -> bool {
     meets_bits(f, g, z_in.to_bits(), z_out.to_bits())
@@ -22,7 +22,7 @@ pub(super) fn meets_bits(f: &Cell, g: &Cell, z_in: i32, z_out: i32) -> bool {
         return meets_any(f, g, z_low, z_high);
     }
     // no maximum is negative and at most one minimum: the maximum is that of the maxima
-    let top = product(f.max, g.max) + 1;
+    let top = product(f.max, g.max).wrapping_add(1);
     if z_low > top {
         return false;
     }
@@ -53,7 +53,7 @@ pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
     for end in ends {
         (low, high) = (low.min(end), high.max(end));
     }
-    (low, high + 1)
+    (low, high.wrapping_add(1))
 }
 
 #[cfg(test)]
@@ -132,5 +132,19 @@ mod tests {
         };
         // products from 3 to 8
         assert_eq!([at(2, 2), at(3, 3), at(8, 8), at(9, 9), at(9, 2)], [false, true, true, false, true]);
+    }
+
+    /// 128 less a unit is the largest top that there is, and wraps where a unit is added.
+    #[test]
+    fn products_at_the_end_of_the_format_are_compared() {
+        let cell = |min, max| Cell { min, max, ..Cell::ZERO };
+        let one = cell(Real::ZERO, Real::ONE);
+        let low = Real::from_num(3);
+        for (end, other) in [(Real::MAX, Real::MAX), (Real::MIN, -Real::ONE), (Real::MIN, Real::MAX)] {
+            let f = cell(end.min(other), end.max(other));
+            let _ =
+                [meets(&f, &one, low, Real::MAX), meets(&one, &f, Real::MIN, low), meets(&f, &f, low, low)];
+        }
+        assert!(meets(&cell(Real::ZERO, low), &one, Real::MIN, Real::MAX));
     }
 }

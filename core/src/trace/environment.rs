@@ -70,12 +70,14 @@ impl Environment {
         Ok(self)
     }
 
-    /// The tone in direction `e`, a unit vector. Result: in `[0, 1]`. Error: below `2^-26`
+    /// The tone in direction `e`, a unit vector.
+    ///
+    /// Domain: any parts; `RayCaster::with_environment` takes only those in their ranges. Result: in `[0, 1]`. Error: below `2^-26`
     /// (row `Environment::tone (gradient)`), and a square's edge is off by less than `2^-15 (scale + d)` of a square at
     /// the distance `d = max(|e_x|, |e_y|) / |e_z|` (`an_edge_is_where_it_should_be`).
     #[inline]
     pub fn tone(&self, e: Vec3<Unit>) -> Unit {
-        self.seen([e.x, e.y, e.z].map(Unit::to_bits), |z| z)
+        self.seen([e.x, e.y, e.z].map(Unit::to_bits), |z| z).clamp(Unit::ZERO, Unit::ONE)
     }
 
     /// The tone in a direction of any length.
@@ -129,8 +131,9 @@ fn part(elevation: u32, fade: Unit) -> i32 {
 /// `from + (to - from) part`.
 #[inline]
 fn mix(from: Unit, to: Unit, part: i32) -> Unit {
-    let difference = to.to_bits() - from.to_bits();
-    from + Unit::from_bits(((i64::from(difference) * i64::from(part)) >> 30) as i32)
+    // tones of a scene are in [0, 1]; others wrap
+    let difference = to.to_bits().wrapping_sub(from.to_bits());
+    from.wrapping_add(Unit::from_bits(((i64::from(difference) * i64::from(part)) >> 30) as i32))
 }
 
 pub(crate) fn between(
@@ -318,5 +321,22 @@ mod tests {
         let scales = [(1 << 18) - 1, 1 << 18, 64 << 24, (64 << 24) + 1].map(|s| board(zero, s, 1 << 28));
         let fades = [(1 << 24) - 1, 1 << 24, 1 << 30, (1 << 30) + 1].map(|f| board(zero, 1 << 24, f));
         assert_eq!((scales, fades), ([scale, None, None, scale], [fade, None, None, fade]));
+    }
+
+    #[test]
+    fn the_tone_of_parts_outside_their_ranges_is_a_tone() {
+        let down = Vec3::new(Unit::ZERO, Unit::ZERO, -Unit::ONE);
+        assert_eq!(Environment::Plain(Unit::MAX).tone(down), Unit::ONE);
+        assert_eq!(Environment::Plain(Unit::MIN).tone(down), Unit::ZERO);
+        let ends = [Unit::MIN, Unit::MAX, Unit::ZERO, Unit::ONE, Unit::DELTA];
+        for k in 0..625 {
+            let [a, b, c, z] = [k % 5, k / 5 % 5, k / 25 % 5, k / 125].map(|k| ends[k]);
+            let scale = Real::from_bits(c.to_bits());
+            let checkers = Environment::Checkerboard { bright: a, dark: b, horizon: c, scale, fade: z };
+            for sky in [Environment::Gradient { zenith: a, horizon: b, nadir: c }, checkers] {
+                let tone = sky.tone(Vec3::new(a, b, z));
+                assert!((Unit::ZERO..=Unit::ONE).contains(&tone), "{tone} of {sky:?}");
+            }
+        }
     }
 }

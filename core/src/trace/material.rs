@@ -131,7 +131,8 @@ pub(super) enum Shade {
 #[inline]
 fn dot(n: Vec3<Unit>, [x, y, z]: [i32; 3]) -> i32 {
     let product = |n: Unit, d: i32| i64::from(n.to_bits()) * i64::from(d);
-    ((product(n.x, x) + product(n.y, y) + product(n.z, z)) >> 30) as i32
+    // what is longer than 1 wraps
+    (product(n.x, x).wrapping_add(product(n.y, y)).wrapping_add(product(n.z, z)) >> 30) as i32
 }
 
 /// `d - 2 (d . n) n`, as long as `d`.
@@ -317,5 +318,21 @@ mod tests {
         assert_eq!(refused(Material::Mirror), None);
         let nowhere = Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO);
         assert_eq!(Light::new(nowhere), Err(Error::Degenerate { what: "direction of the light" }));
+    }
+
+    #[test]
+    fn the_tone_of_anything_is_between_black_and_white() {
+        let ends = [Unit::MIN, Unit::MAX, Unit::ZERO];
+        let vectors = || (0..27).map(|k| Vec3::new(ends[k % 3], ends[k / 3 % 3], ends[k / 9]));
+        for (n, d) in vectors().flat_map(|n| vectors().map(move |d| (n, d))) {
+            for part in ends {
+                let phong = Material::Phong { ambient: part, diffuse: part, specular: part, shininess: 9 };
+                let sky = Environment::Gradient { zenith: part, horizon: Unit::MAX, nadir: Unit::MIN };
+                for material in [Material::Mirror, Material::Diffuse { ambient: part }, phong] {
+                    let tone = material.tone(n, d, &Light::ORDINARY, &sky);
+                    assert!((Unit::ZERO..=Unit::ONE).contains(&tone), "{tone} of {material:?}: {n:?} {d:?}");
+                }
+            }
+        }
     }
 }

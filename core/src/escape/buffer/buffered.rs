@@ -10,7 +10,7 @@ use embedded_graphics_core::geometry::Size;
 use crate::Error;
 use crate::escape::set::escape_time::{EscapeTime, Pan};
 use crate::escape::value::Dwell;
-use crate::plane::{Field, along};
+use crate::plane::{Field, along, checked_size};
 
 /// An escape-time picture, computed, in a lent buffer of 16 bits a pixel.
 ///
@@ -34,7 +34,7 @@ pub struct Buffered<'a, P> {
 impl<P> Buffered<'_, P> {
     /// How many counts a picture takes: the length of the memory to lend.
     pub const fn counts(size: Size) -> usize {
-        size.width as usize * size.height as usize
+        (size.width as usize).saturating_mul(size.height as usize)
     }
 }
 
@@ -42,9 +42,10 @@ impl<'a, P: EscapeTime> Buffered<'a, P> {
     /// Computes the whole picture.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] if `counts` is shorter than [`Buffered::counts`], [`Error::Capacity`] for more than 65535 iterations.
+    /// [`Error::BufferLength`] if `counts` is shorter than [`Buffered::counts`], [`Error::Capacity`] for more than 65535 iterations,
+    /// [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
     pub fn new(picture: P, counts: &'a mut [u16]) -> Result<Self, Error> {
-        let size = picture.size();
+        let size = checked_size(picture.size())?;
         let (what, given, needed) = ("counts", counts.len(), Self::counts(size));
         let counts = counts.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         let (most, max) = (usize::from(u16::MAX), picture.max_dwell() as usize);
@@ -150,14 +151,16 @@ impl<P: EscapeTime> Field for Buffered<'_, P> {
     }
 
     fn at(&self, x: u32, y: u32) -> Dwell {
-        let index = y as usize * self.picture.size().width as usize + x as usize;
+        let index = y.wrapping_mul(self.picture.size().width).wrapping_add(x) as usize;
         self.dwell(self.counts.get(index).copied().unwrap_or(0))
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Dwell> {
-        let start = y as usize * self.picture.size().width as usize + x.start as usize;
-        let counts = self.counts.get(start..start + x.len()).unwrap_or(&[]);
-        along(counts.iter(), |count| self.dwell(*count))
+        let Size { width, height } = self.picture.size();
+        // what lies outside the picture has no pixels; inside, an index is at most 2^28
+        let (y, end) = if y < height { (y, x.end.min(width)) } else { (0, 0) };
+        let range = (y * width + x.start.min(end)) as usize..(y * width + end) as usize;
+        along(self.counts.get(range).unwrap_or(&[]).iter(), |count| self.dwell(*count))
     }
 }
 
@@ -222,5 +225,17 @@ mod tests {
         let error = Buffered::new(picture, &mut [0; 62]).err();
         assert_eq!(error, Some(Error::BufferLength { what: "counts", given: 62, needed: 63 }));
         assert!(matches!(Buffered::new(picture, &mut [0; 63]), Err(Error::Capacity { needed: 70_000, .. })));
+    }
+
+    #[test]
+    fn there_is_nothing_beyond_the_picture() {
+        let view = View::home(Size::new(9, 7)).unwrap();
+        let mut counts = [0; 63];
+        let canvas = Buffered::new(Mandelbrot::new(view, 50).unwrap(), &mut counts).unwrap();
+        for (y, x, expected) in
+            [(7, 0..9, 0), (u32::MAX, 0..9, 0), (2, 7..u32::MAX, 2), (6, 9..12, 0), (0, 0..9, 9)]
+        {
+            assert_eq!(canvas.row(y, x.clone()).count(), expected, "{y}, {x:?}");
+        }
     }
 }

@@ -17,7 +17,7 @@ use embedded_graphics_core::geometry::Size;
 
 use crate::Error;
 use crate::escape::value::Dwell;
-use crate::plane::Field;
+use crate::plane::{Field, checked_size};
 
 /// Any picture of dwells whose inside is filled in as its rows are drawn, with two lent bits a pixel.
 ///
@@ -61,7 +61,7 @@ const OUTSIDE: u8 = 2;
 impl<P> Filled<'_, P> {
     /// How many bytes a picture takes: the length of the memory to lend.
     pub const fn bytes(size: Size) -> usize {
-        (size.width as usize * size.height as usize).div_ceil(4)
+        (size.width as usize).saturating_mul(size.height as usize).div_ceil(4)
     }
 }
 
@@ -89,9 +89,9 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     /// Nothing is known yet.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] if `bits` is shorter than [`Filled::bytes`].
+    /// [`Error::BufferLength`] if `bits` is shorter than [`Filled::bytes`], [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
     pub fn new(picture: P, bits: &'a mut [u8]) -> Result<Self, Error> {
-        let needed = Self::bytes(picture.size());
+        let needed = Self::bytes(checked_size(picture.size())?);
         let (what, given) = ("bytes of known pixels", bits.len());
         let bits = bits.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         bits.fill(0);
@@ -152,10 +152,13 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     fn fill(&self, x: u32, y: u32) {
         // the hand on the wall to the left
         let start = Walker { x, y, ahead: 0 };
+        // at most 2^28 pixels, seen from four sides: the walk ends, also where a picture changes its mind
+        let Size { width, height } = self.picture.size();
+        let places = width.saturating_mul(height).saturating_mul(4);
         // once round to see the wall, and once more to fill from it
         for fills in [false, true] {
             let mut walker = start;
-            loop {
+            for _ in 0..places {
                 if fills && walker.ahead == 0 {
                     self.fill_run(walker);
                 }
@@ -208,13 +211,20 @@ impl<P: Field<Value = Dwell>> Field for Filled<'_, P> {
     }
 
     fn at(&self, x: u32, y: u32) -> Dwell {
+        // beyond the picture is the nearest pixel
+        let Size { width, height } = self.picture.size();
+        let (x, y) = (x.min(width.saturating_sub(1)), y.min(height.saturating_sub(1)));
         self.settle(x, y);
         if self.state(x, y) == INSIDE { self.inner.get() } else { self.found(x, y, self.picture.at(x, y)) }
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Dwell> {
-        let row = self.picture.row(y, x.clone());
-        FilledRow { filled: self, row, behind: 0, y, columns: x, settled: false }
+        // what lies outside the picture has no pixels
+        let Size { width, height } = self.picture.size();
+        let y = y.min(height.saturating_sub(1));
+        let columns = x.start.min(width)..x.end.min(width);
+        let row = self.picture.row(y, columns.clone());
+        FilledRow { filled: self, row, behind: 0, y, columns, settled: false }
     }
 }
 
@@ -271,6 +281,7 @@ mod tests {
     use crate::escape::{Julia, Mandelbrot, View};
     use crate::num::Complex;
     use crate::num::Wide;
+    use crate::plane::from_fn;
     use rand_xoshiro::Xoshiro128PlusPlus;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
     use std::vec;
@@ -481,6 +492,48 @@ mod tests {
             let error = Filled::new(picture, &mut bits).err();
             let (what, given) = ("bytes of known pixels", bits.len());
             assert_eq!(error, Some(Error::BufferLength { what, given, needed: given + 1 }));
+        }
+    }
+
+    #[test]
+    fn beyond_the_picture_is_the_nearest_pixel_at_no_cost() {
+        let view = View::home(Size::new(9, 7)).unwrap();
+        let picture = Mandelbrot::new(view, 50).unwrap();
+        let looked = Cell::new(0);
+        let field = from_fn(view.size(), |x, y| {
+            looked.set(looked.get() + 1);
+            picture.dwell_at(view.point(x, y))
+        });
+        let mut bits = [0; Filled::<Mandelbrot>::bytes(Size::new(9, 7))];
+        let filled = Filled::new(field, &mut bits).unwrap();
+        assert_eq!(filled.at(u32::MAX, 3), filled.at(8, 3));
+        assert_eq!(filled.at(4, u32::MAX), filled.at(4, 6));
+        assert_eq!(filled.row(2, 5..u32::MAX).count(), 4);
+        assert!(looked.get() < 3 * 63, "{} pixels", looked.get());
+    }
+
+    /// A walk along the edge of what is different each time has no way back, and ends.
+    #[test]
+    fn a_picture_that_changes_its_mind_is_filled_in_a_bounded_time() {
+        for seed in 0..3000_u64 {
+            let rng = core::cell::RefCell::new(Xoshiro128PlusPlus::seed_from_u64(seed));
+            let field = from_fn(Size::new(6, 6), |_, _| Dwell {
+                count: 8 - (rng.borrow_mut().next_u32() & 1),
+                max: 8,
+            });
+            let mut bits = [0; 9];
+            let filled = Filled::new(field, &mut bits).unwrap();
+            for k in 0..100 {
+                filled.at(k * 5 % 6, k * 7 / 6 % 6);
+            }
+        }
+    }
+
+    #[test]
+    fn sizes_that_no_picture_has_are_refused() {
+        for (width, height) in [(0, 1), (1, 0), (1 << 16, 1 << 16), (u32::MAX, u32::MAX)] {
+            let field = from_fn(Size::new(width, height), |_, _| Dwell { count: 1, max: 1 });
+            assert!(matches!(Filled::new(field, &mut []), Err(Error::OutOfRange { .. })));
         }
     }
 }

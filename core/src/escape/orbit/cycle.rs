@@ -21,6 +21,8 @@ const FIRST: u32 = 16;
 const LEAST: u32 = 1 << 12;
 /// Steps before the last look: an orbit that is not drawn in by then is left without a period.
 const LAST: u32 = 1 << 16;
+/// The periods that a look tries add up to no more. Points that come ever nearer are few: each is a best approximation.
+const TRIED: u32 = 1 << 11;
 
 /// An orbit that can be followed twice.
 pub(crate) trait Path: Clone {
@@ -39,7 +41,8 @@ pub(crate) trait Path: Clone {
 
 /// The period of the cycle that an orbit is drawn to; none if it escapes, or none of at most [`MAX_PERIOD`] points shows within about `limit` steps.
 ///
-/// Looks after 16, 32, 64, ... steps. Cost: `limit` steps, at least [`LEAST`] and at most [`LAST`], and what [`look`] takes each time.
+/// Looks after 16, 32, 64, ... steps. Cost: `limit` steps, at least [`LEAST`] and at most [`LAST`], and what [`look`] takes each of
+/// at most 13 times: below 2 [`LAST`], whatever the orbit (`a_period_takes_a_bounded_number_of_steps`).
 pub(crate) fn period<P: Path>(mut path: P, limit: u32) -> Option<u32> {
     let limit = limit.clamp(LEAST, LAST);
     let (mut taken, mut until) = (0, FIRST);
@@ -59,7 +62,7 @@ pub(crate) fn period<P: Path>(mut path: P, limit: u32) -> Option<u32> {
 
 /// The period of the attracting cycle of at most `longest` points that an orbit has come near to.
 ///
-/// Cost: `2 longest` steps, and twice the period for each point that comes nearer than all before it.
+/// Cost: `2 longest` steps, and twice the period for each point that comes nearer than all before it: at most `2 longest + 2 TRIED`.
 pub(crate) fn look<P: Path>(path: &P, longest: u32) -> Option<u32> {
     let (mut nearest, mut on) = (path.clone(), path.clone());
     for _ in 0..longest {
@@ -73,6 +76,7 @@ pub(crate) fn look<P: Path>(path: &P, longest: u32) -> Option<u32> {
     // the points that come nearer than all before them
     let mut on = nearest.clone();
     let mut least: Option<BlockFloat> = None;
+    let mut tried = 0;
     for period in 1..=longest {
         if !on.next() {
             return None;
@@ -80,6 +84,10 @@ pub(crate) fn look<P: Path>(path: &P, longest: u32) -> Option<u32> {
         let off = on.off(&nearest);
         if least.is_none_or(|least| off.is_less(least)) {
             least = Some(off);
+            tried += period;
+            if tried > TRIED {
+                return None;
+            }
             let found = radius(&nearest, period).and_then(|radius| returns(&nearest, period, radius));
             if found.is_some() {
                 return found;
@@ -232,6 +240,40 @@ mod tests {
         assert!(most > LAST && most < 2 * LAST, "{most}");
         // the centre of a component is known at the first look
         assert_eq!(found((-1.0, 0.0), LAST), (Some(2), 16 + 16 + 2 + 2 * (1 + 2)));
+        // one that comes ever nearer to where it was, which no orbit does
+        for limit in [0, LEAST + 1, LAST - 1, u32::MAX] {
+            let steps = Cell::new(0);
+            assert_eq!(period(Counted(Nearing(0), &steps), limit), None);
+            let least = limit.clamp(LEAST, LAST) + 6 * TRIED;
+            assert!(steps.get() > least && steps.get() < 2 * LAST, "{} steps", steps.get());
+        }
+    }
+
+    /// A point whose distance from itself so many steps ago is the smaller the more there were.
+    #[derive(Clone)]
+    struct Nearing(u32);
+
+    impl Path for Nearing {
+        fn run(&mut self, steps: u32) -> bool {
+            self.0 += steps;
+            true
+        }
+        fn next(&mut self) -> bool {
+            self.run(1)
+        }
+        fn z(&self) -> BlockFloat {
+            // too far from 0 to attract
+            BlockFloat::<i32>::new(1, 0, -1)
+        }
+        fn off(&self, other: &Self) -> BlockFloat {
+            BlockFloat::<i32>::new(i64::from(1000 - self.0.abs_diff(other.0)), 0, -20)
+        }
+        fn blur(&self) -> Upper {
+            Upper::power(-60)
+        }
+        fn step_error(&self) -> Upper {
+            Upper::power(-60)
+        }
     }
 
     #[test]

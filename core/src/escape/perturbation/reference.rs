@@ -405,4 +405,119 @@ mod tests {
         std::println!("at most 2^{worst} of the bound");
         assert!(worst > -8.0, "{worst}");
     }
+
+    std::thread_local! {
+        static STEPS: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
+    }
+
+    /// A block that counts how often it is compared with the circle: once a step.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    struct Counted<N>(N);
+
+    impl<N: Number> Number for Counted<N> {
+        const BITS: i32 = N::BITS;
+        const ZERO: Self = Self(N::ZERO);
+        const ONE: Self = Self(N::ONE);
+        fn times(self, other: Self) -> Self {
+            Self(self.0.times(other.0))
+        }
+        fn plus(self, other: Self) -> Self {
+            Self(self.0.plus(other.0))
+        }
+        fn negated(self) -> Self {
+            Self(self.0.negated())
+        }
+        fn doubled(self) -> Self {
+            Self(self.0.doubled())
+        }
+        fn is_beyond_two(self) -> bool {
+            STEPS.set(STEPS.get() + 1);
+            self.0.is_beyond_two()
+        }
+        fn is_less(self, other: Self) -> bool {
+            self.0.is_less(other.0)
+        }
+        fn above(self) -> i32 {
+            self.0.above()
+        }
+        fn reached(self) -> i32 {
+            self.0.reached()
+        }
+        fn short(self) -> BlockFloat {
+            self.0.short()
+        }
+        fn nearest(long: BlockFloat<i64>) -> Self {
+            Self(N::nearest(long))
+        }
+    }
+
+    impl<N: Stored> Stored for Counted<N> {
+        const POINTS: usize = N::POINTS;
+        fn store(self, slots: &mut [OrbitPoint]) {
+            self.0.store(slots);
+        }
+        fn next(points: &mut Iter<'_, OrbitPoint>) -> Option<Self> {
+            N::next(points).map(Self)
+        }
+    }
+
+    /// The most steps beyond `max` that a dwell took, and the most that a period took; how many orbits came to `max` without an end.
+    fn most_steps<N: Stored>(view: &DeepView<8>, max: u32, orbit: &mut [OrbitPoint]) -> (u32, u32, u32) {
+        let reference = Reference::<'_, Counted<N>>::new(view.centre(), max, view.reach(), orbit).unwrap();
+        let (mut beyond, mut period, mut endless) = (0, 0, 0);
+        for (column, row) in [(0, 0), (3, 1), (4, 4), (5, 4), (8, 8)] {
+            let g = Counted::<N>::nearest(view.distance(view.steps(column, row)));
+            STEPS.set(0);
+            let ending = reference.ending::<false>(g, max);
+            beyond = beyond.max(STEPS.take().saturating_sub(max));
+            endless += u32::from(ending.is_none());
+            reference.period(g, max);
+            period = period.max(STEPS.take());
+        }
+        (beyond, period, endless)
+    }
+
+    /// Where orbits neither escape nor come near a cycle, or late: roots and centres of components, preperiodic points; near and deep.
+    #[test]
+    fn perturbation_takes_a_bounded_number_of_steps() {
+        let mut orbit = std::vec![OrbitPoint::default(); 2 << 17];
+        let (mut beyond, mut period, mut endless) = (0, 0, 0);
+        for (re, im) in [
+            ("0.25", "0"),
+            ("-0.75", "0"),
+            ("-1.25", "0"),
+            ("-2", "0"),
+            ("0", "1"),
+            ("-0.1", "0"),
+            ("0.379513588015923744", "0.334932305597498"),
+            (
+                "-0.10109636384562216102578544573874555904580300638820556440768887",
+                "0.956286510809141500771096057730143011",
+            ),
+        ] {
+            for width in ["1e-3", "1e-8", "1e-30", "1e-50"] {
+                let view = DeepView::<8>::parse(re, im, width, Size::new(9, 9)).unwrap();
+                for max in [1, 300, FIRST_LOOK + 1, 1 << 14, 1 << 17] {
+                    // the largest is slow
+                    if max > 1 << 14 && width != "1e-8" {
+                        continue;
+                    }
+                    for found in [
+                        most_steps::<BlockFloat>(&view, max, &mut orbit),
+                        most_steps::<BlockFloat<i64>>(&view, max, &mut orbit),
+                    ] {
+                        (beyond, period) = (beyond.max(found.0), period.max(found.1));
+                        endless += found.2;
+                        assert!(
+                            found.0 < 42_000 && found.1 < 131_072,
+                            "{found:?} of {max} at {re}, {im}, {width}"
+                        );
+                    }
+                }
+            }
+        }
+        std::println!("{beyond} steps beyond the limit, {period} for a period; {endless} endless");
+        // nothing is asserted of orbits that end at once
+        assert!(beyond > 500 && period > 65_536 && endless > 200, "{beyond} {period} {endless}");
+    }
 }

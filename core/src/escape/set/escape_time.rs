@@ -6,7 +6,7 @@ use core::ops::Range;
 use crate::Error;
 use crate::escape::orbit::ending::Ending;
 use crate::escape::value::{Dwell, Period};
-use crate::plane::{Field, along};
+use crate::plane::{Field, along, inside};
 
 /// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`](crate::escape::Mandelbrot), [`Julia`](crate::escape::Julia) and
 /// [`DeepMandelbrot`](crate::escape::DeepMandelbrot).
@@ -22,7 +22,7 @@ pub trait EscapeTime: Field<Value = Dwell> {
         row: u32,
         columns: Range<u32>,
     ) -> impl ExactSizeIterator<Item = Self::Point> + FusedIterator {
-        along(columns, move |column| self.point_at(column, row))
+        along(inside(columns, self.size().width), move |column| self.point_at(column, row))
     }
     /// The dwell of a point that does not escape.
     fn max_dwell(&self) -> u32;
