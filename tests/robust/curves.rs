@@ -40,7 +40,7 @@ fn walk(path: impl Iterator<Item = Step>, most: usize) -> usize {
 fn generators_of_any_polyline() {
     let base = vec(prop_oneof![3 => inside_the_plane(), 1 => point()], 0..5);
     let description = (polyline(), vec(0..4_u8, 0..8), (unit(), unit()), base, 0..300_u32, real());
-    fuzz(description, 20, |(points, turned, marker, base, order, length)| {
+    fuzz(description, 28, |(points, turned, marker, base, order, length)| {
         let Ok(generator) = Generator::<7>::polyline(&points) else { return false };
         let orientations: Vec<_> = (0..generator.len())
             .map(|i| match turned.get(i) {
@@ -101,7 +101,7 @@ fn random_curves_of_any_law() {
     let size = prop_oneof![real(), (1 << 18..=1 << 22).prop_map(Real::from_bits)];
     let parameter = || any::<i64>().prop_map(Parameter::from_bits);
     let description = (knots, beta, unit(), any::<u64>(), size, (0..3_u8, parameter(), parameter()));
-    fuzz(description, 20, |(knots, beta, offset, seed, size, (way, first, last))| {
+    fuzz(description, 25, |(knots, beta, offset, seed, size, (way, first, last))| {
         let stop = match way {
             0 => Stop::Parameter(first),
             1 => Stop::Norm(size),
@@ -145,7 +145,7 @@ fn random_curves_of_any_law() {
 #[test]
 fn dimensions_and_exact_lengths_of_anything() {
     let bits = prop_oneof![word(), (1 << 24..=3_i32 << 24)];
-    fuzz((bits, any::<u32>(), point()), 20, |(bits, order, centre)| {
+    fuzz((bits, any::<u32>(), point()), 40, |(bits, order, centre)| {
         let value = Real::from_bits(bits);
         let dimension = dimension_of_ratio(value);
         if let Ok(d) = dimension {
@@ -173,7 +173,7 @@ fn midpoints_of_any_part() {
     let laws = (unit(), prop_oneof![(1 << 24..=3 << 24).prop_map(Real::from_bits), real()], any::<u64>());
     fuzz(
         (part, laws, word(), word()),
-        40,
+        80,
         |((from, to, middle, span, level), (offset, beta, seed), along, across)| {
             let part = Part {
                 from,
@@ -231,7 +231,7 @@ fn l_systems_of_any_rules() {
     let turns = (wide(), wide());
     fuzz(
         (word(), rules, turns, 0..12_u32, any::<u32>()),
-        40,
+        50,
         |(axiom, rules, (angle, heading), order, far)| {
             let rules: Vec<(char, &str)> =
                 rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();

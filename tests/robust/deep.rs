@@ -44,7 +44,7 @@ fn deep_pictures_of_any_view() {
     let size = prop_oneof![4 => small, 1 => size()];
     let description =
         (limbs(), limbs(), width(), size, 1..400_u32, any::<[u32; 4]>(), (any::<i32>(), any::<i32>()));
-    fuzz(description, 20, |(re, im, width, size, max, at, by)| {
+    fuzz(description, 45, |(re, im, width, size, max, at, by)| {
         let Ok(view) = DeepView::<LIMBS>::new(Complex::new(re, im), width, size) else { return false };
         assert!(view.centre() == &Complex::new(re, im) && view.width() == &width);
         view.point(at[0], at[1]);
@@ -121,7 +121,7 @@ fn deep_views_of_any_text_or_view() {
     let shallow = (prop_oneof![9 => near, 1 => complex()], prop_oneof![9 => width, 1 => wide()], size());
     fuzz(
         (text(), text(), text(), shallow, any::<[u32; 2]>()),
-        25,
+        60,
         |(re, im, width, (centre, wide, size), at)| {
             let small = Size::new(size.width.clamp(1, 30), size.height.clamp(1, 30));
             let parsed = DeepView::<LIMBS>::parse(&re, &im, &width, small);

@@ -41,7 +41,7 @@ fn escape_times_of_any_view() {
     let pan = (any::<i32>(), any::<i32>());
     fuzz(
         (description, any::<[u32; 3]>(), complex(), pan),
-        25,
+        40,
         |((centre, width, size, dwell, c), at, place, by)| {
             assert_eq!(
                 checked_size(size).is_ok(),
@@ -95,7 +95,7 @@ fn buffers_and_colourings_of_any_view() {
     let width = prop_oneof![wide(), (1_i64 << 22..1 << 50).prop_map(Wide::from_bits)];
     let description =
         (complex(), width, size, 1..200_u32, any::<[u32; 2]>(), (-30..30_i32, -30..30_i32), 0..900_usize);
-    fuzz(description, 20, |(centre, width, size, max, at, by, length)| {
+    fuzz(description, 45, |(centre, width, size, max, at, by, length)| {
         let Ok(view) = View::new(centre, width, size) else { return false };
         let set = Mandelbrot::new(view, max).expect("a limit above 0");
         let pixels = (size.width * size.height) as usize;
