@@ -132,7 +132,7 @@ fn densities_of_any_points() {
             part_of_a_row(&in_proportion, at[0] % height, at[1], 3);
             part_of_a_row(&density.logarithmic(full), at[0] % height, at[1], 3);
         }
-        assert!(density.linear(0).row(u32::MAX, 0..9).count() <= 9);
+        assert_eq!(density.linear(0).row(u32::MAX, 0..9).count(), 0);
         true
     });
 }
