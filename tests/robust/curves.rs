@@ -182,16 +182,40 @@ fn midpoints_of_any_part() {
                 level: if seed % 2 == 0 { level } else { level % 32 },
                 span: Real::from_bits(span),
             };
-            displaced(&part, Deviate::from_bits(along), Deviate::from_bits(across));
+            let (g, h) = (Deviate::from_bits(along), Deviate::from_bits(across));
+            assert_eq!(displaced(&part, g, h), exactly_displaced(&part, g, h));
             let elbows = [Elbow::new(offset, beta, seed), Elbow::self_similar(beta, seed)];
             let lines = [LineToLine::new(offset, seed), LineToLine::with_spectrum(offset, beta, seed)];
-            let made = elbows.iter().flatten().map(|law| law.midpoint(&part)).count()
-                + lines.iter().flatten().map(|law| law.midpoint(&part)).count()
-                + OneVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)).count()
-                + TwoVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)).count();
-            made > 0
+            let mut points: Vec<Point2> = elbows.iter().flatten().map(|law| law.midpoint(&part)).collect();
+            points.extend(lines.iter().flatten().map(|law| law.midpoint(&part)));
+            points.extend(OneVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)));
+            points.extend(TwoVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)));
+            !points.is_empty()
         },
     );
+    // every end of the format with every other
+    let ends = |k: u32| if k % 2 == 0 { i32::MIN } else { i32::MAX };
+    for k in 0..64_u32 {
+        let corner = |k: u32| Point2::new(Real::from_bits(ends(k)), Real::from_bits(ends(k >> 1)));
+        let (g, h) = (Deviate::from_bits(ends(k >> 4)), Deviate::from_bits(ends(k >> 5)));
+        let (from, to) = (corner(k), corner(k >> 2));
+        let part = Part { from, to, middle: Parameter::MAX, level: 31, span: Real::MIN };
+        assert_eq!(displaced(&part, g, h), exactly_displaced(&part, g, h));
+    }
+}
+
+/// `(p_1 + p_2) / 2 + (along + across i) (p_2 - p_1)`, differences and result saturated, rounded once.
+fn exactly_displaced(part: &Part, along: Deviate, across: Deviate) -> Point2 {
+    let bits = |v: Real| i128::from(v.to_bits());
+    let (g, h) = (i128::from(along.to_bits()), i128::from(across.to_bits()));
+    let (dx, dy) = (part.to.x.saturating_sub(part.from.x), part.to.y.saturating_sub(part.from.y));
+    let coordinate = |from: Real, to: Real, moved: i128| {
+        let sum = ((bits(from) + bits(to)) << 27) + moved + (1 << 27);
+        Real::from_bits((sum >> 28).clamp(i32::MIN.into(), i32::MAX.into()) as i32)
+    };
+    let across = bits(dx) * h + bits(dy) * g;
+    let along = bits(dx) * g - bits(dy) * h;
+    Point2::new(coordinate(part.from.x, part.to.x, along), coordinate(part.from.y, part.to.y, across))
 }
 
 #[test]

@@ -74,6 +74,15 @@ fn escape_times_of_any_view() {
                 assert!(set.row(at[0], at[1]..at[2]).count() <= 1 << 14);
                 colourings(set, steps, place);
             }
+            // few iterations, beside the circle: what is outside is shown as outside
+            for steps in 1..4 {
+                let set = Mandelbrot::new(view, steps).expect("a limit above 0");
+                for (re, im) in
+                    [(-33, 0), (32, 0), (33, 0), (23, 23), (0, -33), (i16::MIN, i16::MAX), (8, 16)]
+                {
+                    colourings(set, steps, Complex::new(Wide::from_num(re) / 16, Wide::from_num(im) / 16));
+                }
+            }
             if let Ok(set) = Julia::new(view, c, steps) {
                 assert_eq!((set.view(), set.constant(), set.max_dwell()), (&view, c, steps));
                 for precision in [set.precision(), Precision::Fine29, Precision::Coarse26] {
@@ -118,6 +127,7 @@ fn buffers_and_colourings_of_any_view() {
         for (y, x) in [(u32::MAX, 0..u32::MAX), (0, u32::MAX - 1..u32::MAX), (size.height, 0..1)] {
             assert_eq!(canvas.row(y, x).count(), 0);
         }
+        assert_eq!(canvas.row(0, 1..u32::MAX).count(), size.width as usize - 1);
         let mut bits = vec![0_u8; length];
         assert_eq!(Filled::new(set, &mut bits).is_ok(), length == Filled::<Mandelbrot>::bytes(size));
         let mut bits = vec![0_u8; Filled::<Mandelbrot>::bytes(size)];
