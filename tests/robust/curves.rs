@@ -41,7 +41,7 @@ fn walk(path: impl Iterator<Item = PathElement>, most: usize) -> usize {
 fn generators_of_any_polyline() {
     let base = vec(prop_oneof![3 => inside_the_plane(), 1 => point()], 0..5);
     let description = (polyline(), vec(0..4_u8, 0..8), (unit(), unit()), base, 0..300_u32, real());
-    fuzz(description, 20, |(points, turned, marker, base, order, length)| {
+    fuzz(description, 28, |(points, turned, marker, base, order, length)| {
         let Ok(generator) = Generator::<7>::polyline(&points) else { return false };
         let orientations: Vec<_> = (0..generator.len())
             .map(|i| match turned.get(i) {
@@ -102,7 +102,7 @@ fn random_curves_of_any_law() {
     let size = prop_oneof![real(), (1 << 18..=1 << 22).prop_map(Real::from_bits)];
     let parameter = || any::<i64>().prop_map(Parameter::from_bits);
     let description = (knots, beta, unit(), any::<u64>(), size, (0..3_u8, parameter(), parameter()));
-    fuzz(description, 20, |(knots, beta, offset, seed, size, (way, first, last))| {
+    fuzz(description, 25, |(knots, beta, offset, seed, size, (way, first, last))| {
         let stop = match way {
             0 => Stop::Parameter(first),
             1 => Stop::Norm(size),
@@ -146,7 +146,7 @@ fn random_curves_of_any_law() {
 #[test]
 fn dimensions_and_exact_lengths_of_anything() {
     let bits = prop_oneof![word(), (1 << 24..=3_i32 << 24)];
-    fuzz((bits, any::<u32>(), point()), 20, |(bits, order, centre)| {
+    fuzz((bits, any::<u32>(), point()), 40, |(bits, order, centre)| {
         let value = Real::from_bits(bits);
         let dimension = dimension_of_ratio(value);
         if let Ok(d) = dimension {
@@ -174,7 +174,7 @@ fn midpoints_of_any_part() {
     let laws = (unit(), prop_oneof![(1 << 24..=3 << 24).prop_map(Real::from_bits), real()], any::<u64>());
     fuzz(
         (part, laws, word(), word()),
-        40,
+        80,
         |((from, to, middle, span, level), (offset, beta, seed), along, across)| {
             let part = Part {
                 from,
@@ -183,16 +183,40 @@ fn midpoints_of_any_part() {
                 level: if seed % 2 == 0 { level } else { level % 32 },
                 span: Real::from_bits(span),
             };
-            displaced(&part, Deviate::from_bits(along), Deviate::from_bits(across));
+            let (g, h) = (Deviate::from_bits(along), Deviate::from_bits(across));
+            assert_eq!(displaced(&part, g, h), exactly_displaced(&part, g, h));
             let elbows = [Elbow::new(offset, beta, seed), Elbow::self_similar(beta, seed)];
             let lines = [LineToLine::new(offset, seed), LineToLine::with_spectrum(offset, beta, seed)];
-            let made = elbows.iter().flatten().map(|law| law.midpoint(&part)).count()
-                + lines.iter().flatten().map(|law| law.midpoint(&part)).count()
-                + OneVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)).count()
-                + TwoVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)).count();
-            made > 0
+            let mut points: Vec<Point2> = elbows.iter().flatten().map(|law| law.midpoint(&part)).collect();
+            points.extend(lines.iter().flatten().map(|law| law.midpoint(&part)));
+            points.extend(OneVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)));
+            points.extend(TwoVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)));
+            !points.is_empty()
         },
     );
+    // every end of the format with every other
+    let ends = |k: u32| if k % 2 == 0 { i32::MIN } else { i32::MAX };
+    for k in 0..64_u32 {
+        let corner = |k: u32| Point2::new(Real::from_bits(ends(k)), Real::from_bits(ends(k >> 1)));
+        let (g, h) = (Deviate::from_bits(ends(k >> 4)), Deviate::from_bits(ends(k >> 5)));
+        let (from, to) = (corner(k), corner(k >> 2));
+        let part = Part { from, to, middle: Parameter::MAX, level: 31, span: Real::MIN };
+        assert_eq!(displaced(&part, g, h), exactly_displaced(&part, g, h));
+    }
+}
+
+/// `(p_1 + p_2) / 2 + (along + across i) (p_2 - p_1)`, differences and result saturated, rounded once.
+fn exactly_displaced(part: &Part, along: Deviate, across: Deviate) -> Point2 {
+    let bits = |v: Real| i128::from(v.to_bits());
+    let (g, h) = (i128::from(along.to_bits()), i128::from(across.to_bits()));
+    let (dx, dy) = (part.to.x.saturating_sub(part.from.x), part.to.y.saturating_sub(part.from.y));
+    let coordinate = |from: Real, to: Real, moved: i128| {
+        let sum = ((bits(from) + bits(to)) << 27) + moved + (1 << 27);
+        Real::from_bits((sum >> 28).clamp(i32::MIN.into(), i32::MAX.into()) as i32)
+    };
+    let across = bits(dx) * h + bits(dy) * g;
+    let along = bits(dx) * g - bits(dy) * h;
+    Point2::new(coordinate(part.from.x, part.to.x, along), coordinate(part.from.y, part.to.y, across))
 }
 
 #[test]
@@ -232,7 +256,7 @@ fn l_systems_of_any_rules() {
     let turns = (wide(), wide());
     fuzz(
         (word(), rules, turns, 0..12_u32, any::<u32>()),
-        40,
+        50,
         |(axiom, rules, (angle, heading), order, far)| {
             let rules: Vec<(char, &str)> =
                 rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();

@@ -45,7 +45,7 @@ fn deep_pictures_of_any_view() {
     let size = prop_oneof![4 => small, 1 => size()];
     let description =
         (limbs(), limbs(), width(), size, 1..400_u32, any::<[u32; 4]>(), (any::<i32>(), any::<i32>()));
-    fuzz(description, 20, |(re, im, width, size, max, at, by)| {
+    fuzz(description, 45, |(re, im, width, size, max, at, by)| {
         let Ok(view) = DeepView::<LIMBS>::new(Complex::new(re, im), width, size) else { return false };
         assert!(view.centre() == &Complex::new(re, im) && view.width() == &width);
         view.point(at[0], at[1]);
@@ -124,7 +124,7 @@ fn deep_views_of_any_text_or_view() {
     let shallow = (prop_oneof![9 => near, 1 => complex()], prop_oneof![9 => width, 1 => wide()], size());
     fuzz(
         (text(), text(), text(), shallow, any::<[u32; 2]>()),
-        25,
+        60,
         |(re, im, width, (centre, wide, size), at)| {
             let small = Size::new(size.width.clamp(1, 30), size.height.clamp(1, 30));
             let parsed = DeepView::<LIMBS>::parse(&re, &im, &width, small);
@@ -136,7 +136,9 @@ fn deep_views_of_any_text_or_view() {
             }
             let _ = DeepView::<2>::parse(&re, &im, &width, small);
             let home = (View::home(small), DeepView::<LIMBS>::home(small));
-            assert!(home.0.is_ok_and(|view| home.1.is_ok() || view.width() >= 4 || small.height > small.width));
+            assert!(
+                home.0.is_ok_and(|view| home.1.is_ok() || view.width() >= 4 || small.height > small.width)
+            );
             let _ = DeepView::<1>::parse(&re, &im, &width, small);
             let Ok(view) = View::new(centre, wide, small) else { return false };
             let view = view.pan(at[0] as i32 >> 20, at[1] as i32 >> 20).unwrap_or(view);

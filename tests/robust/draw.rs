@@ -302,7 +302,7 @@ fn images_of_any_size_anywhere() {
     let area = (corner(), any_size()).prop_map(|(at, size)| Rectangle::new(at, size));
     fuzz(
         (any_size(), targets, area, corner(), any::<[u32; 3]>()),
-        30,
+        33,
         |(size, (target, room), area, origin, at)| {
             let (evaluated, painted) = (Counter::new(0), Counter::new(0));
             let picture = Picture::<_, _, BinaryColor>::new(counted(size, &evaluated), counting(&painted));
@@ -445,7 +445,7 @@ fn strips_of_any_part() {
     let area = (corner(), any_size()).prop_map(|(at, size)| Rectangle::new(at, size));
     let whole = any_size().prop_map(|size| Rectangle::new(Point::zero(), size));
     let given = prop_oneof![0..200_usize, Just(0), Just(3000)];
-    fuzz((any_size(), prop_oneof![area, whole], given, any::<[u32; 3]>()), 30, |(size, area, given, at)| {
+    fuzz((any_size(), prop_oneof![area, whole], given, any::<[u32; 3]>()), 22, |(size, area, given, at)| {
         let at = if at[0] % 2 == 0 { at } else { at.map(|v| v % 60) };
         let (bytes, words) = (&mut vec![0xa5; given], &mut vec![0xa5a5; given]);
         let mut packed = strips_of::<Rgb565, Lines>(size, &area, &mut vec![Rgb565::BLACK; given], at);
@@ -478,7 +478,7 @@ fn windows_points_and_paths_anywhere() {
     let steps = vec((point(), any::<bool>()), 0..12);
     let description = (point(), point(), size(), any::<bool>());
     let places = (corner(), corner());
-    fuzz((description, steps, places, target), 20, |((a, b, size, tidy), steps, (at, by), target)| {
+    fuzz((description, steps, places, target), 42, |((a, b, size, tidy), steps, (at, by), target)| {
         let mut bounds = Bounds2 { min: a, max: b };
         if tidy {
             bounds.min = Point2::new(a.x.min(b.x), a.y.min(b.y));

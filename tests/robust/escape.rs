@@ -42,7 +42,7 @@ fn escape_times_of_any_view() {
     let pan = (any::<i32>(), any::<i32>());
     fuzz(
         (description, any::<[u32; 3]>(), complex(), pan),
-        25,
+        40,
         |((centre, width, size, dwell, c), at, place, by)| {
             assert_eq!(
                 checked_size(size).is_ok(),
@@ -75,6 +75,15 @@ fn escape_times_of_any_view() {
                 assert!(set.row(at[0], at[1]..at[2]).count() <= 1 << 14);
                 colourings(set, steps, place);
             }
+            // few iterations, beside the circle: what is outside is shown as outside
+            for steps in 1..4 {
+                let set = Mandelbrot::new(view, steps).expect("a limit above 0");
+                for (re, im) in
+                    [(-33, 0), (32, 0), (33, 0), (23, 23), (0, -33), (i16::MIN, i16::MAX), (8, 16)]
+                {
+                    colourings(set, steps, Complex::new(Wide::from_num(re) / 16, Wide::from_num(im) / 16));
+                }
+            }
             if let Ok(set) = Julia::new(view, c, steps) {
                 assert_eq!((set.view(), set.constant(), set.max_dwell()), (&view, c, steps));
                 for arithmetic in [set.arithmetic(), Arithmetic::Word29, Arithmetic::Word26] {
@@ -96,7 +105,7 @@ fn buffers_and_colourings_of_any_view() {
     let width = prop_oneof![wide(), (1_i64 << 22..1 << 50).prop_map(Wide::from_bits)];
     let description =
         (complex(), width, size, 1..200_u32, any::<[u32; 2]>(), (-30..30_i32, -30..30_i32), 0..900_usize);
-    fuzz(description, 20, |(centre, width, size, max, at, by, length)| {
+    fuzz(description, 45, |(centre, width, size, max, at, by, length)| {
         let Ok(view) = View::new(centre, width, size) else { return false };
         let set = Mandelbrot::new(view, max).expect("a limit above 0");
         let pixels = (size.width * size.height) as usize;
@@ -119,6 +128,7 @@ fn buffers_and_colourings_of_any_view() {
         for (y, x) in [(u32::MAX, 0..u32::MAX), (0, u32::MAX - 1..u32::MAX), (size.height, 0..1)] {
             assert_eq!(canvas.row(y, x).count(), 0);
         }
+        assert_eq!(canvas.row(0, 1..u32::MAX).count(), size.width as usize - 1);
         let mut bits = vec![0_u8; length];
         assert_eq!(Filled::new(set, &mut bits).is_ok(), length >= Filled::<Mandelbrot>::bytes(size));
         let mut bits = vec![0_u8; Filled::<Mandelbrot>::bytes(size)];

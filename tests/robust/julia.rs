@@ -28,7 +28,7 @@ fn constant() -> impl Strategy<Value = Complex<Wide>> {
 #[test]
 fn what_is_known_of_any_set() {
     let limit = prop_oneof![0..400_u32, any::<u32>()];
-    fuzz((constant(), limit, any::<u64>()), 30, |(c, limit, seed)| {
+    fuzz((constant(), limit, any::<u64>()), 50, |(c, limit, seed)| {
         let Ok(set) = JuliaSet::new(c) else { return false };
         let stored = set.constant();
         let (a, b): (f64, f64) = (stored.re.to_num(), stored.im.to_num());
@@ -78,7 +78,7 @@ fn what_is_known_of_any_set() {
 fn covers_of_any_view() {
     let width = prop_oneof![2 => (1_i64 << 30..1 << 51).prop_map(Wide::from_bits), 1 => wide()];
     let description = ((constant(), complex(), width, size()), (complex(), wide()), any::<[u32; 3]>());
-    fuzz(description, 15, |((c, centre, width, size), (middle, length), at)| {
+    fuzz(description, 30, |((c, centre, width, size), (middle, length), at)| {
         let (Ok(set), Ok(view)) = (JuliaSet::new(c), View::new(centre, width, size)) else { return false };
         // what holds all of the set meets it; what is far from it does not
         let (x, y) = float(middle);

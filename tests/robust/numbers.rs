@@ -42,7 +42,7 @@ fn decimals_of_any_text() {
     let digits = "[-+]?[0-9]{0,140}(\\.[0-9]{0,140})?([eE][-+]?[0-9]{0,12})?";
     let near = "[-+]?[0-7]?(\\.[0-9]{0,110})?([eE]-[0-9]{1,2})?";
     let text = prop_oneof![2 => digits, 4 => near, 1 => any::<String>()];
-    fuzz((text, wide()), 20, |(text, value)| {
+    fuzz((text, wide()), 28, |(text, value)| {
         let read = text.parse::<Limbs<12>>();
         let _ = (text.parse::<Limbs<1>>(), text.parse::<Limbs<2>>());
         if let Ok(limbs) = read {

@@ -65,7 +65,7 @@ fn system() -> impl Strategy<Value = Option<Ifs<5>>> {
 
 #[test]
 fn copiers_of_any_shape() {
-    fuzz((system(), vec(point(), 0..4), any::<u32>()), 20, |(system, shape, order)| {
+    fuzz((system(), vec(point(), 0..4), any::<u32>()), 40, |(system, shape, order)| {
         let Some(system) = system else { return false };
         let _ = system.copier::<6>(&shape, order).map(|copier| copier.points().take(50).count());
         let Ok(copier) = system.copier::<6>(&shape, order % 7) else { return false };
@@ -78,7 +78,7 @@ fn copiers_of_any_shape() {
 
 #[test]
 fn moments_of_any_system() {
-    fuzz(system(), 20, |system| {
+    fuzz(system(), 55, |system| {
         let Some(system) = system else { return false };
         let Ok(moments) = system.moments() else { return false };
         let bounds = system.bounds();
@@ -99,7 +99,7 @@ fn moments_of_any_system() {
 #[test]
 fn densities_of_any_points() {
     let description = (vec(point(), 0..300), (point(), point()), size(), any::<[u32; 3]>(), 0..70_000_usize);
-    fuzz(description, 5, |(points, (a, b), wanted, at, length)| {
+    fuzz(description, 50, |(points, (a, b), wanted, at, length)| {
         let corner = |f: fn(Real, Real) -> Real| Point2::new(f(a.x, b.x), f(a.y, b.y));
         let bounds = attractor::plane::Bounds2 { min: corner(Real::min), max: corner(Real::max) };
         let Ok(window) = Window::stretch(bounds, wanted) else { return false };
@@ -114,31 +114,34 @@ fn densities_of_any_points() {
         }
         let (mut counts, mut maps) = (vec![0_u8; pixels], vec![0_u8; pixels]);
         let mut density = Density::new(window, &mut counts).expect("one count a pixel");
+        let mut seen = 0;
         for (i, p) in points.iter().enumerate() {
             density.record(*p);
             // points and density agree on what is seen
-            let seen = points[..=i].iter().filter(|q| window.pixel(**q).is_some()).count();
-            let total: usize = density.counts().iter().map(|c| usize::from(*c)).sum();
-            assert!(total == seen || density.peak() == 255, "{total} of {seen}");
+            seen += usize::from(window.pixel(*p).is_some());
+            if pixels <= 1 << 10 || i + 1 == points.len() {
+                let total: usize = density.counts().iter().map(|c| usize::from(*c)).sum();
+                assert!(total == seen || density.peak() == 255, "{total} of {seen}");
+            }
         }
         assert_eq!(density.window(), window);
         let mut density = density.with_maps(&mut maps).expect("one map a pixel");
         density.record_from(Point2::new(b.x, a.y), u8::MAX);
         for one_in in [0, 1, at[0], u32::MAX] {
             let full = density.quantile(one_in);
-            let in_proportion: Toned<'_, _> = density.linear(full);
-            assert!(in_proportion.row(0, 0..width.min(9)).all(|Hits { count, .. }| count <= density.peak()));
+            let (in_proportion, peak): (Toned<'_, _>, u16) = (density.linear(full), density.peak());
+            assert!(in_proportion.row(0, 0..width.min(9)).all(|Hits { count, .. }| count <= peak));
             part_of_a_row(&in_proportion, at[0] % height, at[1], 3);
             part_of_a_row(&density.logarithmic(full), at[0] % height, at[1], 3);
         }
-        assert!(density.linear(0).row(u32::MAX, 0..9).count() <= 9);
+        assert_eq!(density.linear(0).row(u32::MAX, 0..9).count(), 0);
         true
     });
 }
 
 #[test]
 fn tables_of_any_weights() {
-    fuzz((vec(any::<u32>(), 0..300), any::<[u32; 8]>()), 50, |(weights, draws)| {
+    fuzz((vec(any::<u32>(), 0..300), any::<[u32; 8]>()), 75, |(weights, draws)| {
         let Ok(table) = Alias::<256>::new(&weights) else { return false };
         let edges = [0, 1, u32::MAX, u32::MAX - 1, 1 << 31];
         for word in draws.into_iter().chain(edges) {
@@ -156,7 +159,7 @@ fn systems_of_any_maps() {
     let tidy = (vec(tame, 1..=5), Just(true));
     let any = (vec(wild, 0..=5), any::<bool>());
     let description = prop_oneof![1 => any, 2 => tidy];
-    fuzz((description, vec(word(), 5), vec(point(), 4)), 30, |((maps, share), weights, points)| {
+    fuzz((description, vec(word(), 5), vec(point(), 4)), 50, |((maps, share), weights, points)| {
         let maps: Vec<Affine> = maps
             .iter()
             .map(|(l, t)| {
