@@ -421,4 +421,59 @@ mod tests {
         assert_eq!(FROND.f, Real::from_num(1.6));
         assert_eq!(Affine::from_ratios([1, -1, 0, 0, 2, 0], 3).b, Unit::from_num(-1.0 / 3.0));
     }
+
+    #[test]
+    fn a_hypotenuse_is_the_root_rounded_up() {
+        for k in 0..4000_i64 {
+            let (x, y) = (
+                k.wrapping_mul(0x2545_f491_4f6c) % (1 << 31) >> (k % 30),
+                k.wrapping_mul(0x1f12_3bb5_159a) % (1 << 31) >> (k % 7),
+            );
+            for (x, y) in [(x, y), (-x, y), (y, y), (3 * k, 4 * k), (1 << 31, -(1 << 31) + k)] {
+                let square = i128::from(x) * i128::from(x) + i128::from(y) * i128::from(y);
+                let root = i128::from(hypotenuse(x, y));
+                assert!(
+                    root * root >= square && (root == 0 || (root - 1) * (root - 1) < square),
+                    "{x} {y}: {root}"
+                );
+            }
+        }
+    }
+
+    /// Against integers: half a unit, ties upwards.
+    #[test]
+    fn an_image_is_the_nearest_point() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(41);
+        for map in random_maps(40).take(50_000) {
+            let p = Point2::new(
+                Real::from_bits(rng.next_u32() as i32 >> 1),
+                Real::from_bits(rng.next_u32() as i32 >> 1),
+            );
+            let [x, y] = [p.x, p.y].map(|z| i128::from(z.to_bits()));
+            let [a, b, c, d] = map.linear().map(i128::from);
+            let [e, f] = [map.e, map.f].map(|t| i128::from(t.to_bits()) << 30);
+            let nearest = |v: i128| ((v + (1 << 29)) >> 30).clamp(i32::MIN.into(), i32::MAX.into());
+            let image = map.apply(p);
+            let got = [image.x, image.y].map(|z| i128::from(z.to_bits()));
+            assert_eq!(got, [nearest(a * x + b * y + e), nearest(c * x + d * y + f)], "{map:?} {p:?}");
+        }
+    }
+
+    /// Against integers: `|p det - numerator| <= det / 2`, in the place of a floating-point quotient.
+    #[test]
+    fn a_fixed_point_is_the_nearest_number() {
+        let mut most = 0.0_f64;
+        for map in random_maps(42).take(20_000).filter(Affine::is_contraction) {
+            let Some(p) = map.fixed_point() else { continue };
+            let [a, b, c, d] = map.linear().map(i128::from);
+            let [e, f] = [map.e, map.f].map(|t| i128::from(t.to_bits()));
+            let (one, det) = (1_i128 << 30, ((1 << 30) - a) * ((1 << 30) - d) - b * c);
+            for (got, numerator) in [(p.x, (one - d) * e + b * f), (p.y, c * e + (one - a) * f)] {
+                let off = (i128::from(got.to_bits()) * det - (numerator << 30)).abs();
+                assert!(2 * off <= det.abs(), "{map:?}");
+                most = most.max(off as f64 / det as f64);
+            }
+        }
+        assert!(most > 0.49, "{most}");
+    }
 }

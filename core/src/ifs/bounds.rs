@@ -392,4 +392,62 @@ mod tests {
         assert!(left <= x && x <= right && bottom <= y && y <= top);
         assert!(right - left < 1e-6 && top - bottom < 1e-6, "{left} {right} {bottom} {top}");
     }
+
+    /// Appending a map rounds both entries by half a unit at most: what that changes at the corner of a node's reach is below the widening, and reaches it.
+    #[test]
+    fn a_letter_widens_a_node_by_what_its_rounding_may_change() {
+        let ifs = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();
+        let disc = ifs.invariant_disc();
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(9);
+        let mut most = 0;
+        for k in 0..20_000 {
+            // the sum of both reaches odd and even
+            let centre = Point2::new(Real::from_bits(disc.centre.x.to_bits() + k % 2), disc.centre.y);
+            let disc = Disc { centre, ..disc };
+            let search = Search::new(ifs.maps(), disc, ifs.start(), 0);
+            let [x, y] = disc.reach();
+            let mut entry = || if k % 3 == 0 { 1 << 29 } else { (rng.next_u32() as i32) >> 2 };
+            let map = Affine::new([entry(), entry(), entry(), entry()].map(Unit::from_bits), [Real::ZERO; 2]);
+            // (1, 0) at the end: a half in each entry is half a unit
+            let r = if k % 3 == 0 { [1, 0] } else { [entry(), entry()] };
+            let after = Functional { r, t: 0 }.after(&map);
+            let [r, s] = r.map(i128::from);
+            let [a, b, c, d] = [map.a, map.b, map.c, map.d].map(|l| i128::from(l.to_bits()));
+            let exact = [r * a + s * c, r * b + s * d];
+            let off = [0, 1].map(|i: usize| ((i128::from(after.r[i]) << 30) - exact[i]).abs());
+            assert!(off.iter().all(|off| *off <= 1 << 29));
+            let change = off[0] * i128::from(x) + off[1] * i128::from(y);
+            assert!(change <= i128::from(search.widening) << 30, "{map:?} {r} {s}");
+            most = most.max(change - ((i128::from(search.widening) - 1) << 30));
+        }
+        // an odd sum: half a unit of 2^-54 more than is left when it is halved
+        assert_eq!(most, 1 << 29);
+    }
+
+    /// What a functional reaches in disc and box, from above: the nearer of the two, and by less than a unit of the norm.
+    #[test]
+    fn the_highest_value_in_disc_and_box_is_bounded_closely() {
+        let at = |x: i32, y: i32| Point2::new(Real::from_bits(x), Real::from_bits(y));
+        let disc = Disc { centre: at(1 << 20, -(3 << 20)), radius: Real::from_bits(5 << 20) };
+        let mut search = Search::new(&[], disc, disc.centre, 0);
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(10);
+        let mut by_box = 0;
+        for k in 0..20_000 {
+            let r = [(); 2].map(|()| (rng.next_u32() as i32) >> (2 + k % 20));
+            for (side, hull) in search.sides.iter_mut().zip([5 << 20, 4 << 20, 3 << 19, 7 << 20]) {
+                side.hull = if k % 2 == 0 { side.disc } else { hull };
+            }
+            let [r0, r1] = r.map(i128::from);
+            let norm = (r0 * r0 + r1 * r1).isqrt();
+            let centre = r0 * (1 << 20) - r1 * (3 << 20);
+            let root = norm + i128::from(norm * norm < r0 * r0 + r1 * r1);
+            let round = centre + root * (5 << 20);
+            let [right, left, top, bottom] = search.sides.map(|side| i128::from(side.hull));
+            let corner = (r0 * right).max(-r0 * left) + (r1 * top).max(-r1 * bottom);
+            let got = i128::from(search.highest(&Functional { r, t: 7 }));
+            assert_eq!(got, 7 + round.min(corner), "{r:?}");
+            by_box += i32::from(corner < round);
+        }
+        assert!(by_box > 1000, "{by_box}");
+    }
 }

@@ -269,4 +269,31 @@ mod tests {
     fn a_copier_of_depth_12_takes_at_most_600_bytes() {
         assert!(size_of::<CopiedPath<'_, 4, 12>>() <= 600, "{}", size_of::<CopiedPath<'_, 4, 12>>());
     }
+
+    /// In integers: entries of a composed map rounded once to the nearest, the translation exact for them, the image rounded once.
+    #[test]
+    fn an_image_of_order_3_is_rounded_once_an_entry_and_once_at_the_end() {
+        let fern = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();
+        let shape = [Point2::new(Real::from_bits(0x0123_4567), Real::from_bits(-0x0089_abcd))];
+        let nearest = |v: i128| (v + (1 << 29)) >> 30;
+        let bits = |m: &Affine| [m.a, m.b, m.c, m.d].map(|l| i128::from(l.to_bits()));
+        let mut images = fern.copier::<3>(&shape, 3).unwrap().points();
+        for address in 0..64 {
+            let (mut l, mut t) = ([1_i128 << 30, 0, 0, 1 << 30], [0_i128; 2]);
+            let image = |l: [i128; 4], t: [i128; 2], p: Point2| {
+                let [x, y] = [p.x, p.y].map(|z| i128::from(z.to_bits()));
+                [t[0] + l[0] * x + l[1] * y, t[1] + l[2] * x + l[3] * y]
+            };
+            for digit in [address / 16, address / 4 % 4, address % 4] {
+                let map = &fern.maps()[digit];
+                t = image(l, t, Point2::new(map.e, map.f));
+                let ([a, b, c, d], [p, q, r, s]) = (l, bits(map));
+                l = [a * p + b * r, a * q + b * s, c * p + d * r, c * q + d * s].map(nearest);
+            }
+            let got = images.next().unwrap();
+            let want = image(l, t, shape[0]).map(nearest);
+            assert_eq!([got.x, got.y].map(|z| i128::from(z.to_bits())), want, "{address}");
+        }
+        assert!(images.next().is_none() && images.next().is_none());
+    }
 }

@@ -248,4 +248,35 @@ mod tests {
         let error = refused(&[slow, slow_too], slow.contraction_factor());
         assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
     }
+
+    /// Points on the axes through the centre and on the diagonal, to the unit.
+    #[test]
+    fn a_disc_holds_what_is_no_farther_than_its_radius_and_256_units() {
+        let at = |x: i32, y: i32| Point2::new(Real::from_bits(x), Real::from_bits(y));
+        let disc = Disc { centre: at(1000, -77), radius: Real::from_bits(3000 - 256) };
+        for (x, y) in [(3000, 0), (-3000, 0), (0, 3000), (0, -3000), (1800, 2400), (-2400, -1800)] {
+            assert!(disc.holds(at(1000 + x, -77 + y)), "{x} {y}");
+            assert!(!disc.holds(at(1000 + x + x.signum(), -77 + y + y.signum())), "{x} {y}");
+        }
+        assert_eq!(disc.reach(), [3744, 2821]);
+        let far = Disc { centre: at(i32::MIN, i32::MIN), radius: Real::from_bits(5) };
+        assert!(!far.holds(at(i32::MAX, i32::MAX)));
+    }
+
+    /// `|a x + b y + e - x|` rounded up: above the exact one by a unit at most.
+    #[test]
+    fn a_coordinate_is_moved_by_no_more_than_it_says() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(30);
+        for k in 0..20_000 {
+            let mut signed = |bits: u32| rng.next_u32() as i32 >> (32 - bits);
+            let ([l, m], [x, y], t) =
+                ([(); 2].map(|()| signed(31)), [(); 2].map(|()| signed(30)), signed(1 + k % 30));
+            let exact = i128::from(l) * i128::from(x) + i128::from(m) * i128::from(y);
+            let exact = (exact + ((i128::from(t) - i128::from(x)) << 30)).abs();
+            let got =
+                i128::from(moved(Unit::from_bits(l), Unit::from_bits(m), Real::from_bits(t), [x, y], x));
+            let above = (got << 30) - exact;
+            assert!((0..=1 << 30).contains(&above) || got == 1 << 31, "{l} {m} {t} {x} {y}: {above}");
+        }
+    }
 }

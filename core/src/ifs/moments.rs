@@ -248,4 +248,92 @@ mod tests {
         let m = Ifs::<1>::new(&[below], &[Unit::ONE]).unwrap().moments().unwrap();
         assert!((m.mean[0].to_num::<f64>() - 0.2).abs() < 1e-4, "{m:?}");
     }
+
+    /// One map in both coordinates: Cramer's rule in rationals, `x = ((1 - d) e + b f) / det`.
+    #[test]
+    fn a_mean_in_the_plane_is_the_nearest_number() {
+        for k in 1..400_i64 {
+            let word = |n: i64, bits: u32| (k.wrapping_mul(n) >> 7 & ((1 << bits) - 1)) - (1 << (bits - 1));
+            let [a, b, c, d] = [7_919_777, 15_485_863, 32_452_843, 49_979_687].map(|n| word(n, 29));
+            let [e, f] = [67_867_967, 86_028_121].map(|n| word(n, 28));
+            let linear = [a, b, c, d].map(|l| Unit::from_bits(l as i32));
+            let map = Affine::new(linear, [e, f].map(|t| Real::from_bits(t as i32)));
+            let mean = Ifs::<1>::new(&[map], &[Unit::ONE]).unwrap().moments().unwrap().mean;
+            let [a, b, c, d, e, f] = [a, b, c, d, e, f].map(i128::from);
+            let (p, q) = ((1 << 30) - a, (1 << 30) - d);
+            let det = p * q - b * c;
+            for (mean, numerator) in mean.into_iter().zip([q * e + b * f, c * e + p * f]) {
+                let off = i128::from(mean.to_bits()) * det - (numerator << 54);
+                assert!(2 * off.abs() <= det, "{map:?} {mean}");
+            }
+        }
+    }
+
+    /// Two maps `a x + e`, `a x - e` with even chances: `C = e^2 / (1 - a^2)`, in both coordinates; and maps of unequal chances.
+    #[test]
+    fn a_covariance_is_that_of_a_geometric_series() {
+        let mut most = 0.0_f64;
+        for k in 1..600_i64 {
+            let [a, d] = [7_919_777, 15_485_863].map(|n: i64| (k * n % (1 << 31) - (1 << 30)) * 127 / 128);
+            let [e, f] = [1_299_709, 2_750_159].map(|n: i64| (k * n % (1 << 24)) << (k % 3) >> 2);
+            let map = |sign: i64| {
+                let translation = [e, f].map(|t| Real::from_bits((sign * t) as i32));
+                Affine::new(
+                    [Unit::from_bits(a as i32), Unit::ZERO, Unit::ZERO, Unit::from_bits(d as i32)],
+                    translation,
+                )
+            };
+            let Ok(ifs) = Ifs::<2>::new(&[map(1), map(-1)], &[Unit::from_num(0.5); 2]) else { continue };
+            let moments = ifs.moments().unwrap();
+            assert_eq!(moments.mean, [Wide::ZERO; 2]);
+            let pairs = [(a, a, e, e), (a, d, e, f), (d, d, f, f)];
+            for (got, (a, b, e, f)) in moments.covariance.into_iter().zip(pairs) {
+                let gap = (1 << 60) - i128::from(a) * i128::from(b);
+                // 48 fractional bits times 60 over 48 and 60
+                let off = i128::from(got.to_bits()) * gap - (i128::from(e) * i128::from(f) << 60);
+                most = most.max(off.abs() as f64 / gap as f64);
+            }
+        }
+        // half a unit of 2^-48 is the result's rounding
+        assert!(most > 0.45 && most < 0.75, "{most}");
+    }
+
+    /// A mean off zero: chances of a quarter and three quarters, `C = 3/16 (e_1 - e_2)^2 / (1 - a^2)` where both maps have the same linear part.
+    #[test]
+    fn a_covariance_does_not_depend_on_the_mean() {
+        let mut most = 0.0_f64;
+        for k in 1..400_i64 {
+            let a = (k * 7_919_777 % (1 << 31) - (1 << 30)) * 15 / 16;
+            let [e, f] = [1_299_709, 2_750_159].map(|n: i64| (k * n % (1 << 25)) - (1 << 24));
+            let map = |t: i64| Affine {
+                a: Unit::from_bits(a as i32),
+                e: Real::from_bits(t as i32),
+                ..Affine::default()
+            };
+            let ifs = Ifs::<2>::new(&[map(e), map(f)], &[0.25, 0.75].map(Unit::from_num));
+            let got = ifs.unwrap().moments().unwrap().covariance[0];
+            let gap = (1 << 60) - i128::from(a) * i128::from(a);
+            let off = i128::from(got.to_bits()) * gap - 3 * (i128::from(e - f).pow(2) << 56);
+            most = most.max(off.abs() as f64 / gap as f64);
+        }
+        assert!(most > 0.4 && most < 1.0, "{most}");
+    }
+
+    #[test]
+    fn a_quotient_is_rounded_to_nearest_and_ends_at_64() {
+        for (n, d, got) in [
+            (1, 2, Some(1 << 53)),
+            (1, 3, Some(((1_i64 << 55) / 3 + 1) >> 1)),
+            (-2, 3, Some(-(((1_i64 << 56) / 3 + 1) >> 1))),
+            (2, -3, Some(-(((1_i64 << 56) / 3 + 1) >> 1))),
+            (-1, -4, Some(1 << 52)),
+            (3, 3, None),
+            (-4, 3, None),
+            (0, 5, Some(0)),
+            // 2^54 - 2^-8: rounds up
+            ((1 << 62) - 1, 1 << 62, Some(1 << 54)),
+        ] {
+            assert_eq!(quotient(n, d), got, "{n} / {d}");
+        }
+    }
 }

@@ -193,7 +193,8 @@ impl<const N: usize> Ifs<N> {
     }
 }
 
-/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, at most 1024. The start lies on the attractor, so that
+/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, powers rounded down to 30 bits (for slow contractions a
+/// fiftieth fewer), at most 1024. The start lies on the attractor, so that
 /// every point does; but its first successors crowd around it. The distribution of the `k`-th differs from the invariant one by no more than `s^k` times
 /// the diameter (Hutchinson's metric). 1024 steps are enough for `s <= 0.9838`.
 fn warm_up(contraction_factor: Unit) -> u32 {
@@ -290,5 +291,41 @@ mod tests {
         }
         let units = p.x.to_bits().unsigned_abs();
         assert!(units > 16 && units <= ifs.deviation(), "{units} of {}", ifs.deviation());
+    }
+
+    /// 1074 units of `2^-30` for each map, not one more: a millionth is 1073.7.
+    #[test]
+    fn the_tolerance_of_probabilities_ends_with_a_unit() {
+        let one = |units: i32| Ifs::<1>::new(&[HALF], &[Unit::from_bits((1 << 30) + units)]);
+        let two = |a: i32, b: i32| {
+            let half = |units| Unit::from_bits((1 << 29) + units);
+            Ifs::<2>::new(&[HALF; 2], &[half(a), half(b)])
+        };
+        for sign in [1, -1] {
+            assert!(one(sign * 1074).is_ok() && two(sign * 1074, sign * 1074).is_ok());
+            for refused in [one(sign * 1075).err(), two(sign * 1074, sign * 1075).err()] {
+                let Some(Error::Probabilities { sum }) = refused else { panic!("{refused:?}") };
+                assert!((sum.to_bits() - (1 << 48)).abs() >> 18 >= 1075, "{sum}");
+            }
+        }
+        let zero = Ifs::<2>::new(&[HALF; 2], &[Unit::ONE, Unit::ZERO]).unwrap_err();
+        assert!(matches!(zero, Error::OutOfRange { what: "probability", index: Some(1), .. }));
+        assert!(Ifs::<2>::new(&[HALF; 2], &[Unit::ONE - Unit::DELTA, Unit::DELTA]).is_ok());
+    }
+
+    /// `1 / (1 - s)` and a unit; the least `k` with `s^k <= 2^-24`, in integers.
+    #[test]
+    fn deviation_and_warm_up_follow_from_the_contraction_factor() {
+        for (numerator, denominator) in [(1, 3), (1, 2), (9, 10), (97, 100), (999, 1000)] {
+            let map = Affine::from_ratios([numerator, 0, 0, numerator, 0, 0], denominator);
+            let ifs = Ifs::<1>::new(&[map], &[Unit::ONE]).unwrap();
+            let s = ifs.contraction_factor().to_bits() as u64;
+            assert!(s >= map.a.to_bits() as u64 && s <= map.a.to_bits() as u64 + 4);
+            assert_eq!(u64::from(ifs.deviation()), (1 << 30) / ((1 << 30) - s) + 1);
+            let exact = (24.0 / -(s as f64 / 2_f64.powi(30)).log2()).ceil().min(1024.0);
+            // powers are rounded down
+            let got = f64::from(ifs.warm_up());
+            assert!(got <= exact && got >= 0.98 * exact - 1.0, "{numerator}: {got} against {exact}");
+        }
     }
 }
