@@ -185,7 +185,7 @@ mod tests {
                 let middle = (low + high) / 2.0;
                 if sum(middle) > 1.0 { low = middle } else { high = middle }
             }
-            // in units of 2^-24: of 16 that the roundings of logarithm, exponent and exponential allow
+            // in units of 2^-24, of which logarithm, exponent and exponential may take 16
             worst = worst.max((generator.dimension().to_num::<f64>() - low).abs() * 16_777_216.0);
             tried += 1;
         }

@@ -569,5 +569,12 @@ mod tests {
             let leaf = hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).unwrap();
             assert!((begin - 1..=begin).contains(&leaf.span.0), "{z} {slope}: {:?}", leaf.span);
         }
+        // over 3/4 it falls by 49152 units and rises by one less: to the first height that counts, and to the one beside it
+        let walk = |z: i32, slope: i32| {
+            let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 28, 1 << 27, slope]);
+            hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).is_some()
+        };
+        assert_eq!([49_152, 49_153].map(|fall| walk(high + fall, -(1 << 20))), [true, false]);
+        assert_eq!([49_151, 49_152].map(|rise| walk(low - rise, 1 << 20)), [true, false]);
     }
 }

@@ -282,6 +282,10 @@ mod tests {
         let long = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE + Unit::DELTA * 2);
         let down = Vec3::new(Unit::ZERO, Unit::ZERO, -Unit::ONE);
         assert_eq!(Material::Mirror.tone(long, down, &light, &Environment::SKY), Unit::ONE);
+        // nor does a light that is too long shine more than it can
+        let (light, [quarter, half]) = (Light { towards: long }, [Unit::ONE / 4, Unit::ONE / 2]);
+        let bright = Material::Phong { ambient: Unit::ZERO, diffuse: quarter, specular: half, shininess: 1 };
+        assert_eq!(bright.tone(up, down, &light, &Environment::SKY), quarter + half);
     }
 
     /// A power is off by less than half a unit a product, each counted as often as it is multiplied on: its exponent.

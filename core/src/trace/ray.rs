@@ -234,4 +234,30 @@ mod tests {
             assert_eq!(part.per_t().to_bits(), (per_t / n as i32).max(1));
         }
     }
+
+    /// The same for directions at random, where the 29 bits that are left of a reciprocal are wrong by most.
+    #[test]
+    fn a_crossing_is_off_by_what_the_reciprocals_last_bits_do_not_tell() {
+        let mut word = super::super::exact::words(3);
+        let (mut worst, mut tried) = (0, 0);
+        for k in 0..4000 {
+            // directions from 15/16 of a power of 2 to that power, planes where the parameter is near 128
+            let direction = (1 << 28) - (word() >> 40) as i32;
+            let direction = if k % 2 == 0 { direction >> 1 } else { -direction };
+            let plane = (i64::from(direction) * 127 >> 4) as i32;
+            let over = i128::from(plane) << 28;
+            let got = i128::from(Axis::new(0, direction).crossing(plane));
+            if !(1..=64 << 24).contains(&plane.abs()) {
+                continue;
+            }
+            // a parameter above 0: late by the reciprocal's 2^-29, early by a unit and three times that
+            let (over, under) = (over * i128::from(direction.signum()), i128::from(direction).abs());
+            let off = over - got * under;
+            let most = under + 3 * over / (1 << 29);
+            assert!((-over / (1 << 29)..=most).contains(&off), "{plane} {direction}: {got}");
+            worst = worst.max(off * 100 / most);
+            tried += 1;
+        }
+        assert!(tried > 3000 && worst > 50, "{worst} of {tried}");
+    }
 }
