@@ -177,21 +177,36 @@ mod tests {
             let exact = (i64::from(a) * i64::from(b) + (1 << 27)) >> 28;
             assert_eq!(i64::from(product(a, b)), exact, "{a} {b}");
         }
+        // a half is rounded upwards
+        let unit = Real::DELTA;
+        assert_eq!(
+            [raised(unit, Real::ZERO, unit, 0), raised(-unit, Real::ZERO, unit, 0)],
+            [unit, Real::ZERO]
+        );
     }
 
     /// Both parts of a displaced midpoint against integers, where nothing saturates and where it does.
     #[test]
     fn a_displaced_midpoint_is_the_nearest() {
         let (mut inside, mut saturated) = (0, 0);
-        for i in 1..5000_i32 {
-            let [a, b, c, d, g, h] =
-                [0x2545_f491, 0x6c07_8965, 0x1f12_3bb5, 0x4f6c_dd1d, 0x3141_5927, 0x2718_2819_i32]
-                    .map(|n| i.wrapping_mul(n) >> (i % 5));
+        let ends = [i32::MIN, 0, i32::MAX];
+        let extremes = (0..729).map(|k| [1, 3, 9, 27, 81, 243].map(|place| ends[k / place % 3]));
+        let spread = (1..5000_i32).map(|i| {
+            [0x2545_f491, 0x6c07_8965, 0x1f12_3bb5, 0x4f6c_dd1d, 0x3141_5927, 0x2718_2819_i32]
+                .map(|n| i.wrapping_mul(n) >> (i % 5))
+        });
+        for [a, b, c, d, g, h] in extremes.chain(spread) {
             let point = |x, y| Point2::new(Real::from_bits(x), Real::from_bits(y));
             let (from, to) = (point(a, b), point(c, d));
             let parameter = Parameter::default();
             let part = Part { from, to, middle: parameter, level: 0, span: Real::ONE };
             let got = displaced(&part, Deviate::from_bits(g), Deviate::from_bits(h));
+            if g == 0 || i64::from(g).abs() > 1 << 28 {
+                let alone = displaced(&part, Deviate::ZERO, Deviate::from_bits(h));
+                if h != i32::MIN {
+                    assert_eq!(raised_across(&part, h), alone, "{a} {b} {c} {d} {h}");
+                }
+            }
             let limits = (i128::from(i32::MIN), i128::from(i32::MAX));
             let length = |from: i32, to: i32| (i128::from(to) - i128::from(from)).clamp(limits.0, limits.1);
             let (dx, dy, g, h) = (length(a, c), length(b, d), i128::from(g), i128::from(h));
@@ -202,7 +217,7 @@ mod tests {
             };
             let exact = [nearest(a, c, dx * g - dy * h), nearest(b, d, dy * g + dx * h)];
             for (got, exact) in [got.x, got.y].into_iter().zip(exact) {
-                assert_eq!(i128::from(got.to_bits()), exact.clamp(limits.0, limits.1), "{i}");
+                assert_eq!(i128::from(got.to_bits()), exact.clamp(limits.0, limits.1), "{a} {b} {c} {d}");
                 if (limits.0..=limits.1).contains(&exact) { inside += 1 } else { saturated += 1 }
             }
         }
@@ -249,5 +264,25 @@ mod tests {
             }
         }
         assert!(tried > 2000, "{tried}");
+    }
+
+    /// Every knot has the midpoint of a part that ends where it begins twice as far on; and knots end with the format.
+    #[test]
+    fn the_end_of_a_part_is_refused_where_there_is_none() {
+        let point = |x: i32, y: i32| Point2::new(Real::from_num(x), Real::from_num(y));
+        let refused = perpendicular(point(0, 0), point(1, 2), -(1 << 27), 0);
+        let what = "the distance between the midpoint's parts";
+        assert_eq!(refused, Err(Error::Degenerate { what }));
+        assert_eq!(perpendicular(point(1, 2), point(3, 7), 0, 0), Ok(point(5, 12)));
+        for (middle, index, value) in [(point(100, 0), 0, 200), (point(0, -100), 1, -200)] {
+            match perpendicular(point(0, 0), middle, 0, 0) {
+                Err(Error::OutOfRange {
+                    what: "coordinate of the new knot", index: at, value: got, ..
+                }) => {
+                    assert_eq!((at, got), (Some(index), Wide::from_num(value)));
+                }
+                other => panic!("{other:?}"),
+            }
+        }
     }
 }

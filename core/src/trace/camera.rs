@@ -198,4 +198,30 @@ mod tests {
         let there = Camera::new(at(1, 2, 3), at(1, 2, 3), at(0, 0, 1), Real::from_num(40)).map(|_| ());
         assert_eq!(there, Err(Error::Degenerate { what: "distance from eye to look_at" }));
     }
+
+    /// Against sines and cosines in double precision.
+    #[cfg(feature = "micromath")]
+    #[test]
+    fn an_orbit_is_where_its_angles_say() {
+        let mut worst: f64 = 0.0;
+        for i in 0..200_u8 {
+            let (turn, lift) = (f32::from(i) * 0.3 - 30.0, (f32::from(i % 29) - 14.0) / 10.0);
+            let camera = Camera::orbit([1.0, -2.0, 3.0], 10.0, turn, lift, 40.0).unwrap();
+            let (turn, lift) = (f64::from(turn), f64::from(lift));
+            let exact = [
+                1.0 + 10.0 * lift.cos() * turn.cos(),
+                -2.0 + 10.0 * lift.cos() * turn.sin(),
+                3.0 + 10.0 * lift.sin(),
+            ];
+            for (got, exact) in [camera.eye.x, camera.eye.y, camera.eye.z].into_iter().zip(exact) {
+                worst = worst.max((got.to_num::<f64>() - exact).abs() / 10.0);
+            }
+        }
+        assert!((5e-4..2e-3).contains(&worst), "{worst}");
+        let lost = |x: f32, turn: f32| Camera::orbit([x, 0.0, 0.0], 10.0, turn, 0.5, 40.0).is_err();
+        assert_eq!(
+            [lost(0.0, 0.0), lost(f32::NAN, 0.0), lost(1e9, 0.0), lost(60.0, 0.0)],
+            [false, true, true, true]
+        );
+    }
 }

@@ -264,6 +264,9 @@ mod tests {
                 assert!((0..=3).contains(&off), "{elevation} / {fade}: {off}");
                 worst = worst.max(off);
             }
+            // the whole from the fade on, but for the reciprocal's last bits
+            let whole = [fade + (fade >> 20) + 4, i32::MAX].map(|e| part(e as u32, Unit::from_bits(fade)));
+            assert_eq!(whole, [1 << 30; 2], "{fade}");
             assert_eq!([part(0, Unit::from_bits(fade)), part((1 << 12) - 1, Unit::from_bits(fade))], [0, 0]);
         }
         assert!(worst > 0);

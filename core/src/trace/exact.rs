@@ -81,7 +81,8 @@ impl Surface {
         Hierarchy { x, y, depth: self.depth, leaves, heights: range(&x.cells[0], &y.cells[0]) }
     }
 
-    /// Rays from around, above, below and inside, most of them towards the surface.
+    /// Rays from around, above, below and inside, most of them towards the surface; every eighth so steep that it may be 64
+    /// away where it leaves the surface.
     pub(super) fn rays(&self, seed: u64, count: usize) -> impl Iterator<Item = Ray> + '_ {
         let mut word = words(seed);
         let (low, high) = self.hierarchy().heights;
@@ -89,8 +90,18 @@ impl Surface {
         let mut place = move |spread: u32| middles.map(|m| m + ((word() >> 32) as i32 >> spread));
         (0..count).map(move |k| {
             // eyes within 1 to 2 of the middle, targets within 1/2, parameters of a target 1 to 8
-            let (eye, target) = (place([7, 6, 6, 8][k % 4]), place(8));
-            let direction = [0, 1, 2].map(|i| (target[i] - eye[i]) << 4 >> (k % 3));
+            let (mut eye, target) = (place([7, 6, 6, 8][k % 4]), place(8));
+            let mut direction = [0, 1, 2].map(|i| (target[i] - eye[i]) << 4 >> (k % 3));
+            if k % 8 == 7 {
+                // 1/64 to 1/16 along the surface, 4 up or down, 6 to 14 before the target
+                let sign = |i: usize| if direction[i] < 0 { -1 } else { 1 };
+                let t = (6 << 24) + (eye[2] & (1 << 27) - 1);
+                direction = [0, 1, 2].map(|i| {
+                    let along = (1 << 22) + (eye[i] & (1 << 24) - (1 << 22));
+                    sign(i) * if i == 2 { (1 << 30) - along } else { along }
+                });
+                eye = [0, 1, 2].map(|i| target[i] - ((i64::from(direction[i]) * i64::from(t)) >> 28) as i32);
+            }
             Ray::from_bits(eye, direction)
         })
     }

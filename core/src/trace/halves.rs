@@ -333,6 +333,11 @@ mod tests {
                 let part = if direction > 0 { 1 } else { 2 };
                 let nodes = walk(&ray).unwrap().nodes;
                 assert_eq!(nodes, if axis == 0 { (part, 1) } else { (1, part) });
+                // two units before the plane it is not over yet
+                (ray.origin[axis], ray.direction[axis]) = (-2 * direction.signum(), direction);
+                let leaf = walk(&ray).unwrap();
+                assert_eq!(leaf.nodes, nodes, "{axis} {direction}");
+                assert!((1..=2).contains(&leaf.span.1), "{:?}", leaf.span);
             }
         }
     }
@@ -370,7 +375,8 @@ mod tests {
                         }
                         crossed += 1;
                         assert_eq!(planes.near(), planes.at(-HALF));
-                        assert_eq!(Slab::root(&planes).next, planes.at(HALF));
+                        let root = Slab::root(&planes);
+                        assert_eq!((root.node, root.end, root.next), (0, HALF, planes.at(HALF)));
                         assert_eq!(planes.step(), forward as u32);
                     }
                 }
@@ -410,11 +416,165 @@ mod tests {
                     }
                     tried += 1;
                     let unit = under << kept;
-                    assert!(-2 * under <= early, "{width} {per_t} {level}: {low}");
+                    assert!(early >= 0, "{width} {per_t} {level}: {low}");
                     worst = worst.max((early - (exact >> 28)) as f64 / unit as f64);
                 }
             }
         }
         assert!(tried > 300 && (0.5..1.0).contains(&worst), "{worst} of {tried}");
+    }
+
+    /// A ray that starts within a unit of an outer plane and goes out touches the last part; planes come up to a unit early.
+    #[test]
+    fn a_ray_may_touch_the_outer_planes() {
+        let cells = [Cell { min: Real::ONE, max: Real::ONE, ..Cell::ZERO }; 3];
+        let profile = Profile { cells: &cells, starts: &HALVES, origin: -(1 << 23), width: 1 << 24 };
+        for (depth, leaves) in [(0, 0), (1, 1)] {
+            let hierarchy =
+                Hierarchy { x: profile, y: profile, depth, leaves, heights: (1 << 24, (1 << 24) + 1) };
+            for axis in 0..2 {
+                for up in [true, false] {
+                    let [low, high] = [[-(1 << 23), 1 << 23], [1 << 24, (1 << 24) + 1]][axis / 2];
+                    let walk = |beyond: i32| {
+                        let mut ray = Ray::from_bits([1 << 21, 1 << 21, 1 << 24], [1 << 27, 1 << 27, 0]);
+                        ray.origin[axis] = if up { high + beyond } else { low - beyond };
+                        ray.direction[axis] = if up { 1 << 28 } else { -(1 << 28) };
+                        hierarchy.walk_halves(
+                            &ray,
+                            &hierarchy.level_of_detail(Footprint::new(Unit::DELTA)),
+                            &mut Statistics::default(),
+                        )
+                    };
+                    let mut nodes = if depth == 0 { [0, 0] } else { [2, 2] };
+                    if axis < 2 && !up && depth == 1 {
+                        nodes[axis] = 1;
+                    }
+                    let leaf = walk(-1).unwrap();
+                    assert_eq!(
+                        (leaf.nodes, leaf.span),
+                        ((nodes[0], nodes[1]), (0, 0)),
+                        "{axis} {up} {depth}"
+                    );
+                    assert_eq!([walk(0), walk(1)], [None, None], "{axis} {up} {depth}");
+                }
+            }
+        }
+    }
+
+    /// Level rays on the lowest and the highest place of a box, and a unit outside.
+    #[test]
+    fn a_level_ray_meets_what_is_at_its_height() {
+        let cell =
+            |min: i32, max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
+        let (a, b, c, d) = (5 << 20, 7 << 20, 9 << 20, 12 << 20);
+        let one = cell(1 << 24, 1 << 24);
+        let (cells, ones) = ([cell(a, d), cell(a, b), cell(c, d)], [one; 3]);
+        let profile = |cells, starts| Profile { cells, starts, origin: 0, width: 1 << 24 };
+        // a box's highest place is a unit above the product
+        let (x, y) = (profile(&cells, &HALVES), profile(&ones, &HALVES));
+        let hierarchy = Hierarchy { x, y, depth: 1, leaves: 1, heights: (a, d + 1) };
+        for (z, part) in [
+            (a - 1, None),
+            (a, Some(1)),
+            (b + 1, Some(1)),
+            (b + 2, None),
+            (c - 1, None),
+            (c, Some(2)),
+            (d + 1, Some(2)),
+            (d + 2, None),
+        ] {
+            for direction in [[1 << 28, 1 << 23, 0], [-(1 << 28), 1 << 26, 0]] {
+                let ray = Ray::from_bits([if direction[0] > 0 { -77 } else { 3 << 24 }, 3, z], direction);
+                assert_eq!(
+                    hierarchy
+                        .walk_halves(
+                            &ray,
+                            &hierarchy.level_of_detail(Footprint::new(Unit::DELTA)),
+                            &mut Statistics::default()
+                        )
+                        .map(|leaf| leaf.nodes.0),
+                    part,
+                    "{z}"
+                );
+            }
+        }
+    }
+
+    /// Along one axis from the first node to the last, rising and descending: numbers and planes in exact integers.
+    #[test]
+    fn every_node_is_passed_in_order() {
+        for from_above in [0, 1] {
+            for depth in [1, 3, 16] {
+                // the plane `u` is crossed at u / 16
+                let planes = Crossings { middle: 0, twice: 1 << 28, from_above };
+                let aside_planes = Crossings { middle: 7, twice: 1 << 20, from_above: 0 };
+                let number = |level: u32, k: u32| {
+                    let index = if from_above == 0 { k } else { (1 << level) - 1 - k };
+                    (1 << level) - 1 + index
+                };
+                let (mut slab, mut aside) = (Slab::root(&planes), Slab::root(&aside_planes));
+                let (mut size, last) = (1_u32 << 31, (1_u32 << 31) >> depth);
+                let mut k = 0;
+                loop {
+                    while size > last {
+                        size >>= 1;
+                        // where the node begins
+                        slab.descend(&planes, size, planes.at((k * i64::from(last) - (1 << 30)) as i32));
+                        // the second part of the other axis each time
+                        aside.descend(&aside_planes, size, i32::MAX);
+                    }
+                    assert_eq!(slab.node, number(depth, k as u32), "{from_above} {depth} {k}");
+                    assert_eq!(i64::from(slab.end), (k + 1) * i64::from(last) - (1 << 30));
+                    assert_eq!(slab.next, planes.at(slab.end));
+                    k += 1;
+                    if slab.advance(&planes, &mut aside, &aside_planes, &mut size).is_none() {
+                        break;
+                    }
+                    // up by as many levels as nodes end here
+                    let levels = k.trailing_zeros();
+                    assert_eq!(size, last << levels);
+                    assert_eq!(slab.node, number(depth - levels, k as u32 >> levels));
+                    assert_eq!(i64::from(slab.end), k * i64::from(last) - (1 << 30) + i64::from(size));
+                    assert_eq!(slab.next, planes.at(slab.end));
+                    // the second part of the node that is left: the last there, wherever that one is
+                    let around = aside.node + 1;
+                    assert!(around.is_power_of_two() || (around + 1).is_power_of_two() || depth > 1);
+                    assert_eq!(aside.next, aside_planes.at(aside.end));
+                    let index = i64::from(around - (1 << (depth - levels)));
+                    assert_eq!(i64::from(aside.end), (index + 1) * i64::from(size) - (1 << 30));
+                }
+                assert_eq!(k, 1 << depth, "{from_above} {depth}");
+            }
+        }
+    }
+
+    /// A ray that starts a unit outside the range of heights begins where it reaches it.
+    #[test]
+    fn a_walk_begins_where_the_heights_do() {
+        let cells = [Cell { min: Real::ONE, max: Real::ONE, ..Cell::ZERO }; 1];
+        let profile = Profile { cells: &cells, starts: &HALVES, origin: 0, width: 1 << 24 };
+        let (low, high) = (1 << 24, (1 << 24) + 1);
+        let hierarchy = Hierarchy { x: profile, y: profile, depth: 0, leaves: 0, heights: (low, high) };
+        let detail = hierarchy.level_of_detail(Footprint::new(Unit::DELTA));
+        // a unit takes 256 at a slope of 1/256
+        for (z, slope, begin) in [
+            (high + 1, -(1 << 20), 256),
+            (high + 2, -(1 << 20), 512),
+            (high, -(1 << 20), 0),
+            (low - 1, 1 << 20, 256),
+            (low - 3, 1 << 20, 768),
+            (low, 1 << 20, 0),
+        ] {
+            let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 28, 1 << 27, slope]);
+            let leaf = hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).unwrap();
+            assert!((begin - 1..=begin).contains(&leaf.span.0), "{z} {slope}: {:?}", leaf.span);
+        }
+        // over 3/4 it falls by 49152 units and rises by one less: to the first height that counts, and to the one beside it
+        let walk = |z: i32, slope: i32| {
+            let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 28, 1 << 27, slope]);
+            hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).is_some()
+        };
+        assert_eq!([49_152, 49_153].map(|fall| walk(high + fall, -(1 << 20))), [true, false]);
+        assert_eq!([49_151, 49_152].map(|rise| walk(low - rise, 1 << 20)), [true, false]);
     }
 }

@@ -169,8 +169,19 @@ mod tests {
     /// Minus the products of slopes and means: towards plus infinity by a unit at most, saturated at 64.
     #[test]
     fn a_normal_is_minus_the_products_exactly() {
-        let numbers =
-            [0, 1, -1, 12_345_679, -98_765_431, 64 << 24, (8 << 24) + 1, -(8 << 24), i32::MAX, i32::MIN];
+        let numbers = [
+            0,
+            1,
+            -1,
+            (1 << 24) - 1,
+            12_345_679,
+            -98_765_431,
+            64 << 24,
+            (8 << 24) + 1,
+            -(8 << 24),
+            i32::MAX,
+            i32::MIN,
+        ];
         for slope in numbers {
             for mean in numbers {
                 let f = Cell { slope: Real::from_bits(slope), ..Cell::ZERO };
@@ -199,8 +210,9 @@ mod tests {
     fn a_hit_is_in_the_middle_of_the_box_of_the_leaf_below() {
         let whole = |n: i32| Wide::from_num(n);
         let tent = [(whole(-1), whole(1)), (whole(1), whole(3)), (whole(3), whole(0))];
+        let other = [(whole(-1), whole(2)), (whole(1), whole(1)), (whole(3), whole(4))];
         with_polygon(&tent, 3, |f| {
-            with_polygon(&tent, 5, |g| {
+            with_polygon(&other, 5, |g| {
                 let surface = HeightField::new(f, g).unwrap();
                 // the shallower of the two
                 assert_eq!((surface.depth(), surface.hierarchy.leaves), (3, 7));
@@ -220,6 +232,13 @@ mod tests {
                         assert_eq!(hit.cells, (f, g));
                         let end = |a: Real, b: Real| (i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24;
                         let (low, high) = (end(f.min, g.min), end(f.max, g.max));
+                        let product =
+                            |a: Real, b: Real| (i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24;
+                        let exact = [-product(f.slope, g.mean), -product(f.mean, g.slope), 1 << 24];
+                        let normal = hit.normal();
+                        assert_eq!([normal.x, normal.y, normal.z].map(|c| i64::from(c.to_bits())), exact);
+                        let leaf = Leaf { nodes: (7 + i as u32, 7 + j as u32), span: (0, 0) };
+                        assert_eq!(surface.normal(&leaf).map(i64::from), exact);
                         // twice 20 less the middle height
                         let exact = (40 << 24) - low - high;
                         assert!(
@@ -235,6 +254,12 @@ mod tests {
                         assert_eq!((counted, statistics.rays), (Some(hit), 1));
                     }
                 }
+                // aslant, by the walk of halves: inside as many nodes as there are levels
+                let mut statistics = Statistics::default();
+                let eye = Vec3::new(-Real::ONE, -Real::ONE, Real::from_num(7));
+                let ray = Ray::new(eye, Vec3::new(Real::ONE / 2, Real::ONE / 4, -Real::ONE));
+                assert!(surface.intersect_counted(&ray, Unit::ZERO, &mut statistics).is_some());
+                assert_eq!(statistics.stack, 3);
                 // a footprint as wide as the whole surface takes it for a leaf
                 let eye = Vec3::new(Real::ONE, Real::ONE, Real::from_num(20));
                 let down = Vec3::new(Real::ZERO, Real::ZERO, -Real::ONE);
@@ -285,31 +310,58 @@ mod tests {
         assert_eq!(refused(Wide::ONE, limit - unit), None);
         assert_eq!(refused(Wide::ONE, limit), along_x(limit));
         // ends are rounded down, each by itself
-        with_level(Wide::from_bits(-1), Wide::from_bits((3 << 24) - 1), Wide::ONE, 0, |f| {
-            let Profile { origin, width, .. } = Profile::new("x", f).unwrap();
-            assert_eq!((origin, width), (-1, 3));
-        });
-        // a factor whose greatest value is exactly 8, and one whose least value is -8
-        let (mut decided, mut below) = (0, 0);
-        for less in 0..64_i64 {
-            let eight = Wide::from_bits((8 << 48) - (less << 22));
-            for value in [eight, -eight] {
-                with_level(Wide::ZERO, Wide::ONE, value, 1, |f| {
-                    let largest = f.root().max.to_bits().max(-f.root().min.to_bits());
-                    let surface = HeightField::new(f, f);
-                    assert_eq!(surface.is_err(), largest >= 8 << 24, "{largest}");
-                    decided += u32::from(largest == 8 << 24);
-                    below += u32::from(largest < 8 << 24);
-                });
-            }
+        for (x0, x1, expected) in [(-1, (3 << 24) - 1, (-1, 3)), ((1 << 24) - 1, 3 << 24, (0, 3))] {
+            with_level(Wide::from_bits(x0), Wide::from_bits(x1), Wide::ONE, 0, |f| {
+                let Profile { origin, width, .. } = Profile::new("x", f).unwrap();
+                assert_eq!((origin, width), expected);
+            });
         }
-        assert!(decided >= 2 && below >= 2, "{decided} {below}");
+    }
+
+    /// The product of the factors' greatest values, exactly.
+    #[test]
+    fn heights_are_refused_from_64_on() {
+        // the level whose pyramid has this greatest magnitude, by trying quarters of a unit
+        let level = |bits: i64, sign: i64| {
+            let level = |quarter: i64| Wide::from_bits(sign * ((bits << 24) - (quarter << 22)));
+            let root = |c: Wide| with_level(Wide::ZERO, Wide::ONE, c, 1, |f| f.root());
+            let magnitude = |cell: Cell| i64::from(cell.max.to_bits()).max(-i64::from(cell.min.to_bits()));
+            (0..64).map(level).find(|c| magnitude(root(*c)) == bits).unwrap()
+        };
+        let refused = |f: Wide, g: Wide| {
+            with_level(Wide::ZERO, Wide::ONE, f, 1, |f| {
+                with_level(Wide::ZERO, Wide::ONE, g, 1, |g| match HeightField::new(f, g) {
+                    Err(Error::OutOfRange { what: "height", value, .. }) => Some(value),
+                    surface => surface.map(|_| None).unwrap(),
+                })
+            })
+        };
+        let one = 1 << 24;
+        for (sign, other) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
+            let (unit, eight) = (level(one, sign), level(8 * one, sign));
+            let [below, most, eight_too] = [64 * one - 1, 64 * one, 8 * one].map(|bits| level(bits, other));
+            let limit = Some(Wide::from_num(64));
+            for (f, g, expected) in [
+                (unit, below, None),
+                (unit, most, limit),
+                (most, unit, limit),
+                (below, unit, None),
+                (eight, eight_too, limit),
+            ] {
+                assert_eq!(refused(f, g), expected, "{f} {g}");
+            }
+            assert_eq!(refused(level(32 * one, sign), level(one, other)), None);
+        }
     }
 
     /// Equal halves along both axes alone have the walk of their own.
     #[test]
     fn a_surface_of_other_parts_is_walked_in_general() {
         let points = |middle: i64| [0, middle, 1 << 48].map(|x| (Wide::from_bits(x), Wide::ONE));
+        // down to (0.6, 0.6, 1): in the first part where that ends at 3/4, in the second where it ends at 1/2
+        let real =
+            |x: f64, y: f64, z: f64| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+        let ray = Ray::new(real(-0.4, -0.4, 2.0), real(1.0, 1.0, -1.0));
         with_polygon(&points(1 << 47), 1, |even| {
             with_polygon(&points(3 << 46), 1, |uneven| {
                 let halved = |x, y| HeightField::new(x, y).unwrap().halved;
@@ -317,7 +369,21 @@ mod tests {
                     [halved(even, even), halved(even, uneven), halved(uneven, even), halved(uneven, uneven)],
                     [true, false, false, false]
                 );
+                let hit = |x, y| HeightField::new(x, y).unwrap().intersect(&ray, Unit::ZERO).unwrap().index;
+                assert_eq!([hit(even, even), hit(even, uneven), hit(uneven, even)], [(1, 1), (1, 0), (0, 1)]);
             });
+        });
+        // three parts by two: level 1 has the nodes 1 to 3, or 1 and 2
+        let thirds = [0, 1, 2, 3].map(|x| (Wide::from_num(x), Wide::ONE));
+        with_polygon(&thirds, 2, |three| {
+            with_polygon(&points(1 << 47), 2, |two| {
+                let leaves = |x, y| HeightField::new(x, y).unwrap().hierarchy.leaves;
+                assert_eq!([leaves(three, two), leaves(two, three)], [4, 3]);
+            });
+        });
+        with_polygon(&points(3 << 46), 0, |whole| {
+            let hit = HeightField::new(whole, whole).unwrap().intersect(&ray, Unit::ZERO).unwrap();
+            assert_eq!((hit.level, hit.index), (0, (0, 0)));
         });
     }
 }

@@ -103,4 +103,13 @@ mod tests {
             Hierarchy { x: profile(-5, 7), y: profile(3, 11), depth: 0, leaves: 0, heights: (-2, 13) };
         assert_eq!(hierarchy.extent(), [[-5, 2], [3, 14], [-2, 13]]);
     }
+
+    /// The deepest level has a last node, and a number beyond it ends the search all the same.
+    #[test]
+    fn levels_end_with_the_deepest() {
+        let profile = |starts| Profile { cells: &[], starts, origin: 0, width: 1 << 24 };
+        assert_eq!(profile(&[0, 1 << 30]).level_and_index((1 << 16) - 1 + 5), (16, 5));
+        assert_eq!(profile(&[0]).level_and_index(40), (16, 24));
+        assert_eq!(profile(&[]).level_and_index(7), (16, 6));
+    }
 }

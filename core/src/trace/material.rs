@@ -273,6 +273,21 @@ mod tests {
             }
         }
         assert!(dark > 1000 && turned > 1000, "{dark} {turned}");
+        // a normal across the ray points neither way and stays as it is
+        let (across, up) = ([1, 0, 0].map(Unit::from_num), [0, 0, 1].map(Unit::from_num));
+        let [across, up] = [across, up].map(|[x, y, z]| Vec3::new(x, y, z));
+        let grazing = Material::Diffuse { ambient: Unit::ZERO }.tone(up, across, &light, &Environment::SKY);
+        assert!((grazing - light.towards.z).abs() <= Unit::DELTA, "{grazing}");
+        // half a unit is rounded upwards
+        assert_eq!(times(Unit::DELTA, Unit::ONE / 2), Unit::DELTA);
+        // a normal that is two units too long still shows no more than there is
+        let long = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE + Unit::DELTA * 2);
+        let down = Vec3::new(Unit::ZERO, Unit::ZERO, -Unit::ONE);
+        assert_eq!(Material::Mirror.tone(long, down, &light, &Environment::SKY), Unit::ONE);
+        // nor does a light that is too long shine more than it can
+        let (light, [quarter, half]) = (Light { towards: long }, [Unit::ONE / 4, Unit::ONE / 2]);
+        let bright = Material::Phong { ambient: Unit::ZERO, diffuse: quarter, specular: half, shininess: 1 };
+        assert_eq!(bright.tone(up, down, &light, &Environment::SKY), quarter + half);
     }
 
     /// A power is off by less than half a unit a product, each counted as often as it is multiplied on: its exponent.

@@ -280,4 +280,17 @@ mod tests {
         }
         assert!(decided > 5000 && empty > 20 && level > 300, "{decided} {empty} {level}");
     }
+
+    /// A box seen as a level line: on the last line that counts, and a 65536th of a pixel beyond.
+    #[test]
+    fn a_level_line_counts_up_to_two_rows_away() {
+        let at = |y: i32| {
+            // the first corner is the leftmost, the last the rightmost
+            let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| (((10 + 3 * k) << 16) + 9, y));
+            Outline(Some(corners)).columns(20, COLS)
+        };
+        let (above, below) = (18 << 16, 23 << 16);
+        assert_eq!([at(above), at(below)], [8..34, 8..34]);
+        assert_eq!([at(above - 1), at(below + 1)], [0..0, 0..0]);
+    }
 }

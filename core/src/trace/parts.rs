@@ -258,24 +258,141 @@ mod tests {
                 let part = if direction > 0 { 1 } else { 2 };
                 let nodes = walk(&ray).unwrap().nodes;
                 assert_eq!(nodes, if axis == 0 { (part, 1) } else { (1, part) });
+                // two units before the plane it is not over yet
+                (ray.origin[axis], ray.direction[axis]) = (-2 * direction.signum(), direction);
+                let leaf = walk(&ray).unwrap();
+                assert_eq!(leaf.nodes, nodes, "{axis} {direction}");
+                assert!((1..=2).contains(&leaf.span.1), "{:?}", leaf.span);
             }
         }
     }
 
-    /// A box of nothing has a part of nothing: the ray is above it where it touches it, and it alone.
+    /// The surface is closed: a ray that starts on an outer plane and goes out touches it, one that starts a unit farther on
+    /// does not. The last part is closed as well.
     #[test]
-    fn a_ray_may_end_where_the_heights_do() {
-        let cells = [Cell { min: Real::ONE, max: Real::ONE, ..Cell::ZERO }; 1];
+    fn a_ray_may_touch_the_outer_planes() {
+        let cells = [Cell { min: Real::ONE, max: Real::ONE, ..Cell::ZERO }; 3];
+        let profile = Profile { cells: &cells, starts: &[0, 1 << 30], origin: -(1 << 23), width: 1 << 24 };
+        for (depth, leaves) in [(0, 0), (1, 1)] {
+            let hierarchy =
+                Hierarchy { x: profile, y: profile, depth, leaves, heights: (1 << 24, (1 << 24) + 1) };
+            for axis in 0..3 {
+                for up in [true, false] {
+                    let [low, high] = [[-(1 << 23), 1 << 23], [1 << 24, (1 << 24) + 1]][axis / 2];
+                    let walk = |beyond: i32| {
+                        let mut ray = Ray::from_bits([1 << 21, 1 << 21, 1 << 24], [1 << 27, 1 << 27, 0]);
+                        ray.origin[axis] = if up { high + beyond } else { low - beyond };
+                        ray.direction[axis] = if up { 1 << 28 } else { -(1 << 28) };
+                        hierarchy.walk_parts(&ray, Footprint::new(Unit::DELTA), &mut Statistics::default())
+                    };
+                    let mut nodes = if depth == 0 { [0, 0] } else { [2, 2] };
+                    if axis < 2 && !up && depth == 1 {
+                        nodes[axis] = 1;
+                    }
+                    let leaf = walk(0).unwrap();
+                    assert_eq!(
+                        (leaf.nodes, leaf.span),
+                        ((nodes[0], nodes[1]), (0, 0)),
+                        "{axis} {up} {depth}"
+                    );
+                    assert_eq!(walk(1), None, "{axis} {up} {depth}");
+                }
+            }
+        }
+    }
+
+    /// Level rays on the lowest and the highest place of a box, and a unit outside.
+    #[test]
+    fn a_level_ray_meets_what_is_at_its_height() {
+        let cell =
+            |min: i32, max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
+        let (a, b, c, d) = (5 << 20, 7 << 20, 9 << 20, 12 << 20);
+        let one = cell(1 << 24, 1 << 24);
+        let (cells, ones) = ([cell(a, d), cell(a, b), cell(c, d)], [one; 3]);
+        let profile = |cells, starts| Profile { cells, starts, origin: 0, width: 1 << 24 };
+        // a box's highest place is a unit above the product
+        let (x, y) = (profile(&cells, &[0, 1 << 30]), profile(&ones, &[0, 1 << 30]));
+        let hierarchy = Hierarchy { x, y, depth: 1, leaves: 1, heights: (a, d + 2) };
+        for (z, part) in [
+            (a - 1, None),
+            (a, Some(1)),
+            (b + 1, Some(1)),
+            (b + 2, None),
+            (c - 1, None),
+            (c, Some(2)),
+            (d + 1, Some(2)),
+            (d + 2, None),
+        ] {
+            for direction in [[1 << 28, 1 << 23, 0], [-(1 << 28), 1 << 26, 0]] {
+                let ray = Ray::from_bits([if direction[0] > 0 { -77 } else { 3 << 24 }, 3, z], direction);
+                assert_eq!(
+                    hierarchy
+                        .walk_parts(&ray, Footprint::new(Unit::DELTA), &mut Statistics::default())
+                        .map(|leaf| leaf.nodes.0),
+                    part,
+                    "{z}"
+                );
+            }
+        }
+    }
+
+    /// The planes of a node are whole numbers, rounded down, and each part ends where the next begins.
+    #[test]
+    fn parts_share_their_planes() {
+        for (low, width) in [(-(1 << 24), 3 << 24), (77, 12_345_677), (5, 4)] {
+            let profile = Profile { cells: &[], starts: &THIRDS, origin: low, width };
+            let whole = profile.whole();
+            assert_eq!((whole.node, whole.low, whole.width), (0, low, width));
+            let plane = |k: usize| {
+                let start = THIRDS.get(k).map_or(1 << 31, |start| i64::from(*start));
+                i64::from(low) + (start * i64::from(width) >> 31)
+            };
+            for direction in [1, -1] {
+                let before = if direction > 0 { low - 1 } else { low + width + 1 };
+                let axis = Axis::new(before, direction << 28);
+                let mut along = profile.enter(&axis, whole, 0);
+                for k in 0..3_usize {
+                    let part = if direction > 0 { k } else { 2 - k };
+                    let extent = profile.part(&along);
+                    assert_eq!((along.part, extent.node), (part as u32, part as u32 + 1));
+                    assert_eq!(
+                        (i64::from(extent.low), i64::from(extent.low + extent.width)),
+                        (plane(part), plane(part + 1))
+                    );
+                    if k < 2 {
+                        let last = plane(if direction > 0 { part + 1 } else { part }) as i32;
+                        assert_eq!(along.next, axis.crossing(last));
+                        profile.advance(&axis, &mut along);
+                    }
+                }
+                assert_eq!(along.next, i32::MAX);
+            }
+        }
+    }
+
+    /// A node is small where the footprint reaches the larger of its widths.
+    #[test]
+    fn a_node_is_as_wide_as_its_wider_side() {
+        let extent = |width| Extent { node: 3, low: 9, width };
+        let footprint = Footprint::new(Unit::from_bits(777_777));
+        let t = footprint.reaches(12_345) as i32;
+        for (x, y) in [(12_345, 12_345), (12_345, 7), (7, 12_345)] {
+            let small = [t - 1, t].map(|t| is_small(&extent(x), &extent(y), t, footprint));
+            assert_eq!(small, [false, true]);
+        }
+    }
+
+    /// What is passed after 128 is not seen: parameters end there.
+    #[test]
+    fn a_ray_that_does_not_leave_the_surface_in_time_is_given_up() {
+        let cells = [Cell { min: Real::ZERO, max: Real::ONE, ..Cell::ZERO }; 1];
         let profile = Profile { cells: &cells, starts: &[0], origin: 0, width: 1 << 24 };
-        let hierarchy =
-            Hierarchy { x: profile, y: profile, depth: 0, leaves: 0, heights: (1 << 24, (1 << 24) + 1) };
-        let walk = |z: i32, dz: i32| {
-            let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 26, 1 << 26, dz]);
+        let hierarchy = Hierarchy { x: profile, y: profile, depth: 0, leaves: 0, heights: (0, 1 << 24) };
+        let walk = |slow: i32| {
+            let ray = Ray::from_bits([1 << 23; 3], [slow, -slow, slow]);
             hierarchy.walk_parts(&ray, Footprint::new(Unit::DELTA), &mut Statistics::default())
         };
-        // from the top of the heights upwards, from a unit above it, and from outside towards it
-        assert_eq!(walk((1 << 24) + 1, 1 << 28).unwrap().span, (0, 0));
-        assert_eq!(walk((1 << 24) + 2, 1 << 28), None);
-        assert!(walk(2 << 24, -(1 << 28)).is_some());
+        // half a unit at 1/128 a unit of the parameter takes 64, at 1/256 it takes 128
+        assert!(walk(1 << 21).is_some() && walk(1 << 19).is_none() && walk(1).is_none());
     }
 }

@@ -342,7 +342,9 @@ mod tests {
                 let caster = RayCaster::new(surface, camera, Size::new(size.0, size.1)).unwrap();
                 let mut directions = Vec::new();
                 for (y, x) in (0..size.1).flat_map(|y| (0..size.0).map(move |x| (y, x))) {
-                    for (dx, dy) in [(0, 0), (1 << 23, -(1 << 23)), (-33_333_333, 12_345_678)] {
+                    for (dx, dy) in
+                        [(0, 0), (1 << 23, -(1 << 23)), (-33_333_333, 12_345_678), (0, 1 << 23), (77_777, 0)]
+                    {
                         directions.push((x, y, dx, dy, caster.offset(caster.direction(x, y), dx, dy)));
                     }
                 }
@@ -419,6 +421,8 @@ mod tests {
         };
         let limit = 3 << 27;
         assert_eq!([fits(limit - 1, 5, 5, 0), fits(limit, 5, 5, 0)], [true, false]);
+        // rounded down: 5/4 of these are 3 less a 2^-28 and a half, and 3 and more
+        assert_eq!([fits(644_245_094, 1, 4, 0), fits(644_245_095, 1, 4, 0)], [true, false]);
         // 3/2 of half as much, and one pixel of margin on all sides
         assert_eq!([fits((1 << 28) - 1, 20, 12, 1), fits(1 << 28, 20, 12, 1)], [true, false]);
         assert_eq!([fits((1 << 27) - 1, 5, 1, 0), fits(1 << 27, 5, 1, 0)], [true, false]);
@@ -436,7 +440,13 @@ mod tests {
     /// Each pixel by itself, a row from any column on, and skipping, show the same.
     #[test]
     fn a_row_is_the_row_of_its_pixels() {
-        let size = Size::new(24, 20);
+        for size in [Size::new(24, 20), Size::new(40, 8), Size::new(24, 60)] {
+            a_row_is_the_row_of_its_pixels_at(size);
+        }
+    }
+
+    fn a_row_is_the_row_of_its_pixels_at(size: Size) {
+        let (cols, rows) = (size.width, size.height);
         with_surface(|surface| {
             for sampling in [Sampling::Centre, Sampling::Jittered { n: 2, seed: 5 }] {
                 let caster = RayCaster::new(surface, camera(40), size).unwrap();
@@ -444,7 +454,7 @@ mod tests {
                 let mut tones = [0; 2];
                 for y in 0..size.height {
                     let row: Vec<_> = caster.row(y, 0..size.width).collect();
-                    assert_eq!(row.len(), 24);
+                    assert_eq!(row.len(), cols as usize);
                     let visible = caster.outline.columns(y, size.width);
                     for (x, tone) in (0..).zip(&row) {
                         let pixel = |visible| caster.pixel(x, y, caster.direction(x, y), visible);
@@ -455,11 +465,15 @@ mod tests {
                     let mut skipping = caster.row(y, 3..20);
                     assert_eq!([skipping.nth(4), skipping.next()], [Some(row[7]), Some(row[8])]);
                     assert_eq!((skipping.size_hint(), skipping.nth(99)), ((11, Some(11)), None));
+                    let mut skipping = caster.row(y, 3..20);
+                    assert_eq!((skipping.nth(usize::MAX), skipping.next()), (None, None));
                 }
-                assert!(tones.iter().all(|n| *n > 40), "{tones:?}");
-                assert_eq!((caster.row(0, 30..40).count(), caster.row(99, 20..99).count()), (0, 4));
-                assert!(caster.row(99, 0..24).eq(caster.row(19, 0..24)));
-                assert!(caster.hit(24, 0).is_none() && caster.hit(0, 20).is_none());
+                assert!(tones.iter().all(|n| *n > 8), "{tones:?}");
+                assert_eq!(
+                    (caster.row(0, cols..99).count(), caster.row(99, 20..99).count()),
+                    (0, cols as usize - 20)
+                );
+                assert!(caster.row(99, 0..cols).eq(caster.row(rows - 1, 0..cols)));
             }
         });
     }
@@ -470,6 +484,7 @@ mod tests {
         with_surface(|surface| {
             let plain = Unit::from_num(0.25);
             let caster = RayCaster::new(surface, camera(40), Size::new(24, 20)).unwrap();
+            let sky = caster.clone();
             let caster = caster.with_environment(Environment::Plain(plain)).unwrap();
             let light = Light::new(Vec3::new(Real::ZERO, Real::ZERO, Real::ONE)).unwrap();
             let mirror = caster.clone().with_material(Material::Mirror).unwrap();
@@ -482,6 +497,7 @@ mod tests {
                 let hit = surface.intersect_counted(&ray, caster.footprint.per_t(), &mut statistics);
                 assert_eq!(hit, caster.hit(x, y));
                 assert_eq!((mirror.tone(direction, true), caster.tone(direction, false)), (plain, plain));
+                assert_eq!(sky.tone(direction, false), Environment::SKY.towards(direction));
                 let Some(hit) = hit else {
                     assert_eq!(lit.tone(direction, true), plain);
                     continue;
@@ -506,6 +522,43 @@ mod tests {
             let white = mirror.with_environment(Environment::Plain(Unit::ONE)).unwrap();
             let white = white.with_sampling(Sampling::Grid(7), Filter::Box).unwrap();
             assert!(white.row(10, 0..24).all(|tone| tone == Tone::from_bits(65535)));
+        });
+    }
+
+    /// A pixel is the sum of its samples' tones by their weights, rounded once.
+    #[test]
+    fn a_pixel_is_the_weighted_sum_of_its_samples() {
+        with_surface(|surface| {
+            let filter = Filter::Gaussian { deviation: Real::ONE, width: Real::from_num(2) };
+            let caster = RayCaster::new(surface, camera(40), Size::new(24, 20)).unwrap();
+            let caster = caster.with_sampling(Sampling::Jittered { n: 3, seed: 2 }, filter).unwrap();
+            let mut mixed = 0;
+            for (x, y) in (0..20).flat_map(|y| (0..24).map(move |x| (x, y))) {
+                let (mut sum, mut tones) = (0_i128, Vec::new());
+                for (dx, dy, weight) in caster.pattern.samples(x, y) {
+                    let tone = caster.tone(caster.offset(caster.direction(x, y), dx, dy), true).to_bits();
+                    sum += i128::from(tone) * i128::from(weight);
+                    tones.push(tone);
+                }
+                assert_eq!(caster.row(y, x..x + 1).next(), Some(rounded((sum >> 30) as u32)), "{x} {y}");
+                mixed += u32::from(tones.iter().max().unwrap() - tones.iter().min().unwrap() > 1 << 26);
+            }
+            assert!(mixed > 20, "{mixed}");
+        });
+    }
+
+    /// Where the surface fills the view, no pixel beyond the picture is asked for.
+    #[test]
+    fn there_is_no_hit_beyond_the_picture() {
+        with_surface(|surface| {
+            let at =
+                |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+            let camera = Camera::new(at(-3, -2, 5), at(1, 1, 0), at(0, 0, 1), Real::from_num(2)).unwrap();
+            let caster = RayCaster::new(surface, camera, Size::new(24, 20)).unwrap();
+            assert!(caster.hit(23, 19).is_some() && caster.hit(0, 0).is_some());
+            assert!(
+                caster.hit(24, 7).is_none() && caster.hit(7, 20).is_none() && caster.hit(99, 99).is_none()
+            );
         });
     }
 }

@@ -337,4 +337,34 @@ mod tests {
         let worst = sums.iter().fold(0.0_f64, |w, s| w.max(s.abs() / f64::from(count)));
         assert!(worst > 0.0 && worst < 4.0 / f64::from(count).sqrt(), "{sums:?}");
     }
+
+    /// Against values of the published function, worked out beside it.
+    #[test]
+    fn a_hash_is_the_published_one() {
+        let words = [0, 1, 2, u32::MAX, 1 << 31, 0x1234_5678];
+        assert_eq!(words.map(hash), [0, 0x6889_90c0, 0xd113_2181, 0x6768_824a, 0xcc4b_4124, 0xf5e7_1c96]);
+    }
+
+    /// The samples of a pixel follow from seed and place alone: one word a sample, its halves from -1/2 to 1/2 of a part.
+    #[test]
+    fn jitter_is_the_halves_of_one_word_a_sample() {
+        for (n, seed, x, y) in
+            [(1, 0, 0_u32, 0), (2, 7, 5, 9), (3, u32::MAX, 16_000, 1), (8, 12_345, 2, 16_383)]
+        {
+            let pattern = Pattern::new(Sampling::Jittered { n, seed }, Filter::Box).unwrap();
+            let mut word = hash(seed ^ hash(x.wrapping_add(hash(y))));
+            let side = i64::from((1 << 24) / i32::from(n));
+            let mut parts = (0..n).flat_map(|row| (0..n).map(move |column| [column, row]));
+            for (dx, dy, _) in pattern.samples(x, y) {
+                word = hash(word.wrapping_add(0x9e37_79b9));
+                let part = parts.next().unwrap();
+                for (k, (got, half)) in [(dx, word >> 16), (dy, word & 0xffff)].into_iter().enumerate() {
+                    let centre = (i64::from(2 * part[k]) + 1 - i64::from(n)) * (1 << 24) / (2 * i64::from(n));
+                    let exact = (i64::from(half) - (1 << 15)) * side;
+                    assert_eq!(i64::from(got), centre + exact.div_euclid(1 << 16), "{n} {seed} {x} {y}");
+                }
+            }
+            assert!(parts.next().is_none());
+        }
+    }
 }

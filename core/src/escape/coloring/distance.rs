@@ -176,4 +176,33 @@ mod tests {
         assert_eq!(row.nth(4), Some(picture.value_at(picture.0.view().point(7, 7))));
         assert_eq!(row.len(), 22);
     }
+
+    /// A distance of more pixels than the format holds is its greatest.
+    #[test]
+    fn a_distance_beyond_the_format_is_saturated() {
+        use crate::escape::Complex;
+        use crate::num::Wide;
+        let point = |x: f64, y: f64| Complex::new(Wide::from_num(x), Wide::from_num(y));
+        let (mut held, mut saturated) = (0, 0);
+        for k in 0..40 {
+            let width = Wide::from_bits(64 << (48 - k));
+            let Ok(view) = View::new(point(0.5, 0.5), width, Size::new(64, 64)) else { continue };
+            let picture = Distance(Mandelbrot::new(view, 60).unwrap());
+            for at in [(1.0, 1.0), (20_000.0, -30_000.0)] {
+                // in pixels 2^-k wide
+                let (got, exact) = (picture.value_at(point(at.0, at.1)), float(at) * 2_f64.powi(k));
+                match got {
+                    Some(d) if exact < 127.9 => {
+                        assert!((d.to_num::<f64>() / exact - 1.0).abs() < 1e-5, "{k}");
+                        held += 1;
+                    }
+                    other => {
+                        assert!(other == Some(Real::MAX) && exact > 127.9, "{k}: {other:?}");
+                        saturated += 1;
+                    }
+                }
+            }
+        }
+        assert!(held > 4 && saturated > 30, "{held} {saturated}");
+    }
 }
