@@ -25,12 +25,13 @@ pub(crate) fn times(value: i64, t: u64) -> i64 {
 /// [`times`] for the walk along an address.
 #[inline(always)]
 fn inline_times(value: i64, t: u64) -> i64 {
-    if t >= ONE {
-        return value;
-    }
-    // `t` has no sign to be corrected for
-    let correction = if value < 0 { t } else { 0 };
-    (mul_high_u(value as u64, t).wrapping_sub(correction) << 1) as i64
+    if t >= ONE { value } else { times_before_end(value, t) }
+}
+
+/// The same for `t` below 1.
+#[inline(always)]
+fn times_before_end(value: i64, t: u64) -> i64 {
+    mul_high(value, t as i64) << 1
 }
 
 /// `2^-63 a b`, for `b` with 63 fractional bits. Error: below 2 units, towards minus infinity
@@ -57,6 +58,13 @@ impl<const D: usize> Polynomial<D> {
             sum = inline_times(sum.wrapping_add(*c), t);
         }
         sum.wrapping_add(self.constant)
+    }
+
+    /// The same for `t` below 1.
+    #[inline(always)]
+    pub(crate) fn before_end(&self, t: u64) -> i64 {
+        let sum = |sum: i64, c: &i64| times_before_end(sum.wrapping_add(*c), t);
+        self.powers.iter().rev().fold(0, sum).wrapping_add(self.constant)
     }
 
     /// The sum of the magnitudes of the coefficients, saturated.

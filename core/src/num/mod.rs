@@ -81,7 +81,7 @@ pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;
 pub(crate) use vector::{square, unit};
-pub(crate) use wide::scaled;
+pub(crate) use wide::{mul_high_short, scaled};
 pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};
 
 /// Coordinates, heights, distances: 24 fractional bits, `-128 .. 128`.

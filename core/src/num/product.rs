@@ -25,6 +25,18 @@ pub(crate) fn product_by_short(a: u32, b: u16) -> u64 {
     if cfg!(no_long_product) { halves::product_by_short(a, b) } else { whole::product_u(a, b.into()) }
 }
 
+/// `a b` of a number with and one without a sign. Cost: as [`product`], and two instructions on a Cortex-M4.
+#[inline(always)]
+pub(crate) fn product_mixed(a: i32, b: u32) -> i64 {
+    if cfg!(no_long_product) { halves::product_mixed(a, b) } else { whole::product_mixed(a, b) }
+}
+
+/// The upper word of that, towards minus infinity.
+#[inline(always)]
+pub(crate) fn high_mixed(a: i32, b: u32) -> i32 {
+    if cfg!(no_long_product) { halves::high_mixed(a, b) } else { (whole::product_mixed(a, b) >> 32) as i32 }
+}
+
 /// The upper word of `a b`, towards minus infinity. Cost: one Cortex-M4 instruction; on a Cortex-M0 14.
 #[inline(always)]
 pub(crate) fn high(a: i32, b: i32) -> i32 {
@@ -89,6 +101,11 @@ mod whole {
     pub(super) fn product_u(a: u32, b: u32) -> u64 {
         u64::from(a) * u64::from(b)
     }
+
+    #[inline(always)]
+    pub(super) fn product_mixed(a: i32, b: u32) -> i64 {
+        i64::from(a) * i64::from(b)
+    }
 }
 
 /// By products of 16-bit halves.
@@ -115,6 +132,21 @@ mod halves {
     pub(super) fn high(a: i32, b: i32) -> i32 {
         let (top, first, second) = parts(a, b);
         top.wrapping_add(first >> 16).wrapping_add(second >> 16)
+    }
+
+    /// As [`parts`], with an upper half of `b` without a sign: the second sum has none and stays below `2^32`.
+    #[inline(always)]
+    pub(super) fn high_mixed(a: i32, b: u32) -> i32 {
+        let ((ah, al), (bh, bl)) = (split(a), (b >> 16, b & 0xffff));
+        let low = (al as u32).wrapping_mul(bl) >> 16;
+        let first = ah.wrapping_mul(bl as i32).wrapping_add(low as i32);
+        let second = (al as u32).wrapping_mul(bh).wrapping_add(first as u32 & 0xffff);
+        ah.wrapping_mul(bh as i32).wrapping_add(first >> 16).wrapping_add((second >> 16) as i32)
+    }
+
+    #[inline(always)]
+    pub(super) fn product_mixed(a: i32, b: u32) -> i64 {
+        (i64::from(high_mixed(a, b)) << 32) | i64::from((a as u32).wrapping_mul(b))
     }
 
     /// Bit 31 of the product is bit 15 of the second sum, which has no room for half a unit more: it is halved to it first.
@@ -201,6 +233,9 @@ mod tests {
                 assert_eq!(i64::from(super::high_of_double(a, b)), half_up, "{a} {b}");
             }
         }
+        let mixed = i64::from(a) * i64::from(b as u32);
+        assert_eq!([halves::product_mixed(a, b as u32), whole::product_mixed(a, b as u32)], [mixed; 2]);
+        assert_eq!(i64::from(super::high_mixed(a, b as u32)), mixed >> 32, "{a} {b}");
         let (a, b) = (a as u32, b as u32);
         assert_eq!(halves::product_u(a, b), whole::product_u(a, b), "{a} {b}");
         assert_eq!(u64::from(halves::high_u(a, b)), whole::product_u(a, b) >> 32, "{a} {b}");

@@ -2,7 +2,7 @@
 //!
 //! `i128` multiplication is a library call on 32-bit machines; these are a handful of `SMULL`/`UMULL` each.
 
-use super::product::{self, product, product_u};
+use super::product::{self, high_mixed, product, product_mixed, product_u};
 use super::ratio;
 
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
@@ -23,9 +23,17 @@ pub fn scale31(value: i64, factor: i32) -> i64 {
 /// The high 64 bits of the 128-bit product, towards minus infinity. Exact.
 #[inline]
 pub fn mul_high(a: i64, b: i64) -> i64 {
-    let unsigned = mul_high_u(a as u64, b as u64) as i64;
-    // two's complement: subtract the other operand once for each negative one
-    unsigned.wrapping_sub(if a < 0 { b } else { 0 }).wrapping_sub(if b < 0 { a } else { 0 })
+    let ((ah, al), (bh, bl)) = (((a >> 32) as i32, a as u32), ((b >> 32) as i32, b as u32));
+    // no sum leaves 64 bits
+    let cross1 = product_mixed(ah, bl) + i64::from(product::high_u(al, bl));
+    let cross2 = product_mixed(bh, al) + i64::from(cross1 as u32);
+    product(ah, bh) + (cross1 >> 32) + (cross2 >> 32)
+}
+
+/// `a b / 2^32` towards minus infinity: [`mul_high`] of `2^32 b`. Exact.
+#[inline(always)]
+pub(crate) fn mul_high_short(a: i64, b: i32) -> i64 {
+    product((a >> 32) as i32, b) + i64::from(high_mixed(b, a as u32))
 }
 
 /// The high 64 bits of the 128-bit product, rounded down. Exact.
@@ -46,6 +54,15 @@ pub(crate) fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     // by halves: a 64-bit shift by a variable takes twice as long
     let product = product(v, mantissa);
     ((((product as u32) >> (half & 31)) >> 1) | ((product >> 32) as u32) << ((half & 31) ^ 31)) as i32
+}
+
+/// `v << shift`, for shifts below 64.
+#[inline(always)]
+fn shifted(v: u64, shift: u32) -> u64 {
+    // by halves: a 64-bit shift by a variable takes twice as long, or a call
+    let (high, low) = if shift < 32 { ((v >> 32) as u32, v as u32) } else { (v as u32, 0) };
+    let places = shift & 31;
+    u64::from(high << places | (low >> 1) >> (places ^ 31)) << 32 | u64::from(low << places)
 }
 
 /// `value / 2^shift`, rounded to nearest (halves up): 0 for shifts of 64 and more. Exact (`a_shift_rounds_to_nearest_at_every_width`).
@@ -92,8 +109,10 @@ impl Reciprocal {
     /// `v / d` with 63 fractional bits, for `v <= d`.
     #[inline]
     pub fn quotient(self, v: u64) -> u64 {
-        // v << shift < 2^64; product of two numbers with 63 fractional bits has 126, its high half 62
-        mul_high_u(v << self.shift, self.mantissa) << 1
+        // below 2^64; product of two numbers with 63 fractional bits has 126, its high half 62
+        let m = shifted(v, self.shift);
+        // 1 has no other mantissa: widths that are powers of two need no product
+        if self.mantissa >> 63 > 0 { m & !1 } else { mul_high_u(m, self.mantissa) << 1 }
     }
 
     /// `v / d` with 63 fractional bits for the `d` of which this is the reciprocal, rounded down, for `v < d`. Exact.
