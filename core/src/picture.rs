@@ -99,6 +99,20 @@ impl<F: Field> Field for &F {
     }
 }
 
+/// A field some rows of which are the same: those at the same distance above and below an axis.
+pub trait Symmetric: Field {
+    /// The row above this one that has the same values, to the last bit; none where there is none.
+    ///
+    /// Images of successive rows are successive: where `row` has one, that of `row - 1`, if any, is the next below it.
+    fn mirror_image(&self, row: u32) -> Option<u32>;
+}
+
+impl<F: Symmetric> Symmetric for &F {
+    fn mirror_image(&self, row: u32) -> Option<u32> {
+        (**self).mirror_image(row)
+    }
+}
+
 /// The largest number of pixels a side: coordinates of pixels stay far inside 32 bits.
 pub const MAX_SIDE: u32 = 1 << 14;
 

@@ -14,7 +14,7 @@ use super::wide_dwell::{self, WideOrbit, WideWord};
 use super::{Complex, DeepView, Dwell, checked_max};
 use crate::Error;
 use crate::num::Limbs;
-use crate::picture::Field;
+use crate::picture::{Field, Symmetric};
 
 /// How the orbits of a deep view are computed.
 ///
@@ -278,6 +278,12 @@ enum Orbits<'a> {
     PerturbedLong(Reference<'a, Block<i64>>),
 }
 
+impl<const LIMBS: usize> Symmetric for DeepMandelbrot<'_, LIMBS> {
+    fn mirror_image(&self, row: u32) -> Option<u32> {
+        self.view.mirror_image(row)
+    }
+}
+
 impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
     /// Column and row.
     type Point = (u32, u32);
@@ -319,10 +325,6 @@ impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
     fn pitch(&self) -> (u32, i32) {
         let pitch = self.view.pitch_block().short();
         (pitch.re.unsigned_abs(), pitch.exponent)
-    }
-
-    fn mirror_image(&self, row: u32) -> Option<u32> {
-        self.view.mirror_image(row)
     }
 
     fn panned(self, right: i32, up: i32) -> Result<Self, Error> {

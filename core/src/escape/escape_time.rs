@@ -8,11 +8,11 @@ use super::Dwell;
 use super::block::{Block, Number};
 use super::period::Period;
 use crate::Error;
-use crate::picture::Field;
+use crate::picture::Symmetric;
 
 /// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`](super::Mandelbrot), [`Julia`](super::Julia) and
 /// [`DeepMandelbrot`](super::DeepMandelbrot).
-pub trait EscapeTime: Field<Value = Dwell> {
+pub trait EscapeTime: Symmetric<Value = Dwell> {
     /// What an orbit belongs to: a point of the plane, or in a deep view the column and row of a pixel.
     type Point: Copy;
     /// The points of a part of a row.
@@ -32,8 +32,6 @@ pub trait EscapeTime: Field<Value = Dwell> {
     fn period_at(&self, point: Self::Point) -> Period;
     /// The distance of two neighbouring pixels: `mantissa 2^exponent`, the mantissa at least `2^28`.
     fn pitch(&self) -> (u32, i32);
-    /// The row above this one that shows the conjugate points, and has the same dwells to the last bit.
-    fn mirror_image(&self, row: u32) -> Option<u32>;
     /// The same picture, moved by whole pixels to the right and up.
     ///
     /// # Errors

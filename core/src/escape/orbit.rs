@@ -14,6 +14,7 @@ use super::view::Line;
 use super::{Complex, Dwell, Julia, Mandelbrot};
 use crate::Error;
 use crate::num::Wide;
+use crate::picture::Symmetric;
 
 /// The orbit of a point: where it starts, the constant, and how it is rounded: as where the dwell is counted.
 #[derive(Debug, Clone, Copy)]
@@ -85,6 +86,13 @@ fn beyond(z: Complex<Wide>, c: Complex<Wide>, gain: Block) -> Ending {
 
 macro_rules! escape_time {
     ($($picture:ty, gain: $gain:ident;)*) => {$(
+        impl Symmetric for $picture {
+            fn mirror_image(&self, row: u32) -> Option<u32> {
+                // conjugate points have the same dwell where the constant is conjugate too
+                self.view().mirror_image(row).filter(|_| Block::<i32>::$gain == Block::<i32>::ONE)
+            }
+        }
+
         impl EscapeTime for $picture {
             type Point = Complex<Wide>;
             type Line = Line;
@@ -119,11 +127,6 @@ macro_rules! escape_time {
                 // at least 2^19 units
                 let pitch = Block::<i32>::new(self.view().pitch().to_bits(), 0, -(Wide::FRAC_NBITS as i32));
                 (pitch.re.unsigned_abs(), pitch.exponent)
-            }
-
-            fn mirror_image(&self, row: u32) -> Option<u32> {
-                // conjugate points have the same dwell where the constant is conjugate too
-                self.view().mirror_image(row).filter(|_| Block::<i32>::$gain == Block::<i32>::ONE)
             }
 
             fn panned(self, right: i32, up: i32) -> Result<Self, Error> {

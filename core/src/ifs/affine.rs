@@ -219,7 +219,6 @@ pub(super) const fn ratio(numerator: i32, denominator: i32, fraction: u32) -> i3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ifs::catalogue;
     use rand_xoshiro::Xoshiro128PlusPlus;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
 

@@ -171,7 +171,9 @@ mod tests {
                     [map.a.to_bits(), map.b.to_bits(), map.e.to_bits()],
                     [map.c.to_bits(), map.d.to_bits(), map.f.to_bits()],
                 ];
-                rows.map(|row| agree(row, [p.x.to_bits(), p.y.to_bits()]));
+                for row in rows {
+                    agree(row, [p.x.to_bits(), p.y.to_bits()]);
+                }
             }
         }
     }
