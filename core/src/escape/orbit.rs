@@ -3,8 +3,8 @@
 use core::ops::Range;
 
 use super::block::Block;
-use super::cycle::{self, Path};
-use super::dwell::{FRACTION, Fine, Step, Word, is_beyond};
+use super::cycle::{self, Path, Size};
+use super::dwell::{FOUR, FRACTION, Fine, Step, Word, is_beyond};
 use super::escape_time::{Ending, EscapeTime, Steps, follow};
 use super::interior;
 use super::period::Period;
@@ -13,7 +13,7 @@ use super::upper::Upper;
 use super::view::Line;
 use super::{Complex, Dwell, Julia, Mandelbrot};
 use crate::Error;
-use crate::num::Wide;
+use crate::num::{Wide, product};
 use crate::picture::Symmetric;
 
 /// The orbit of a point: where it starts, the constant, and how it is rounded: as where the dwell is counted.
@@ -40,19 +40,59 @@ impl Steps for Orbit {
     }
 }
 
+/// `|z|^2` with 58 fractional bits.
+impl Size for u64 {
+    #[inline(always)]
+    fn is_below(self, other: Self) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn reached(self) -> (u32, i32) {
+        ((self >> 32) as u32, 32 - 2 * FRACTION as i32)
+    }
+}
+
+#[inline(always)]
+fn square((x, y): (i32, i32)) -> u64 {
+    // each at most 2^62
+    product(x, x) as u64 + product(y, y) as u64
+}
+
 impl Path for Orbit {
+    type Size = u64;
+
+    #[inline]
+    fn size(&self) -> u64 {
+        square(self.z)
+    }
+
+    #[inline]
+    fn apart(&self, other: &Self) -> u64 {
+        square((self.z.0.wrapping_sub(other.z.0), self.z.1.wrapping_sub(other.z.1)))
+    }
+
     fn run(&mut self, steps: u32) -> bool {
-        (0..steps).all(|_| self.next())
+        let mut z = self.z;
+        if is_beyond(z) {
+            return false;
+        }
+        for _ in 0..steps {
+            // as `next`
+            z = Fine::step(z, self.c);
+            if square(z) > FOUR {
+                return false;
+            }
+        }
+        self.z = z;
+        true
     }
 
     #[inline]
     fn next(&mut self) -> bool {
-        if is_beyond(self.z) {
-            return false;
-        }
         // |c| <= 2: no point beyond 2 wraps into the disc but 6, at c = 2
         self.z = Fine::step(self.z, self.c);
-        !is_beyond(self.z)
+        square(self.z) <= FOUR
     }
 
     fn z(&self) -> Block {

@@ -276,6 +276,16 @@ impl<'a, N: Stored> Walk<'a, N> {
 }
 
 impl<N: Stored> Path for Walk<'_, N> {
+    type Size = Block;
+
+    fn size(&self) -> Block {
+        self.z()
+    }
+
+    fn apart(&self, other: &Self) -> Block {
+        self.off(other)
+    }
+
     fn run(&mut self, steps: u32) -> bool {
         let until = self.steps.saturating_add(steps);
         while self.steps < until {

@@ -69,7 +69,9 @@ pub use exponential::exp_minus;
 pub use limbs::Limbs;
 pub use logarithm::log2;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, part_of, times, twice_high};
-pub(crate) use product::{high, high_of_double, high_of_square, product, product_by_short, product_u};
+pub(crate) use product::{
+    high, high_of_double, high_of_square, high_u, product, product_by_short, product_u,
+};
 pub(crate) use quotient::{nth, quotient, ratio};
 pub use random::Alias;
 pub(crate) use root::root_and_reciprocal;
