@@ -13,7 +13,7 @@ use attractor::ifs::Ifs;
 use attractor::ifs::catalogue::BARNSLEY_FERN;
 use attractor::num::Complex;
 use attractor::num::{Angle, Real, Wide, sin_cos};
-use attractor::plane::{Bounds2, Field, Point2, Window, along};
+use attractor::plane::{Bounds2, Field, Point2, Symmetric, Window, along};
 use attractor::trace::RayCaster;
 use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
@@ -118,7 +118,7 @@ const OWN: &[Scene] = &[
     mono("waves", waves::<BinaryColor>),
     colour("mandelbrot", |stage| escape::mandelbrot::<Rgb565>(stage, CourseUnit)),
     mono("mandelbrot", |stage| escape::mandelbrot::<BinaryColor>(stage, Inside::new(Lifted(Grey), Rgb888::WHITE))),
-    Scene { size: Size::new(640, 480), ..roomy(colour("mandelbrot rp2040", rp2040::<Rgb565>)) },
+    Scene { size: Rp2040::SIZE, ..roomy(colour("mandelbrot rp2040", rp2040::<Rgb565>)) },
     colour("julia", |stage| escape::julia::<Rgb565>(stage, Rgb888::BLACK)),
     mono("julia", |stage| escape::julia::<BinaryColor>(stage, Rgb888::WHITE)),
     colour("dendrite", escape::dendrite::<Rgb565>),
@@ -177,13 +177,28 @@ pub(crate) fn field<C: Colour + Ink, F: Field, P: Palette<F::Value>>(
 }
 
 /// The frame that was published for the RP2040: `c = (-2 + 3 i / 640, 1 - 2 j / 480)`, at most 1000 iterations. Its pixels are not square.
-struct Rp2040(Mandelbrot);
+pub(crate) struct Rp2040(Mandelbrot);
+
+impl Rp2040 {
+    pub(crate) const SIZE: Size = Size::new(640, 480);
+
+    pub(crate) fn new() -> Result<Self, attractor::Error> {
+        Ok(Self(Mandelbrot::new(View::home(Self::SIZE)?, 1000)?))
+    }
+}
+
+impl Symmetric for Rp2040 {
+    /// `1 - 2 j / 480` is 0 in row 240; quotients are cut towards 0.
+    fn mirror_image(&self, row: u32) -> Option<u32> {
+        480_u32.checked_sub(row).filter(|image| *image < row)
+    }
+}
 
 impl Field for Rp2040 {
     type Value = Dwell;
 
     fn size(&self) -> Size {
-        Size::new(640, 480)
+        Self::SIZE
     }
 
     fn at(&self, x: u32, y: u32) -> Dwell {
@@ -240,14 +255,14 @@ impl ExactSizeIterator for Abscissae {}
 impl FusedIterator for Abscissae {}
 
 fn rp2040<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
-    let set = Mandelbrot::new(View::home(stage.size())?, 1000)?;
     // no palette: the frame's cost is the dwell's
-    field::<C, _, _>(
-        stage,
-        Rp2040(set),
-        |dwell: Dwell| Rgb888::new(dwell.count as u8, 0, dwell.is_inside() as u8),
-        0,
-    )
+    let picture = Picture::<_, _, C>::new(Rp2040::new()?, |dwell: Dwell| {
+        Rgb888::new(dwell.count as u8, 0, dwell.is_inside() as u8)
+    });
+    let mut row = [Rgb888::BLACK; Rp2040::SIZE.width as usize];
+    let bytes = size_of_val(&picture) + size_of_val(&row);
+    let mirrored = picture.mirrored(&mut row)?;
+    stage.show(&Image::new(&mirrored, Point::zero()), size_of_val(&mirrored) + bytes)
 }
 
 fn fern<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {

@@ -107,14 +107,19 @@ impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
         }
         let end = x.end.min(size.width);
         let start = x.start.min(end);
-        let Point { x: left, y: top } = self.dither_origin;
         Some(Colors {
             values: self.field.row(y, start..end),
             remaining: end - start,
             palette: &self.palette,
-            at: Point::new((start as i32).wrapping_sub(left), (y as i32).wrapping_sub(top)),
+            at: self.dithered_at(Point::new(start as i32, y as i32)),
             color: PhantomData,
         })
+    }
+
+    /// Where the dither matrix has the pixel `p`.
+    pub(super) fn dithered_at(&self, p: Point) -> Point {
+        let Point { x: left, y: top } = self.dither_origin;
+        Point::new(p.x.wrapping_sub(left), p.y.wrapping_sub(top))
     }
 
     /// The columns and the rows that a target shows of the picture at its origin; either may be empty.

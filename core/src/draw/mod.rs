@@ -7,6 +7,7 @@
 //! | points | [`Dots`], [`ColoredDots`] | `draw_iter`; a portion a tick by [`Dots::draw_once`] |
 //! | path | [`Stroke`] | clipped, then `draw_iter` |
 //! | field | [`Picture`] | one `fill_contiguous` a row, no buffer; a row a tick by [`RowCursor`] |
+//! | field, symmetric in a row | [`Mirrored`] | the same rows, one of each pair computed, in a lent row |
 //! | field, for a driver of one's own | [`Strips`] | a lent line buffer: colours, bytes, words, packed bits |
 //!
 //! Colour has two halves. A [`Palette`] turns a value into a display-independent colour, [`Ink`] turns that colour into what one display
@@ -53,6 +54,7 @@ mod image;
 mod ink;
 mod level;
 mod line;
+mod mirrored;
 mod mono;
 mod packing;
 mod palette;
@@ -71,6 +73,7 @@ pub use gradient::Gradient;
 pub use image::Picture;
 pub use ink::{Ink, bayer, dithered, luma};
 pub use level::{Level, Leveled};
+pub use mirrored::Mirrored;
 pub use mono::{Inverted, Luminance};
 pub use packing::{Lines, LsbPages, MsbRows, Packing, PixelBytes, PixelWords};
 pub use palette::{CourseUnit, Grey, Inside, Lifted, Palette, hex};

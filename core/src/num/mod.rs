@@ -71,7 +71,9 @@ pub use decimal::limbs_for;
 pub use exponential::exp_minus;
 pub use limbs::Limbs;
 pub use logarithm::log2;
-pub(crate) use product::{high, high_of_double, high_of_square, product, product_by_short, product_u};
+pub(crate) use product::{
+    high, high_of_double, high_of_square, high_u, product, product_by_short, product_u,
+};
 pub(crate) use quotient::{nth, quotient, ratio};
 pub(crate) use random_function::magnitudes;
 pub use random_function::{Deviate, Parameter, RandomFunction};
@@ -81,8 +83,8 @@ pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;
 pub(crate) use vector::{square, unit};
-pub(crate) use wide::{mul_high_short, scaled};
 pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};
+pub(crate) use wide::{mul_high_short, scaled};
 
 /// Coordinates, heights, distances: 24 fractional bits, `-128 .. 128`.
 pub type Real = fixed::types::I8F24;

@@ -73,6 +73,20 @@ impl<F: Field> Field for &F {
     }
 }
 
+/// A field some rows of which are the same: those at the same distance above and below an axis.
+pub trait Symmetric: Field {
+    /// The row above this one that has the same values, to the last bit; none where there is none.
+    ///
+    /// Images of successive rows are successive: where `row` has one, that of `row - 1`, if any, is the next below it.
+    fn mirror_image(&self, row: u32) -> Option<u32>;
+}
+
+impl<F: Symmetric> Symmetric for &F {
+    fn mirror_image(&self, row: u32) -> Option<u32> {
+        (**self).mirror_image(row)
+    }
+}
+
 /// What of a range of columns lies inside a picture.
 #[inline]
 pub(crate) fn inside(columns: Range<u32>, width: u32) -> Range<u32> {

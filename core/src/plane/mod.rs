@@ -24,7 +24,7 @@ mod window;
 
 pub use density::{Counter, Density, Hits, Toned};
 pub(crate) use field::inside;
-pub use field::{Field, along};
+pub use field::{Field, Symmetric, along};
 pub use from_fn::{FromFn, from_fn};
 pub use path::PathElement;
 pub use point::{Bounds2, Point2};

@@ -22,7 +22,7 @@ use attractor::trace::{
 use attractor::{Error, draw};
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::image::{GetPixel, Image};
-use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565};
+use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565, Rgb888};
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 
@@ -80,6 +80,9 @@ fn colorings<P: EscapeTime + Copy>(picture: P, point: P::Point) -> Result<(), Er
     let mut below = [0; 100];
     let palette = draw::Equalised::new(&smooth, &mut below, gradients::FIRE)?;
     bb((palette.level(bb(3)), picture.pitch(), picture.mirror_image(bb(3))));
+    let shown = Picture::<_, _, BinaryColor>::new(picture, CourseUnit);
+    let mut line = [Rgb888::BLACK; 240];
+    let Ok(()) = Image::new(&shown.mirrored(bb(&mut line[..]))?, bb(Point::zero())).draw(&mut Wire::new());
     Ok(())
 }
 

@@ -3,15 +3,23 @@
 //! The points lie near the edge of the set, escape, and do so after 200 to 999 iterations: neither the interior tests nor a period
 //! shortens the work, so that what is counted are iterations. The set-up finds them; it is not counted.
 
+use core::convert::Infallible;
 use core::hint::black_box;
 
 use attractor::Error;
-use attractor::escape::{Arithmetic, Mandelbrot, View};
+use attractor::draw::Picture;
+use attractor::escape::{Arithmetic, Dwell, Mandelbrot, View};
 use attractor::num::Complex;
 use attractor::num::Wide;
-use embedded_graphics::geometry::Size;
+use embedded_graphics::Pixel;
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::{OriginDimensions, Size};
+use embedded_graphics::image::ImageDrawable;
+use embedded_graphics::pixelcolor::{IntoStorage, Rgb565, Rgb888, RgbColor};
+use embedded_graphics::primitives::Rectangle;
 
 use super::{Tally, Watch};
+use crate::scenes::Rp2040;
 
 const MAX: u32 = 1000;
 const POINTS: usize = 32;
@@ -117,9 +125,53 @@ pub(super) fn plain_f32(watch: &mut Watch<'_>) -> Tally {
 
 plain!(plain_f64, f64);
 
+/// A display that keeps the sum of its colours alone.
+struct Sum(u32);
+
+impl OriginDimensions for Sum {
+    fn size(&self) -> Size {
+        Rp2040::SIZE
+    }
+}
+
+impl DrawTarget for Sum {
+    type Color = Rgb565;
+    type Error = Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb565>>>(&mut self, pixels: I) -> Result<(), Infallible> {
+        let area = Rectangle::default();
+        self.fill_contiguous(&area, pixels.into_iter().map(|Pixel(_, color)| color))
+    }
+
+    fn fill_contiguous<I>(&mut self, _: &Rectangle, colors: I) -> Result<(), Infallible>
+    where
+        I: IntoIterator<Item = Rgb565>,
+    {
+        let add = |sum: u32, color: Rgb565| sum.wrapping_add(u32::from(color.into_storage()));
+        self.0 = colors.into_iter().fold(self.0, add);
+        Ok(())
+    }
+}
+
+/// The frame that was published for the RP2040, the half below its axis computed; the scene `mandelbrot rp2040`.
+#[inline(never)]
+pub(super) fn rp2040(watch: &mut Watch<'_>) -> Tally {
+    let Ok(frame) = Rp2040::new() else { return Tally::default() };
+    let color = |dwell: Dwell| Rgb888::new(dwell.count as u8, 0, dwell.is_inside() as u8);
+    let picture = Picture::<_, _, Rgb565>::new(frame, color);
+    let mut row = [Rgb888::BLACK; Rp2040::SIZE.width as usize];
+    let Ok(mirrored) = picture.mirrored(&mut row) else { return Tally::default() };
+    watch.time(|| {
+        let mut sum = Sum(0);
+        let Ok(()) = mirrored.draw(&mut sum);
+        Tally { checksum: sum.0, units: 1 }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use attractor::plane::{Field, Symmetric};
 
     #[test]
     fn the_grid_has_enough_points_with_long_orbits() {
@@ -137,5 +189,15 @@ mod tests {
         for other in [units(coarse), units(plain_f32), units(plain_f64)] {
             assert!(other.abs_diff(fixed) < fixed / 8, "{other} against {fixed}");
         }
+    }
+
+    #[test]
+    fn the_frame_has_the_same_pixels_without_the_mirror() {
+        let frame = Rp2040::new().unwrap();
+        let row = |y: u32| frame.row(y, 0..640).collect::<std::vec::Vec<_>>();
+        for y in [241, 242, 300, 479] {
+            assert_eq!(row(y), row(frame.mirror_image(y).unwrap()), "{y}");
+        }
+        assert!([0, 1, 240].iter().all(|y| frame.mirror_image(*y).is_none()));
     }
 }

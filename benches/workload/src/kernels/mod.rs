@@ -158,6 +158,7 @@ const TABLE: &[Kernel] = &[
     beside("exp_minus", "call", num::exp_minus_fixed, num::exp_minus_f32, num::exp_minus_f64),
     beside("dwell fine", "iteration", escape::fine, escape::plain_f32, escape::plain_f64),
     beside("dwell coarse", "iteration", escape::coarse, escape::plain_f32, escape::plain_f64),
+    roomy(alone("RP2040 frame", "frame of 640x480 at 1000", escape::rp2040)),
     Kernel { f32: None, ..beside("dwell 64", "iteration", deep::word64, escape::plain_f32, escape::plain_f64) },
     alone("dwell 128", "iteration", deep::word128),
     roomy(alone("perturbed", "step", deep::perturbed)),

@@ -180,7 +180,7 @@ mod tests {
     /// A distance of more pixels than the format holds is its greatest.
     #[test]
     fn a_distance_beyond_the_format_is_saturated() {
-        use crate::escape::Complex;
+        use crate::num::Complex;
         use crate::num::Wide;
         let point = |x: f64, y: f64| Complex::new(Wide::from_num(x), Wide::from_num(y));
         let (mut held, mut saturated) = (0, 0);

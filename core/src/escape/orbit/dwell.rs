@@ -29,7 +29,7 @@ pub(crate) const FRACTION: u32 = 29;
 /// `4 - 2^-24` would do.)
 const NEAR: u32 = 0x0ff0_0000;
 /// `2^2` with 58 fractional bits.
-const FOUR: u64 = 1 << (2 + 2 * FRACTION);
+pub(super) const FOUR: u64 = 1 << (2 + 2 * FRACTION);
 
 /// How a step rounds its products.
 pub(crate) trait Rounding {

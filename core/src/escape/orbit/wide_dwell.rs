@@ -54,6 +54,16 @@ impl<W: WideWord> Steps for WideOrbit<W> {
 }
 
 impl<W: WideWord> Path for WideOrbit<W> {
+    type Size = BlockFloat;
+
+    fn size(&self) -> BlockFloat {
+        W::block(self.z)
+    }
+
+    fn apart(&self, other: &Self) -> BlockFloat {
+        self.off(other)
+    }
+
     fn run(&mut self, steps: u32) -> bool {
         (0..steps).all(|_| self.next())
     }

@@ -3,13 +3,13 @@
 use crate::escape::orbit::arithmetic::Arithmetic;
 use crate::escape::orbit::block_float::BlockFloat;
 use crate::escape::orbit::cardioid;
-use crate::escape::orbit::cycle::{self, Path};
-use crate::escape::orbit::dwell::{FRACTION, Fine, Point29, Rounding, is_beyond};
+use crate::escape::orbit::cycle::{self, Path, Size};
+use crate::escape::orbit::dwell::{FOUR, FRACTION, Fine, Point29, Rounding, is_beyond};
 use crate::escape::orbit::ending::{Ending, Steps, follow};
 use crate::escape::orbit::upper::Upper;
 use crate::escape::value::Dwell;
-use crate::num::Complex;
 use crate::num::Wide;
+use crate::num::{Complex, product};
 
 /// The orbit of a point: where it starts, the constant, and how it is rounded: as where the dwell is counted.
 #[derive(Debug, Clone, Copy)]
@@ -35,19 +35,59 @@ impl Steps for WordOrbit {
     }
 }
 
+/// `|z|^2` with 58 fractional bits.
+impl Size for u64 {
+    #[inline(always)]
+    fn is_below(self, other: Self) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn reached(self) -> (u32, i32) {
+        ((self >> 32) as u32, 32 - 2 * FRACTION as i32)
+    }
+}
+
+#[inline(always)]
+fn square((x, y): (i32, i32)) -> u64 {
+    // each at most 2^62
+    product(x, x) as u64 + product(y, y) as u64
+}
+
 impl Path for WordOrbit {
+    type Size = u64;
+
+    #[inline]
+    fn size(&self) -> u64 {
+        square(self.z)
+    }
+
+    #[inline]
+    fn apart(&self, other: &Self) -> u64 {
+        square((self.z.0.wrapping_sub(other.z.0), self.z.1.wrapping_sub(other.z.1)))
+    }
+
     fn run(&mut self, steps: u32) -> bool {
-        (0..steps).all(|_| self.next())
+        let mut z = self.z;
+        if is_beyond(z) {
+            return false;
+        }
+        for _ in 0..steps {
+            // as `next`
+            z = Fine::step(z, self.c);
+            if square(z) > FOUR {
+                return false;
+            }
+        }
+        self.z = z;
+        true
     }
 
     #[inline]
     fn next(&mut self) -> bool {
-        if is_beyond(self.z) {
-            return false;
-        }
         // |c| <= 2: no point beyond 2 wraps into the disc but 6, at c = 2
         self.z = Fine::step(self.z, self.c);
-        !is_beyond(self.z)
+        square(self.z) <= FOUR
     }
 
     fn z(&self) -> BlockFloat {

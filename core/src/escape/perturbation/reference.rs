@@ -277,6 +277,16 @@ impl<'a, N: Stored> Walk<'a, N> {
 }
 
 impl<N: Stored> Path for Walk<'_, N> {
+    type Size = BlockFloat;
+
+    fn size(&self) -> BlockFloat {
+        self.z()
+    }
+
+    fn apart(&self, other: &Self) -> BlockFloat {
+        self.off(other)
+    }
+
     fn run(&mut self, steps: u32) -> bool {
         let until = self.steps.saturating_add(steps);
         while self.steps < until {

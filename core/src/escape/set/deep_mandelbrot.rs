@@ -17,7 +17,7 @@ use crate::escape::value::checked_max;
 use crate::escape::view::deep::DeepView;
 use crate::num::Complex;
 use crate::num::Limbs;
-use crate::plane::Field;
+use crate::plane::{Field, Symmetric};
 
 /// The dwell at every pixel of a deep view.
 ///
@@ -274,6 +274,12 @@ enum Orbits<'a> {
     PerturbedLong(Reference<'a, BlockFloat<i64>>),
 }
 
+impl<const LIMBS: usize> Symmetric for DeepMandelbrot<'_, LIMBS> {
+    fn mirror_image(&self, row: u32) -> Option<u32> {
+        self.view.mirror_image(row)
+    }
+}
+
 impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
     /// Column and row.
     type Point = (u32, u32);
@@ -316,10 +322,6 @@ impl<const LIMBS: usize> EscapeTime for DeepMandelbrot<'_, LIMBS> {
     fn pitch(&self) -> (u32, i32) {
         let pitch = self.view.pitch_block().short();
         (pitch.re.unsigned_abs(), pitch.exponent)
-    }
-
-    fn mirror_image(&self, row: u32) -> Option<u32> {
-        self.view.mirror_image(row)
     }
 }
 

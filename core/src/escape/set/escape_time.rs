@@ -6,11 +6,11 @@ use core::ops::Range;
 use crate::Error;
 use crate::escape::orbit::ending::Ending;
 use crate::escape::value::{Dwell, Period};
-use crate::plane::{Field, along, inside};
+use crate::plane::{Symmetric, along, inside};
 
 /// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`](crate::escape::Mandelbrot), [`Julia`](crate::escape::Julia) and
 /// [`DeepMandelbrot`](crate::escape::DeepMandelbrot).
-pub trait EscapeTime: Field<Value = Dwell> {
+pub trait EscapeTime: Symmetric<Value = Dwell> {
     /// What an orbit belongs to: a point of the plane, or in a deep view the column and row of a pixel.
     type Point: Copy;
 
@@ -36,8 +36,6 @@ pub trait EscapeTime: Field<Value = Dwell> {
     fn period_at(&self, point: Self::Point) -> Option<Period>;
     /// The distance of two neighbouring pixels: `mantissa 2^exponent`, the mantissa at least `2^28`.
     fn pitch(&self) -> (u32, i32);
-    /// The row above this one that shows the conjugate points, and has the same dwells to the last bit.
-    fn mirror_image(&self, row: u32) -> Option<u32>;
 }
 
 impl<P: EscapeTime> EscapeTime for &P {
@@ -76,10 +74,6 @@ impl<P: EscapeTime> EscapeTime for &P {
 
     fn pitch(&self) -> (u32, i32) {
         (**self).pitch()
-    }
-
-    fn mirror_image(&self, row: u32) -> Option<u32> {
-        (**self).mirror_image(row)
     }
 }
 

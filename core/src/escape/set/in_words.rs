@@ -12,9 +12,17 @@ use crate::escape::orbit::ending::Ending;
 use crate::escape::orbit::word_orbit;
 use crate::escape::value::{Dwell, Period};
 use crate::num::{Complex, Wide};
+use crate::plane::Symmetric;
 
 macro_rules! escape_time {
     ($($picture:ty, gain: $gain:ident;)*) => {$(
+        impl Symmetric for $picture {
+            fn mirror_image(&self, row: u32) -> Option<u32> {
+                // conjugate points have the same dwell where the constant is conjugate too
+                self.view().mirror_image(row).filter(|_| BlockFloat::<i32>::$gain == BlockFloat::<i32>::ONE)
+            }
+        }
+
         impl EscapeTime for $picture {
             type Point = Complex<Wide>;
 
@@ -57,11 +65,6 @@ macro_rules! escape_time {
                 // at least 2^19 units
                 let pitch = BlockFloat::<i32>::new(self.view().pitch().to_bits(), 0, -(Wide::FRAC_NBITS as i32));
                 (pitch.re.unsigned_abs(), pitch.exponent)
-            }
-
-            fn mirror_image(&self, row: u32) -> Option<u32> {
-                // conjugate points have the same dwell where the constant is conjugate too
-                self.view().mirror_image(row).filter(|_| BlockFloat::<i32>::$gain == BlockFloat::<i32>::ONE)
             }
         }
 
