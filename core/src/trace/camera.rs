@@ -192,7 +192,7 @@ mod tests {
             camera([0; 3], up, 40 * degree)
         };
         let refused = Err(Error::Degenerate { what: "angle between view and up" });
-        assert_eq!([leaning(1023), leaning(1025), leaning(-1023)], [Ok(()), refused.clone(), Ok(())]);
+        assert_eq!([leaning(1023), leaning(1025), leaning(-1023)], [Ok(()), refused, Ok(())]);
         assert_eq!(camera([0; 3], at(0, 0, 1), 40 * degree), refused);
         assert_eq!(camera([0; 3], at(0, 0, 0), 40 * degree), Err(Error::Degenerate { what: "up" }));
         let there = Camera::new(at(1, 2, 3), at(1, 2, 3), at(0, 0, 1), Real::from_num(40)).map(|_| ());

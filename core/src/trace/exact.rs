@@ -95,9 +95,9 @@ impl Surface {
             if k % 8 == 7 {
                 // 1/64 to 1/16 along the surface, 4 up or down, 6 to 14 before the target
                 let sign = |i: usize| if direction[i] < 0 { -1 } else { 1 };
-                let t = (6 << 24) + (eye[2] & (1 << 27) - 1);
+                let t = (6 << 24) + (eye[2] & ((1 << 27) - 1));
                 direction = [0, 1, 2].map(|i| {
-                    let along = (1 << 22) + (eye[i] & (1 << 24) - (1 << 22));
+                    let along = (1 << 22) + (eye[i] & ((1 << 24) - (1 << 22)));
                     sign(i) * if i == 2 { (1 << 30) - along } else { along }
                 });
                 eye = [0, 1, 2].map(|i| target[i] - ((i64::from(direction[i]) * i64::from(t)) >> 28) as i32);
@@ -222,7 +222,7 @@ impl Search<'_> {
         let products = products.as_flattened();
         let (low, high) = (products.iter().min().unwrap(), products.iter().max().unwrap());
         let [a, b] =
-            node.span.map(|t| Fraction((self.origin[2] << 8) * t.1 + (self.direction[2] * t.0 >> 4), t.1));
+            node.span.map(|t| Fraction((self.origin[2] << 8) * t.1 + ((self.direction[2] * t.0) >> 4), t.1));
         let (low, high) = (Fraction(*low, 1), Fraction(*high, 1));
         let (least, most) = (a.min(b), a.max(b));
         self.truth.is_close |= least.is_within(SLACK << 24, high) || most.is_within(SLACK << 24, low);
@@ -247,7 +247,7 @@ impl Search<'_> {
         self.truth.unfinished = self.truth.unfinished.max(around + 1);
         let parts = |axis: usize, profile: &Profile<'_>| -> Vec<[i128; 2]> {
             let [low, high] = node.ends[axis];
-            let planes = profile.starts.iter().map(|s| low + ((high - low) * i128::from(*s) >> 31));
+            let planes = profile.starts.iter().map(|s| low + (((high - low) * i128::from(*s)) >> 31));
             let planes: Vec<_> = planes.chain([high]).collect();
             planes.windows(2).map(|w| [w[0], w[1]]).collect()
         };

@@ -345,7 +345,7 @@ mod tests {
             assert_eq!((whole.node, whole.low, whole.width), (0, low, width));
             let plane = |k: usize| {
                 let start = THIRDS.get(k).map_or(1 << 31, |start| i64::from(*start));
-                i64::from(low) + (start * i64::from(width) >> 31)
+                i64::from(low) + ((start * i64::from(width)) >> 31)
             };
             for direction in [1, -1] {
                 let before = if direction > 0 { low - 1 } else { low + width + 1 };

@@ -242,9 +242,9 @@ mod tests {
         let (mut worst, mut tried) = (0, 0);
         for k in 0..4000 {
             // directions from 15/16 of a power of 2 to that power, planes where the parameter is near 128
-            let direction = (1 << 28) - (word() >> 40) as i32;
-            let direction = if k % 2 == 0 { direction >> 1 } else { -direction };
-            let plane = (i64::from(direction) * 127 >> 4) as i32;
+            let direction = (1 << 27) - (word() >> 41) as i32;
+            let direction = if k % 2 == 0 { direction } else { -direction };
+            let plane = ((i64::from(direction) * 127) >> 4) as i32;
             let over = i128::from(plane) << 28;
             let got = i128::from(Axis::new(0, direction).crossing(plane));
             if !(1..=64 << 24).contains(&plane.abs()) {

@@ -358,7 +358,7 @@ mod tests {
                 let (a, b) = (half(x, dx) - (cols << 24), (rows << 24) - half(y, dy));
                 let under = rows << 54;
                 for i in 0..3 {
-                    let exact = (w[i] * rows << 52) + a * k * r[i] + b * k * u[i];
+                    let exact = ((w[i] * rows) << 52) + a * k * r[i] + b * k * u[i];
                     // in thousandths of a unit
                     worst = worst.max(((i128::from(got[i]) * under - exact).abs() * 1000) / under);
                     tried += 1;
