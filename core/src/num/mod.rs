@@ -76,8 +76,8 @@ pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;
 pub(crate) use vector::{square, unit};
-pub(crate) use wide::{mul_high_short, scaled};
 pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};
+pub(crate) use wide::{mul_high_short, scaled};
 
 /// Coordinates, heights, distances: 24 fractional bits, `-128 .. 128`.
 pub type Real = fixed::types::I8F24;
