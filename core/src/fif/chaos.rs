@@ -8,16 +8,18 @@
 use rand_core::Rng;
 
 use super::function::Fif;
-use super::map::Map;
-use super::polynomial::twice_high;
+use super::map::{Map, first_step, map_at};
+use super::polynomial::{by_scaling, part_by_width};
 use super::value::FRACTION;
-use crate::num::{Real, mul_high_u, real_from};
+use crate::num::{Real, real_from};
 use crate::plane::Point2;
 
 /// An endless iterator of points of the graph; `x` is the unit abscissa in `[0, 1]`.
 #[derive(Debug, Clone)]
 pub struct ChaosGame<'a, R, const D: usize> {
     maps: &'a [Map<D>],
+    /// How a search among them begins.
+    step: usize,
     rng: R,
     u: u64,
     y: i64,
@@ -38,7 +40,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// # Ok::<(), attractor::Error>(())
     /// ```
     pub fn chaos_game<R: Rng>(&self, rng: R) -> ChaosGame<'_, R, D> {
-        ChaosGame { maps: &self.maps, rng, u: 0, y: self.first }
+        ChaosGame { maps: &self.maps, step: first_step(self.maps.len()), rng, u: 0, y: self.first }
     }
 }
 
@@ -47,10 +49,10 @@ impl<R: Rng, const D: usize> Iterator for ChaosGame<'_, R, D> {
 
     fn next(&mut self) -> Option<Point2> {
         let place = u64::from(self.rng.next_u32()) << 31;
-        let index = self.maps.partition_point(|m| m.start <= place).saturating_sub(1);
-        let map = self.maps.get(index)?;
-        self.y = map.q.at(self.u).wrapping_add(twice_high(self.y, map.scaling));
-        self.u = map.start.wrapping_add(mul_high_u(self.u << 1, map.width));
+        let map = map_at(self.maps, self.step, place)?;
+        // u < 1: parts are rounded down
+        self.y = map.q.before_end(self.u).wrapping_add(by_scaling(self.y, map.scaling));
+        self.u = map.start.wrapping_add(part_by_width(self.u, map.width));
         Some(Point2::new(Real::from_bits((self.u >> 39) as i32), real_from(self.y, FRACTION)))
     }
 

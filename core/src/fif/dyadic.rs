@@ -5,15 +5,13 @@
 //! `y <- alpha_j y + q_j(u)`, `u <- (j + u) / N`: no polynomial is composed, and each step contracts the error of the last. Words have as many fractional bits
 //! as the range of the function allows (24 to 30), products add up in 64 bits and are rounded once a level.
 
-use core::num::NonZeroU32;
-
 use heapless::Vec;
 
 use super::compose::Composite;
 use super::error::up;
 use super::function::Fif;
 use super::value::{FRACTION, ONE};
-use crate::num::{Angle, Real, mul_high_u, product, ratio, real_from, round_shift};
+use crate::num::{Angle, Real, mul_high_u, product, ratio, round_shift};
 
 /// One map in 32-bit words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,8 +39,9 @@ struct Words<const D: usize> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dyadic<const M: usize, const D: usize = 1> {
     maps: Vec<Words<D>, M>,
-    /// Bits a step.
-    bits: NonZeroU32,
+    /// Bits a step, and `2^9` over that, rounded up.
+    bits: u32,
+    per_bits: u32,
     /// Fractional bits of a word.
     fraction: u32,
     first: i32,
@@ -144,7 +143,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let _ = maps.push(words);
         }
         let error = errors.bound(D as u64 + 1, digits as u64);
-        Some(Dyadic { maps, bits: NonZeroU32::new(bits)?, fraction, first: word(self.first), error })
+        Some(Dyadic { maps, bits, per_bits: per_bits(bits), fraction, first: word(self.first), error })
     }
 }
 
@@ -155,7 +154,7 @@ impl<const M: usize, const D: usize> Dyadic<M, D> {
     /// (kernel `fif dyadic level`) a level for degree 1; as many levels as `u` has digits before its trailing zeros.
     #[inline]
     pub fn at(&self, u: Angle) -> Real {
-        real_from(i64::from(self.word(u.to_bits())), self.fraction)
+        real(self.word(u.to_bits()), self.fraction)
     }
 
     /// A bound on the error of [`Dyadic::at`] for the maps of the function as it was compiled, scalings of 31 bits among them, rounded up: over
@@ -167,9 +166,9 @@ impl<const M: usize, const D: usize> Dyadic<M, D> {
 
     #[inline]
     fn word(&self, u: u32) -> i32 {
-        let bits = self.bits.get();
+        let bits = self.bits;
         // digits up to the last that is not 0; the rest of the address stays on the first knot
-        let mut left = (32 + bits - 1 - u.trailing_zeros()) / self.bits;
+        let mut left = whole_part(32 + bits - 1 - u.trailing_zeros(), self.per_bits);
         // the digits, the last one lowest; where b does not divide 32 the last one is filled up with zeros
         let total = left * bits;
         let (mut digits, filled) = if total > 32 { (u, total - 32) } else { (u >> ((32 - total) & 31), 0) };
@@ -197,6 +196,27 @@ impl<const M: usize, const D: usize> Dyadic<M, D> {
         }
         y
     }
+}
+
+/// As [`crate::num::real_from`], without its 64 bits.
+#[inline(always)]
+fn real(word: i32, fraction: u32) -> Real {
+    Real::from_bits(match fraction.checked_sub(24) {
+        Some(0) => word,
+        Some(places) => (word >> (places & 31)) + ((word >> ((places - 1) & 31)) & 1),
+        None => word.saturating_mul(1 << ((24 - fraction) & 31)),
+    })
+}
+
+/// `2^9 / bits`, rounded up.
+fn per_bits(bits: u32) -> u32 {
+    512_u32.div_ceil(bits)
+}
+
+/// `n / bits`, rounded down, for `n` below 64 and at most 8 bits: a Cortex-M0 has no division.
+#[inline(always)]
+fn whole_part(n: u32, per_bits: u32) -> u32 {
+    (n * per_bits) >> 9
 }
 
 #[cfg(test)]
@@ -231,7 +251,7 @@ mod tests {
             Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.75), Scaling::from_num(-0.5)]).unwrap();
         let (one, three, four) =
             (f.dyadic::<2>().unwrap(), f.dyadic::<8>().unwrap(), f.dyadic::<16>().unwrap());
-        assert_eq!([one.bits.get(), three.bits.get(), four.bits.get()], [1, 3, 4]);
+        assert_eq!([one.bits, three.bits, four.bits], [1, 3, 4]);
         for i in 0..2000_u32 {
             let u = i.wrapping_mul(0x9e37_79b9) >> (i % 32) << (i % 32);
             let x = Wide::from_bits(i64::from(u) << 17);
@@ -242,6 +262,28 @@ mod tests {
                 (four.at(Angle::from_bits(u)), four.error_bound()),
             ] {
                 assert!((got.to_num::<f64>() - exact).abs() <= bound.to_num::<f64>(), "{u:#x}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_word_becomes_the_nearest_number() {
+        for fraction in 20..=30 {
+            for word in [i32::MIN, -0x1357_9bdf, -65, -33, -32, -8, -3, -1, 0, 1, 2, 31, 32, 96, i32::MAX] {
+                assert_eq!(
+                    real(word, fraction),
+                    crate::num::real_from(word.into(), fraction),
+                    "{word} {fraction}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn digits_are_counted_exactly() {
+        for bits in 1..=8 {
+            for n in 0..64 {
+                assert_eq!(whole_part(n, per_bits(bits)), n / bits, "{n} / {bits}");
             }
         }
     }

@@ -7,12 +7,11 @@
 //!
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
-use heapless::Vec;
-
 use super::function::Fif;
-use super::map::Map;
+use super::map::{first_step, map_at};
+use super::polynomial::by_scaling;
 use super::value::{FRACTION, ONE, wide};
-use crate::num::{Real, Wide, mul_high, mul_high_short, ratio, real_from};
+use crate::num::{Real, Wide, mul_high, ratio, real_from};
 
 /// A product of horizontal factors counts as 0 when 1 has been halved so often (24 fractional bits).
 const VANISHED: i32 = 63 << 24;
@@ -28,28 +27,6 @@ fn is_negligible(scaling: i64) -> bool {
 #[inline(never)]
 fn is_least(scaling: i64) -> bool {
     scaling.unsigned_abs() < 1 << 22
-}
-
-/// `a b / 2^63` as [`mul_high`] rounds it. Scalings that were given have 31 bits: half of the products are spared.
-#[inline(always)]
-fn product_of(a: i64, b: i64) -> i64 {
-    if b as u32 == 0 { mul_high_short(a, (b >> 32) as i32) << 1 } else { mul_high(a, b) << 1 }
-}
-
-/// The last map that starts at or before `u`. With room for two maps it is one comparison.
-#[inline(always)]
-fn map_at<const N: usize, const D: usize>(maps: &Vec<Map<D>, N>, u: u64) -> Option<&Map<D>> {
-    let mut found = maps.first()?;
-    let (mut index, mut step) = (0, N.next_power_of_two() / 2);
-    while step > 0 {
-        if let Some(map) = maps.get(index + step)
-            && map.start <= u
-        {
-            (found, index) = (map, index + step);
-        }
-        step /= 2;
-    }
-    Some(found)
 }
 
 impl<const N: usize, const D: usize> Fif<N, D> {
@@ -83,10 +60,10 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         // only the right end itself is 1: pre-images of what lies before it do too
         let mut levels = if u == ONE { 0 } else { self.levels };
         while u != 0 && levels != 0 && left >= 0 && !is_negligible(scaling) {
-            let Some(map) = map_at(&self.maps, u) else { break };
+            let Some(map) = map_at(&self.maps, const { first_step(N) }, u) else { break };
             u = map.per_width.quotient(u - map.start);
             sum = sum.wrapping_add(mul_high(scaling, map.q.before_end(u)));
-            scaling = product_of(scaling, map.scaling);
+            scaling = by_scaling(scaling, map.scaling);
             left -= map.per_width.halvings() as i32;
             levels -= 1;
         }

@@ -4,7 +4,7 @@
 //! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
 use super::value::ONE;
-use crate::num::{mul_high, mul_high_u, nth};
+use crate::num::{mul_high, mul_high_short, mul_high_u, nth, product_u};
 
 /// A polynomial of degree at most `D` on the unit interval, 55 fractional bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,10 +41,30 @@ pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
     mul_high(a, b) << 1
 }
 
+/// The same in walks. Scalings that were given have 31 bits: half of the products are spared.
+#[inline(always)]
+pub(crate) fn by_scaling(a: i64, scaling: i64) -> i64 {
+    if scaling as u32 == 0 {
+        mul_high_short(a, (scaling >> 32) as i32) << 1
+    } else {
+        mul_high(a, scaling) << 1
+    }
+}
+
 /// `a b`, both with 63 fractional bits, for `a` below 1. Error: below a unit, downwards (`products_are_low_by_less_than_they_say`).
 #[inline(never)]
 pub(crate) fn part_of(a: u64, b: u64) -> u64 {
     mul_high_u(a << 1, b)
+}
+
+/// The same in the chaos game. The widths of a dyadic partition have few digits: half of the products are spared.
+#[inline(always)]
+pub(crate) fn part_by_width(a: u64, width: u64) -> u64 {
+    if width as u32 != 0 {
+        return mul_high_u(a << 1, width);
+    }
+    let (twice, width) = (a << 1, (width >> 32) as u32);
+    product_u((twice >> 32) as u32, width) + (product_u(twice as u32, width) >> 32)
 }
 
 impl<const D: usize> Polynomial<D> {
@@ -221,6 +241,13 @@ mod tests {
             worst[2] = worst[2].max(missing as f64 / 2_f64.powi(63));
             assert!(missing >= 0);
             assert_eq!((times(a, ONE), part_of(part, ONE)), (a, part));
+            // walks take shorter ways for operands of 31 bits
+            for b in [b, b >> 32 << 32, -(b >> 40 << 32)] {
+                assert_eq!(by_scaling(a, b), twice_high(a, b), "{a} {b}");
+            }
+            for t in [t, t >> 32 << 32] {
+                assert_eq!(part_by_width(part, t), part_of(part, t), "{part} {t}");
+            }
         }
         assert!((1.9..2.0).contains(&worst[0]) && (1.9..2.0).contains(&worst[1]), "{worst:?}");
         assert!((0.9..1.0).contains(&worst[2]), "{worst:?}");

@@ -117,6 +117,9 @@ impl Reciprocal {
 
     /// `v / d` with 63 fractional bits for the `d` of which this is the reciprocal, rounded down, for `v < d`. Exact.
     pub(crate) fn exact(self, v: u64, d: u64) -> u64 {
+        if self.mantissa >> 63 > 0 {
+            return shifted(v, self.shift);
+        }
         // 0 counts as 1: then v = 0
         let d = d.max(1);
         let mut quotient = self.quotient(v);
@@ -171,6 +174,8 @@ mod tests {
         for a in samples {
             for b in samples {
                 assert_eq!(mul_high(a, b), ((i128::from(a) * i128::from(b)) >> 64) as i64, "{a} {b}");
+                let short = (i128::from(a) * i128::from(b as i32)) >> 32;
+                assert_eq!(i128::from(mul_high_short(a, b as i32)), short, "{a} {}", b as i32);
                 let (a, b) = (a as u64, b as u64);
                 assert_eq!(mul_high_u(a, b), ((u128::from(a) * u128::from(b)) >> 64) as u64, "{a} {b}");
             }
