@@ -63,6 +63,7 @@ mod root;
 mod trig;
 mod vector;
 mod wide;
+mod zeros;
 
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;
