@@ -71,7 +71,7 @@ pub use limbs::Limbs;
 pub use logarithm::log2;
 pub(crate) use polynomial::{FRACTION, ONE, Polynomial, part_of, times, twice_high};
 pub(crate) use product::{
-    high, high_of_double, high_of_square, high_u, product, product_by_short, product_u,
+    high, high_of_double, high_of_square, high_u, product, product_by_short, product_u, square_u,
 };
 pub(crate) use quotient::{nth, quotient, ratio};
 pub use random::Alias;

@@ -59,8 +59,8 @@ pub(crate) fn reciprocal_of(d: NonZeroU32) -> (i32, u32) {
     let seed = SEEDS[((m >> 24) & 127) as usize];
     // y with 32 fractional bits, m y and 2 - m y with 31, their product with 31; m y is within 2^-7 of 1
     let mut y = u32::from(seed) << 16;
-    y = high_u_below(y, high_u(y, m).wrapping_neg()) << 1;
-    (high_u_below(y, high_u(y, m).wrapping_neg()) as i32, zeros)
+    y = high_u(high_u(m, y).wrapping_neg(), y) << 1;
+    (high_u(high_u(m, y).wrapping_neg(), y) as i32, zeros)
 }
 
 /// `1/sqrt(v)` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
@@ -107,7 +107,12 @@ pub fn sqrt(v: u64) -> u32 {
 #[inline]
 pub(crate) fn root_and_reciprocal(v: u64) -> (u32, u32, u32) {
     let high_word = (v >> 32) as u32;
-    let places = (high_word.leading_zeros() >> 1) & 3;
+    let places = if cfg!(no_long_product) {
+        // a Cortex-M0 counts zeros by a call
+        u32::from(high_word < 1 << 30) + u32::from(high_word < 1 << 28)
+    } else {
+        (high_word.leading_zeros() >> 1) & 3
+    };
     // the low word is left to the correction
     let m = high_word << (2 * places);
     let y = newton(m);
