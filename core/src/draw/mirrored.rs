@@ -206,7 +206,9 @@ mod tests {
 
     #[test]
     fn the_mirror_changes_no_pixel_and_computes_each_pair_once() {
-        let white = |dwell: Dwell| if dwell.count % 3 == 0 { Rgb888::new(90, 90, 90) } else { Rgb888::WHITE };
+        let white = |dwell: Dwell| {
+            if dwell.count.is_multiple_of(3) { Rgb888::new(90, 90, 90) } else { Rgb888::WHITE }
+        };
         for (w, h) in [(30, 24), (31, 25), (30, 1), (1, 30), (8, 2), (32, 3)] {
             let all = Rectangle::new(Point::zero(), Size::new(w, h));
             // the image is cut by two rows below and by a column on the right

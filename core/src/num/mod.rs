@@ -64,6 +64,7 @@ mod root;
 mod trig;
 mod vector;
 mod wide;
+mod zeros;
 
 pub use alias::Alias;
 pub use complex::Complex;
@@ -72,7 +73,7 @@ pub use exponential::exp_minus;
 pub use limbs::Limbs;
 pub use logarithm::log2;
 pub(crate) use product::{
-    high, high_of_double, high_of_square, high_u, product, product_by_short, product_u,
+    high, high_of_double, high_of_square, high_u, product, product_by_short, product_u, square_u,
 };
 pub(crate) use quotient::{nth, quotient, ratio};
 pub(crate) use random_function::magnitudes;

@@ -68,6 +68,12 @@ pub(crate) fn high_u(a: u32, b: u32) -> u32 {
     if cfg!(no_long_product) { halves::high_u(a, b) } else { (whole::product_u(a, b) >> 32) as u32 }
 }
 
+/// The same for a `b` below `2^32 - 2^15`. Cost: on a Cortex-M0 2 instructions less.
+#[inline(always)]
+pub(crate) fn high_u_below(a: u32, b: u32) -> u32 {
+    if cfg!(no_long_product) { halves::high_u_below(a, b) } else { high_u(a, b) }
+}
+
 /// The upper word of `a^2`. Cost: one Cortex-M4 instruction; on a Cortex-M0 9.
 #[inline(always)]
 pub(crate) fn high_of_square(a: i32) -> i32 {
@@ -160,7 +166,19 @@ mod halves {
     /// put the call of the library back.
     #[inline(always)]
     pub(super) fn high_u(a: u32, b: u32) -> u32 {
-        let ((ah, al), (bh, bl)) = ((a >> 16, a & 0xffff), ((b >> 16) + (b >> 15 & 1), i32::from(b as i16)));
+        joined(a, ((b >> 16) + (b >> 15 & 1), i32::from(b as i16)))
+    }
+
+    /// The upper half stays below `2^16`, so that it is what is left when the lower one is taken off.
+    #[inline(always)]
+    pub(super) fn high_u_below(a: u32, b: u32) -> u32 {
+        let low = i32::from(b as i16);
+        joined(a, (b.wrapping_sub(low as u32) >> 16, low))
+    }
+
+    #[inline(always)]
+    fn joined(a: u32, (bh, bl): (u32, i32)) -> u32 {
+        let (ah, al) = (a >> 16, a & 0xffff);
         // al bl fits a signed word, and so does ah bl with what is added
         let low = (al as i32).wrapping_mul(bl) >> 16;
         let first = (ah as i32).wrapping_mul(bl).wrapping_add(low);
@@ -239,6 +257,10 @@ mod tests {
         let (a, b) = (a as u32, b as u32);
         assert_eq!(halves::product_u(a, b), whole::product_u(a, b), "{a} {b}");
         assert_eq!(u64::from(halves::high_u(a, b)), whole::product_u(a, b) >> 32, "{a} {b}");
+        if b < u32::MAX - 0x7fff {
+            assert_eq!(u64::from(halves::high_u_below(a, b)), whole::product_u(a, b) >> 32, "{a} {b}");
+            assert_eq!(super::high_u_below(a, b), halves::high_u(a, b), "{a} {b}");
+        }
         assert_eq!(halves::product_by_short(a, b as u16), whole::product_u(a, u32::from(b as u16)));
         assert_eq!(u64::from(halves::high_of_square_u(a)), whole::product_u(a, a) >> 32, "{a}");
     }

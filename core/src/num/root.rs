@@ -5,7 +5,8 @@
 
 use core::num::NonZeroU32;
 
-use super::product::{high, high_of_square_u, high_u, product_u, square_u};
+use super::product::{high, high_of_square_u, high_u, high_u_below, product_u, square_u};
+use super::zeros::shifted_up_evenly;
 
 /// Seeds of `1/m` for `m = 1 + (i + 1/2) / 128`, 16 fractional bits.
 pub(super) static SEEDS: [u16; 128] = {
@@ -56,10 +57,10 @@ pub(crate) fn reciprocal_of(d: NonZeroU32) -> (i32, u32) {
     let zeros = d.leading_zeros();
     let m = d.get() << zeros; // 31 fractional bits, in [1, 2)
     let seed = SEEDS[((m >> 24) & 127) as usize];
-    // y with 32 fractional bits, m y and 2 - m y with 31, their product with 31
+    // y with 32 fractional bits, m y and 2 - m y with 31, their product with 31; m y is within 2^-7 of 1
     let mut y = u32::from(seed) << 16;
-    y = high_u(y, high_u(y, m).wrapping_neg()) << 1;
-    (high_u(y, high_u(y, m).wrapping_neg()) as i32, zeros)
+    y = high_u(high_u(m, y).wrapping_neg(), y) << 1;
+    (high_u(high_u(m, y).wrapping_neg(), y) as i32, zeros)
 }
 
 /// `1/sqrt(v)` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
@@ -106,7 +107,12 @@ pub fn sqrt(v: u64) -> u32 {
 #[inline]
 pub(crate) fn root_and_reciprocal(v: u64) -> (u32, u32, u32) {
     let high_word = (v >> 32) as u32;
-    let places = (high_word.leading_zeros() >> 1) & 3;
+    let places = if cfg!(no_long_product) {
+        // a Cortex-M0 counts zeros by a call
+        u32::from(high_word < 1 << 30) + u32::from(high_word < 1 << 28)
+    } else {
+        (high_word.leading_zeros() >> 1) & 3
+    };
     // the low word is left to the correction
     let m = high_word << (2 * places);
     let y = newton(m);
@@ -124,13 +130,12 @@ fn normal(v: u64) -> (u32, u32) {
     let low = v as u32;
     match NonZeroU32::new((v >> 32) as u32) {
         Some(high) => {
-            let even = high.leading_zeros() & 30;
-            (high.get() << even | (low >> 1) >> (even ^ 31), (even >> 1) ^ 31)
+            let (high, even) = shifted_up_evenly(high);
+            (high | (low >> 1) >> (even ^ 31), (even >> 1) ^ 31)
         }
         None => {
-            let low = low.max(1);
-            let even = low.leading_zeros() & 30;
-            (low << even, (even >> 1) ^ 15)
+            let (low, even) = shifted_up_evenly(NonZeroU32::new(low).unwrap_or(NonZeroU32::MIN));
+            (low, (even >> 1) ^ 15)
         }
     }
 }
@@ -140,8 +145,8 @@ fn normal(v: u64) -> (u32, u32) {
 fn newton(m: u32) -> u32 {
     // y with 32 fractional bits, m y^2 and 3 - m y^2 with 30; their product is twice the next y, with 30
     let mut y = u32::from(RECIPROCAL_SQRT[(m >> 24) as usize]) << 16;
-    y = high_u(y, (3 << 30) - high_u(m, high_of_square_u(y))) << 1;
-    high_u(y, (3 << 30) - high_u(m, high_of_square_u(y)))
+    y = high_u_below(y, (3 << 30) - high_u(m, high_of_square_u(y))) << 1;
+    high_u_below(y, (3 << 30) - high_u(m, high_of_square_u(y)))
 }
 
 #[cfg(test)]
