@@ -272,4 +272,17 @@ mod tests {
             );
         }
     }
+
+    /// `44 / (1 - a)` maps or `28 / (1 - alpha)`, and one: for the widest and the steepest, wherever they stand.
+    #[test]
+    fn levels_count_the_widest_and_the_steepest_map() {
+        assert_eq!((levels(ONE / 2, ONE - 1), levels(ONE - 1, ONE / 2)), (89, 57));
+        assert_eq!((levels(ONE / 4 * 3, ONE - 1), levels(ONE / 2, ONE / 2)), (177, 57));
+        let wide = |width: u64, scaling: i32| Image { width, ..image(scaling, 0, 0) };
+        let (a, b) = (wide(ONE / 4 * 3, i32::MAX - (1 << 29)), wide(ONE / 4, 1 << 20));
+        for maps in [[a, b], [b, a]] {
+            // a scaling just below 3/4
+            assert_eq!(Bounds::of(&maps).unwrap().levels, 28 * 4);
+        }
+    }
 }

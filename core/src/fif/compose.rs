@@ -227,4 +227,19 @@ mod tests {
             }
         }
     }
+
+    /// The map of a single interval leaves it as it is; an address is no longer than the function's own.
+    #[test]
+    fn a_map_of_the_whole_domain_is_composed_as_often_as_wanted() {
+        let knots = [(0, 1), (4, 3)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let line = Fif::<1, 1>::interpolating(&knots, &[Scaling::from_num(0.5)]).unwrap();
+        let composite = line.composite([0, 0, 0]);
+        assert_eq!(composite.interval(), (Real::ZERO, Real::ONE));
+        assert_eq!(composite.image(Point2::new(Real::ONE, Real::ZERO)).x, Real::ONE);
+        // nearly all of the domain belongs to one part: it never becomes narrow
+        let knots = [0, 1, 1 << 50].map(|x| Knot::new(Wide::from_bits(x), Wide::ZERO));
+        let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap();
+        assert_eq!(f.levels, 29);
+        assert!(f.composite_at(Wide::from_bits(1 << 49), Real::ZERO, u32::MAX).width > ONE / 2);
+    }
 }

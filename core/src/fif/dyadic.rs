@@ -383,4 +383,81 @@ mod tests {
             }
         }
     }
+
+    /// Digits of an address that no step takes evenly: 32 bits, three or five or seven a step, the last one set.
+    #[test]
+    fn an_address_of_32_digits_is_filled_up() {
+        let knots = [(0, 1), (1, 3), (2, -2)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let f = Fif::<2, 1>::interpolating(&knots, &[0.75, -0.5].map(Scaling::from_num)).unwrap();
+        let (three, five, seven) =
+            (f.dyadic::<8>().unwrap(), f.dyadic::<32>().unwrap(), f.dyadic::<128>().unwrap());
+        assert_eq!([three.bits.get(), five.bits.get(), seven.bits.get()], [3, 5, 7]);
+        let mut state = 5;
+        for _ in 0..500 {
+            for last in [1, 2, 3, 4, 8] {
+                let u = (next(&mut state) as u32) << 4 | last;
+                let exact = exact(&f, u);
+                for (got, bound) in [
+                    (three.at(Angle::from_bits(u)), three.error_bound()),
+                    (five.at(Angle::from_bits(u)), five.error_bound()),
+                    (seven.at(Angle::from_bits(u)), seven.error_bound()),
+                ] {
+                    let off = exact - (i128::from(got.to_bits()) << 56);
+                    assert!(off.abs() <= i128::from(bound.to_bits()) << 56, "{u:#x}: {off}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn two_to_256_intervals_are_compiled_and_eight_digits_a_step() {
+        let knots: std::vec::Vec<Knot> =
+            (0..=256).map(|x| Knot::new(Wide::from_num(x), Wide::from_num(x % 3))).collect();
+        let f = Fif::<256, 1>::interpolating(&knots, &[Scaling::ZERO; 256]).unwrap();
+        let fast = f.dyadic::<256>().unwrap();
+        for (j, knot) in knots.iter().take(256).enumerate() {
+            assert_eq!(fast.at(Angle::from_bits((j as u32) << 24)), Real::from_num(knot.y), "{j}");
+        }
+        let whole = Fif::<256, 1>::interpolating(&[knots[0], knots[1]], &[Scaling::ZERO]).unwrap();
+        assert!(whole.dyadic::<2>().is_none());
+        let halves = Fif::<2, 1>::interpolating(&knots[..3], &[Scaling::ZERO; 2]).unwrap();
+        assert_eq!(halves.dyadic::<256>().map(|fast| fast.bits.get()), Some(8));
+        assert_eq!(halves.dyadic::<512>().map(|fast| fast.bits.get()), Some(8));
+        assert_eq!(halves.dyadic::<511>().map(|fast| fast.bits.get()), Some(8));
+    }
+
+    /// Against its formula in integers with 55 fractional bits: never below, and above by less than a unit of the result.
+    #[test]
+    fn an_error_bound_is_that_of_its_formula() {
+        let mut state = 11;
+        let (mut turned, mut results) = (0, [0; 2]);
+        for k in 0..600 {
+            let high = [4, 100][k % 2];
+            let knots = [0, 1, 2].map(|x| {
+                Knot::new(Wide::from_num(x), Wide::from_bits((next(&mut state) >> 6) % (high << 48)))
+            });
+            let scalings = [(); 2].map(|()| Scaling::from_bits((next(&mut state) >> 33) as i32));
+            let Ok(f) = Fif::<2, 1>::interpolating(&knots, &scalings) else { continue };
+            let Some(fast) = f.dyadic::<16>() else { continue };
+            let unit = 1_i128 << (55 - fast.fraction);
+            let value = i128::from(f.range.0.unsigned_abs().max(f.range.1.unsigned_abs()));
+            let (mut step, mut steepest, mut share) = (0, 0, 0);
+            for address in 0..16_usize {
+                let map = f.composite((0..4).rev().map(|k| address >> k & 1));
+                let beside = |v: i64, unit: i128| (i128::from(v) + unit / 2).rem_euclid(unit) - unit / 2;
+                let scaling = (value * beside(map.scaling, 1 << 32).abs()) >> 63;
+                share = share.max(scaling);
+                step = step.max(beside(map.q.powers[0], unit).abs() + scaling);
+                steepest = steepest.max(((i128::from(map.scaling) + (1 << 31)) >> 32).abs());
+            }
+            let result = if fast.fraction > 24 { 1 << 30 } else { 0 };
+            let exact = ((step + unit / 2) << 31) / ((1 << 31) - steepest) + result;
+            let got = i128::from(fast.error_bound().to_bits()) << 31;
+            // four compositions
+            assert!(got >= exact && got < exact + (1 << 31) + (1 << 12), "{f:?}: {got} against {exact}");
+            turned += u32::from(got - exact + ((share << 31) / ((1 << 31) - steepest)) > 1 << 31);
+            results[usize::from(result > 0)] += 1;
+        }
+        assert!(turned > 5 && results.iter().all(|n| *n > 50), "{turned} {results:?}");
+    }
 }

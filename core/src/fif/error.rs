@@ -306,4 +306,23 @@ mod tests {
         }
         assert!(decided.iter().all(|count| *count > 5), "{decided:?}");
     }
+
+    /// `2^-60 (1 + a + a^2 + ...)` for the widest part: below 3 counts as 3.
+    #[test]
+    fn an_abscissa_moves_by_a_geometric_series() {
+        let parts = |inner: i64, outer: i64| {
+            let knots = [0, inner, outer].map(|x| Knot::new(Wide::from_bits(x), Wide::ZERO));
+            Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.999); 2]).unwrap().shift()
+        };
+        // the sums are 2, 4, 8, 100 and 101
+        assert_eq!(
+            [parts(1, 2), parts(1, 4), parts(1, 8), parts(1, 100), parts(1, 101)],
+            [58, 57, 56, 53, 53]
+        );
+        // parts of a width that is no power of two, on a domain whose width is one
+        let knots = [(0, 0), (1, 2), (4, 1)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::from_num(0.9); 2]).unwrap();
+        assert_eq!(f.error_bound_at_x(), f.error_bound() + f.oscillation(57));
+        assert!(f.error_bound_at_x() > f.error_bound() * 100);
+    }
 }

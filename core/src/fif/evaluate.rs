@@ -218,4 +218,43 @@ mod tests {
         }
         assert_eq!((f.at_wide(Wide::MIN), f.at_wide(Wide::MAX)), (knots[0].y, knots[2].y));
     }
+
+    /// Near the end of a wide part: a walk goes on until the product of its own widths has vanished. The distance to the end grows by 4/3 a map:
+    /// `g(d) = alpha g(4 d / 3) - c 4 d / 3` for the distance of the value from the last.
+    #[test]
+    fn a_walk_along_a_wide_part_is_as_long_as_its_widths_ask() {
+        let knots = [(0, 0), (1, 2), (4, 1)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let f = Fif::<2, 1>::interpolating(&knots, &[0.25, 0.96875].map(Scaling::from_num)).unwrap();
+        for k in 3..30 {
+            // domain: 4 wide, ends at 4
+            let distance = 2_f64.powi(-k);
+            // forward along the address until the scalings vanish: a place is known to 2^-50
+            let value = |mut u: f64| {
+                let (mut sum, mut weight) = (0.0, 1.0);
+                for _ in 0..900 {
+                    if u < 0.25 {
+                        u *= 4.0;
+                        sum += weight * 1.75 * u;
+                        weight *= 0.25;
+                    } else {
+                        u = (u - 0.25) / 0.75;
+                        sum += weight * (2.0 - 1.96875 * u);
+                        weight *= 0.96875;
+                    }
+                }
+                sum
+            };
+            let got = f.at_wide(Wide::from_num(4.0 - 4.0 * distance)).to_num::<f64>();
+            let mut d = distance;
+            let (mut sum, mut weight) = (0.0, 1.0);
+            while d <= 0.75 {
+                d *= 4.0 / 3.0;
+                sum += weight * (1.96875 * d);
+                weight *= 0.96875;
+            }
+            let exact = 1.0 + sum + weight * (value(1.0 - d) - 1.0);
+            // what the first part makes of a place that is known to 2^-50
+            assert!((got - exact).abs() < 2e-3 * weight + 1e-9, "{k}: {got} against {exact}, {weight}");
+        }
+    }
 }

@@ -321,3 +321,144 @@ fn on_unit_interval<const D: usize>(
     }
     Ok(result)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn knot(x: i32, y: i32) -> Knot {
+        Knot::new(Wide::from_num(x), Wide::from_num(y))
+    }
+
+    #[test]
+    fn a_description_that_is_no_function_is_refused() {
+        let half = Scaling::from_num(0.5);
+        let refused =
+            |knots: &[Knot], scalings: &[Scaling]| Fif::<2, 1>::interpolating(knots, scalings).unwrap_err();
+        let three = [knot(0, 0), knot(1, 1), knot(2, 0)];
+        assert!(matches!(refused(&[], &[]), Error::TooFew { .. }));
+        assert!(matches!(refused(&three[..1], &[]), Error::TooFew { given: 1, at_least: 2, .. }));
+        let four = [three[0], three[1], three[2], knot(3, 0)];
+        assert!(matches!(refused(&four, &[half; 3]), Error::Capacity { needed: 3, capacity: 2, .. }));
+        assert!(matches!(refused(&three, &[half]), Error::LengthMismatch { given: 1, expected: 2, .. }));
+        for (x, index) in [(0, 1), (-1, 1), (2, 2), (3, 2)] {
+            let error = refused(&[three[0], knot(x, 1), three[2]], &[half; 2]);
+            assert_eq!(error, Error::NotIncreasing { what: "knot", index });
+        }
+        let error = refused(&three, &[half, Scaling::MIN]);
+        assert!(matches!(error, Error::OutOfRange { what: "vertical scaling", index: Some(1), .. }));
+        let far =
+            |y: Wide| Fif::<1, 1>::interpolating(&[knot(0, 0), Knot::new(Wide::ONE, y)], &[Scaling::ZERO]);
+        let limit = Wide::from_num(128);
+        for y in [limit, -limit, limit * 2, Wide::MIN] {
+            assert!(
+                matches!(far(y), Err(Error::OutOfRange { what: "y of knot", index: Some(1), .. })),
+                "{y}"
+            );
+        }
+        // the range is outward by a few units of 2^-16
+        let near = limit - Wide::from_num(0.0001);
+        assert!(far(near).is_ok() && far(-near).is_ok());
+        assert!(matches!(Fif::<1, 0>::interpolating(&three[..2], &[half]), Err(Error::Capacity { .. })));
+    }
+
+    /// `f = alpha f + q` at the same abscissa: `q / (1 - alpha)`, whatever the scaling a straight line.
+    #[test]
+    fn a_single_map_is_its_polynomial() {
+        for alpha in [-0.75, 0.0, 0.5, 0.875] {
+            let f =
+                Fif::<1, 1>::interpolating(&[knot(-1, 3), knot(3, -2)], &[Scaling::from_num(alpha)]).unwrap();
+            for quarters in 0..=16_i64 {
+                let got = f.at_wide(Wide::from_num(quarters) / 4 - Wide::ONE);
+                // 3 - 5 quarters / 16
+                assert!(
+                    (got - (Wide::from_num(48 - 5 * quarters) / 16)).abs() <= Wide::DELTA,
+                    "{alpha}: {got}"
+                );
+            }
+            assert_eq!(f.max_scaling(), Scaling::ZERO);
+        }
+        let f = Fif::<2, 1>::interpolating(
+            &[knot(0, 0), knot(1, 1), knot(2, 0)],
+            &[-0.75, 0.5].map(Scaling::from_num),
+        );
+        assert_eq!(f.unwrap().max_scaling(), Scaling::from_num(0.75));
+        // alpha a has more than 31 bits: rounded up
+        let f =
+            Fif::<2, 1>::interpolating(&[knot(0, 0), knot(1, 1), knot(3, 0)], &[Scaling::from_num(0.6); 2]);
+        let integral = f.unwrap().integral::<2>(Wide::ZERO).unwrap();
+        let steepest = integral.maps[1].scaling;
+        let above = (i64::from(integral.max_scaling().to_bits()) << 32) - steepest;
+        assert!((1..1 << 32).contains(&above), "{above}");
+    }
+
+    /// `2^-22` apart is a knot, a unit more is none.
+    #[test]
+    fn maps_join_within_two_to_the_minus_22() {
+        let half = Scaling::from_num(0.5);
+        let gap = |units: i64| {
+            // f(0) = 2, f(2) = 0: 1 + 0 at the middle knot, 2 - 1 and the gap
+            let left = [Wide::ONE, Wide::ZERO];
+            let right = [Wide::from_bits(units), Wide::from_bits(-units / 2)];
+            Fif::<2, 1>::with_polynomials(&[0, 1, 2].map(Wide::from_num), &[half; 2], &[&left, &right])
+        };
+        let tolerance = 1 << 26;
+        for units in [0, tolerance - 8, 8 - tolerance] {
+            assert!(gap(units).is_ok(), "{units}");
+        }
+        for units in [tolerance + 8, -tolerance - 8, 4 * tolerance] {
+            assert_eq!(gap(units).unwrap_err(), Error::NotJoined { knot: 1 }, "{units}");
+        }
+    }
+
+    /// `(x - x_0) / (x_N - x_0)` rounded down, both ends exact; back to the abscissa within a unit.
+    #[test]
+    fn places_are_rounded_down() {
+        for (from, to) in [(0, 3), (-5, 2), (-32768, 32767), (7, 8)] {
+            let f = Fif::<1, 1>::interpolating(&[knot(from, 0), knot(to, 1)], &[Scaling::ZERO]).unwrap();
+            let (low, width) = (i128::from(from) << 48, i128::from(to - from) << 48);
+            for k in 0..1000_i64 {
+                let x = Wide::from_bits((low + (i128::from(k * k * 7919) * width / 7_919_000_000)) as i64);
+                let exact = (i128::from(x.to_bits()) - low) as u128;
+                let u = u128::from(f.unit(x));
+                assert!(u * width as u128 <= exact << 63 && (u + 1) * width as u128 > exact << 63, "{x}");
+                assert!((f.abscissa(u as u64).to_bits() - x.to_bits()).abs() <= 2, "{x}");
+            }
+            let ends = f.domain();
+            assert_eq!(
+                (f.unit(ends.0), f.unit(ends.1), f.unit(Wide::MIN), f.unit(Wide::MAX)),
+                (0, ONE, 0, ONE)
+            );
+            assert_eq!((f.abscissa(0), f.abscissa(ONE)), ends);
+        }
+    }
+
+    #[test]
+    fn reals_are_rounded_outward() {
+        for (value, below, above) in
+            [(0, 0, 0), (1, 0, 1), (-1, -1, 0), (1 << 31, 1, 1), ((1 << 31) + 1, 1, 2)]
+        {
+            assert_eq!(
+                (real_below(value), real_above(value)),
+                (Real::from_bits(below), Real::from_bits(above))
+            );
+        }
+        assert_eq!((real_above(i64::MAX), real_below(i64::MIN)), (Real::MAX, Real::MIN));
+    }
+
+    /// A polynomial of `x` on the unit interval: `2 - 3 x + x^2 / 2` over `[-3, 5]` is `31/2 - 48 u + 32 u^2`; halves of a unit are rounded upwards.
+    #[test]
+    fn coefficients_are_those_of_the_unit_interval() {
+        let wide = |v: f64| Wide::from_num(v);
+        let q = on_unit_interval::<3>(0, &[wide(2.0), wide(-3.0), wide(0.5)], -3 << 48, 8 << 48).unwrap();
+        let value = |v: f64| (v * 2_f64.powi(55)) as i64;
+        assert_eq!(q, Polynomial { constant: value(15.5), powers: [value(-48.0), value(32.0), 0] });
+        // x_0 = 2^-48: 128 c of its units of 2^-55, over 2^48
+        for (c, rounded) in [((1 << 40) - 1, 0), (1 << 40, 1), (3 << 40, 2), (-1 << 40, 0), (-3 << 40, -1)] {
+            let q = on_unit_interval::<1>(0, &[Wide::ZERO, Wide::from_bits(c)], 1, 1 << 48).unwrap();
+            assert_eq!(q.constant, rounded, "{c}");
+        }
+        let needed = on_unit_interval::<1>(0, &[Wide::ONE; 3], 0, 1 << 48).unwrap_err();
+        assert!(matches!(needed, Error::Capacity { needed: 2, capacity: 1, .. }));
+    }
+}

@@ -452,4 +452,122 @@ mod tests {
             assert_eq!(Pyramid::cells(maps, 3), cells);
         }
     }
+
+    fn rough() -> Fif<2, 1> {
+        let knots = [(-2, 1), (0, 3), (2, -2)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        Fif::<2, 1>::interpolating(&knots, &[0.75, -0.5].map(Scaling::from_num)).unwrap()
+    }
+
+    /// Against the function and its integral at the ends of each cell: `(F(x1) - F(x0)) / (x1 - x0)` and `(f(x1) - f(x0)) / (x1 - x0)`.
+    #[test]
+    fn means_and_slopes_of_cells_are_those_of_their_ends() {
+        let f = rough();
+        let integral = f.integral::<2>(Wide::ZERO).unwrap();
+        let mut memory = [Cell::ZERO; Pyramid::cells(2, 6)];
+        let pyramid = Pyramid::new(&f, 6, &mut memory).unwrap();
+        for level in 0..=6 {
+            let count = 1_i64 << level;
+            for (i, cell) in (0..).zip(pyramid.level(level)) {
+                let [a, b] = [i, i + 1].map(|i| Wide::from_bits(((4 * i) << 48 >> level) - (2 << 48)));
+                // over 4 / count
+                let per_width =
+                    |f: &dyn Fn(Wide) -> Wide| (f(b) - f(a)).to_bits() as f64 / 2_f64.powi(50) * count as f64;
+                let mean = per_width(&|x| integral.at_wide(x));
+                assert!(
+                    (cell.mean.to_num::<f64>() - mean).abs() < 4.0 * 2_f64.powi(-23),
+                    "{level} {i}: {}",
+                    cell.mean
+                );
+                let slope = per_width(&|x| f.at_wide(x)).clamp(-128.0, Real::MAX.to_num());
+                // a scaling is steeper than a half by 3/2: what is rounded grows by that each level
+                let grown = 1.5_f64.powi(level as i32 + 1) * 4.0 * 2_f64.powi(-24);
+                assert!(
+                    (cell.slope.to_num::<f64>() - slope).abs() < grown,
+                    "{level} {i}: {} {slope}",
+                    cell.slope
+                );
+            }
+        }
+        assert_eq!((pyramid.branching(), pyramid.depth(), pyramid.level(7).len()), (2, 6, 0));
+    }
+
+    /// No pass would move a bound any more, and each one holds the values above its cell.
+    #[test]
+    fn ranges_have_settled_and_hold_the_values() {
+        let f = rough();
+        let mut memory = [Cell::ZERO; Pyramid::cells(2, 5)];
+        let pyramid = Pyramid::new(&f, 5, &mut memory).unwrap();
+        for level in 0..5 {
+            let count = 1 << level;
+            for (i, cell) in pyramid.level(level + 1).iter().enumerate() {
+                let (map, parent) = (&f.maps[i / count], &pyramid.level(level)[i % count]);
+                let (start, width) = interval(&f.maps, i % count, level);
+                assert_eq!((start, width), ((i % count) as u64 * (ONE >> level), ONE >> level));
+                let (low, high) = range(map, &map.q.part(start, width), parent);
+                assert!(cell.min >= low && cell.max <= high, "{level} {i}");
+                let parts = pyramid.level(level + 2).get(2 * i..2 * i + 2).unwrap_or(&[]);
+                let hull = parts.iter().fold((Real::MAX, Real::MIN), |h, c| (h.0.min(c.min), h.1.max(c.max)));
+                assert!(parts.is_empty() || cell.min >= hull.0 && cell.max <= hull.1, "{level} {i}");
+                let (mut least, mut most) = (Real::MAX, Real::MIN);
+                for k in 0..=256 {
+                    let y = f.at(f.abscissa(i as u64 * (ONE >> (level + 1)) + k * (ONE >> (level + 9))));
+                    (least, most) = (least.min(y), most.max(y));
+                }
+                assert!(cell.min <= least && most <= cell.max, "{level} {i}");
+                // images of boxes are wider than the function
+                assert!(
+                    cell.max - cell.min < most - least + Real::from_num(1.5),
+                    "{level} {i}: {cell:?} {least} {most}"
+                );
+            }
+        }
+    }
+
+    /// The hull of the cells that an interval touches, 64 units of `2^-31` of the domain to either side: as many as there are.
+    #[test]
+    fn bounds_are_the_hull_of_the_cells_they_touch() {
+        let f = rough();
+        let mut memory = [Cell::ZERO; Pyramid::cells(2, 5)];
+        let pyramid = Pyramid::new(&f, 5, &mut memory).unwrap();
+        let cells = pyramid.level(5);
+        let mut word = 3_u64;
+        let mut next = || {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (word >> 33) as i64
+        };
+        for k in 0..20_000_i64 {
+            // places with 31 bits: anywhere, or at the end of a cell and a few units beside it
+            let mut place = || match next() % 3 {
+                0 => next() % (1 << 31),
+                _ => ((next() % 33) << 26) + next() % 140 - 70,
+            };
+            let (a, b) = (place(), place());
+            let wide = |place: i64| Wide::from_bits((place << 19) - (2 << 48));
+            let got = pyramid.bounds(wide(a), wide(b));
+            let inside = |place: i64| place.clamp(0, 1 << 31);
+            let (from, to) = ((inside(a.min(b)) - 64).max(0), inside(a.max(b)) + 64);
+            // an end counts to the part on its left, the first one to the first
+            let touched = (0..)
+                .zip(cells)
+                .filter(|(i, _)| i << 26 < to && ((i + 1) << 26 >= from || *i == 31) || *i == 0 && from == 0);
+            let hull = touched.fold((Real::MAX, Real::MIN), |h, (_, c)| (h.0.min(c.min), h.1.max(c.max)));
+            assert_eq!(got, hull, "{k}: {a} {b}");
+        }
+        assert_eq!(
+            pyramid.bounds(Wide::MIN, Wide::MAX),
+            cells.iter().fold((Real::MAX, Real::MIN), |h, c| (h.0.min(c.min), h.1.max(c.max)))
+        );
+    }
+
+    #[test]
+    fn a_pyramid_has_16_levels_at_most_and_needs_its_memory() {
+        let knots = [(0, 0), (1, 1)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+        let line = Fif::<1, 1>::interpolating(&knots, &[Scaling::ZERO]).unwrap();
+        let mut memory = [Cell::ZERO; 20];
+        assert!(Pyramid::new(&line, 16, &mut memory).is_ok());
+        let deeper = Pyramid::new(&line, 17, &mut memory).unwrap_err();
+        assert!(matches!(deeper, Error::Capacity { needed: 17, capacity: 16, .. }));
+        let short = Pyramid::new(&line, 16, &mut memory[..16]).unwrap_err();
+        assert!(matches!(short, Error::BufferLength { given: 16, needed: 17, .. }));
+    }
 }

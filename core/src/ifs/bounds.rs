@@ -450,4 +450,30 @@ mod tests {
         }
         assert!(by_box > 1000, "{by_box}");
     }
+
+    /// Centre and radius, and the centre less the radius turned round.
+    #[test]
+    fn a_side_begins_at_the_disc() {
+        let disc = Disc {
+            centre: Point2::new(Real::from_bits(1000), Real::from_bits(-70)),
+            radius: Real::from_bits(500),
+        };
+        let search = Search::new(&[], disc, disc.centre, 3);
+        assert_eq!(
+            search.sides.map(|side| (side.disc, side.hull)),
+            [(1500, 1500), (-500, -500), (430, 430), (570, 570)]
+        );
+        assert_eq!((search.widening, search.deviation), ((1500 + 570) / 2 + 1, 3 << 30));
+    }
+
+    /// A search that finds no end visits as many nodes as it may, and those on the stack.
+    #[test]
+    fn a_search_without_end_visits_16384_nodes() {
+        let mut maps = [Affine::from_thousandths([600, -500, 500, 600, 300, 700]); 256];
+        for (i, map) in maps.iter_mut().enumerate() {
+            map.e = Real::from_bits(i as i32);
+        }
+        let visited = Ifs::<256>::proportional_to_determinant(&maps).unwrap().search().1;
+        assert!(visited >= NODES, "{visited}");
+    }
 }

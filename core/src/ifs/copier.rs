@@ -296,4 +296,34 @@ mod tests {
         }
         assert!(images.next().is_none() && images.next().is_none());
     }
+
+    #[test]
+    fn a_composed_map_has_the_nearest_entries_and_an_exact_translation() {
+        let mut word = 1_u64;
+        let mut entry = || {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (word >> 33) as i32 - (1 << 30)
+        };
+        for _ in 0..5000 {
+            let [outer, inner] = [(); 2].map(|()| [entry(), entry(), entry(), entry()].map(|e| e / 2));
+            let composed = Composed { translation: [1 << 40, -5], linear: outer, next: 0 };
+            let translation = [entry(), entry()].map(Real::from_bits);
+            let got = composed.with(&Affine::new(inner.map(Unit::from_bits), translation));
+            let ([a, b, c, d], [p, q, r, s]) = (outer.map(i128::from), inner.map(i128::from));
+            let exact = [a * p + b * r, a * q + b * s, c * p + d * r, c * q + d * s];
+            assert_eq!(got.linear.map(i128::from), exact.map(|v| (v + (1 << 29)) >> 30));
+            let [x, y] = translation.map(|t| i128::from(t.to_bits()));
+            assert_eq!(got.translation.map(i128::from), [(1 << 40) + a * x + b * y, -5 + c * x + d * y]);
+        }
+    }
+
+    #[test]
+    fn images_outside_the_format_saturate() {
+        let turn = Affine::from_ratios([7, -7, 7, 7, 0, 0], 10);
+        let ifs = Ifs::<1>::new(&[turn], &[Unit::ONE]).unwrap();
+        let shape = [Point2::new(Real::MAX, Real::MAX), Point2::new(Real::MIN, Real::MIN)];
+        let images: heapless::Vec<Point2, 2> = ifs.copier::<1>(&shape, 1).unwrap().points().collect();
+        assert_eq!([images[0].y, images[1].y], [Real::MAX, Real::MIN]);
+        assert!(images.iter().all(|p| p.x.abs() <= Real::DELTA));
+    }
 }

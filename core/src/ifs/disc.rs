@@ -279,4 +279,51 @@ mod tests {
             assert!((0..=1 << 30).contains(&above) || got == 1 << 31, "{l} {m} {t} {x} {y}: {above}");
         }
     }
+
+    /// A map to one point: its disc is a few units wide, and the point may lie at 64, the disc not beyond.
+    #[test]
+    fn a_disc_may_reach_64_and_no_unit_more() {
+        let disc = |e: i64| {
+            let map = Affine { e: Real::from_bits(e as i32), ..Affine::default() };
+            Contractions { maps: &[map], factors: &[Unit::ZERO] }.invariant_disc()
+        };
+        let mut reached = 0;
+        for e in REACH - 16..=REACH + 1 {
+            match disc(e) {
+                Ok(disc) => reached = reached.max(disc.reach()[0]),
+                Err(Error::OutOfRange { what, index, value, .. }) => {
+                    let (expected, least) = if e > REACH {
+                        ("fixed point of the map", e)
+                    } else {
+                        ("reach of the invariant disc", REACH + 1)
+                    };
+                    assert_eq!((what, index), (expected, Some(0)), "{e}");
+                    assert!((least..least + 4).contains(&(value.to_bits() >> 24)), "{e}: {value}");
+                }
+                Err(other) => panic!("{other:?}"),
+            }
+        }
+        assert_eq!(reached, REACH);
+    }
+
+    /// The least radius about the centre that was found: no other centre nearby does better by a sixteenth.
+    #[test]
+    fn an_invariant_disc_is_nearly_the_least() {
+        for attractor in catalogue::ALL {
+            let factors: heapless::Vec<_, 8> =
+                attractor.maps.iter().map(Affine::contraction_factor).collect();
+            let maps = Contractions { maps: attractor.maps, factors: &factors };
+            let disc = maps.invariant_disc().unwrap();
+            let radius = i64::from(disc.radius.to_bits());
+            let [x, y] = [disc.centre.x, disc.centre.y].map(Real::to_bits);
+            assert_eq!(maps.radius_about([x, y]).0, radius, "{}", attractor.name);
+            for k in 1..40 {
+                let step = (radius >> 6) as i32 * (k / 8 + 1);
+                let [dx, dy] =
+                    [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]][k as usize % 8];
+                let (other, _) = maps.radius_about([x + dx * step, y + dy * step]);
+                assert!(other > radius - radius / 16, "{}: {other} below {radius}", attractor.name);
+            }
+        }
+    }
 }

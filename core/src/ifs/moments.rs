@@ -336,4 +336,57 @@ mod tests {
             assert_eq!(quotient(n, d), got, "{n} / {d}");
         }
     }
+
+    /// Two maps of any linear parts, `A_1 x + t` and `A_2 x - t` with even chances: the mean is 0, and `C = (A_1 C A_1^T + A_2 C A_2^T) / 2 + t t^T` holds
+    /// for what was computed, in integers with 108 fractional bits, within the rounding of its numbers.
+    #[test]
+    fn a_covariance_obeys_its_equation() {
+        let mut word = 1_u64;
+        let mut entry = |bits: u32| {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (word as i64) >> (64 - bits)
+        };
+        let (mut checked, mut most) = (0, 0.0_f64);
+        for k in 0..2000 {
+            let [first, second] = [(); 2].map(|()| [(); 4].map(|()| entry(30 + k % 2) as i32));
+            let [e, f] = [(); 2].map(|()| entry(26));
+            let map = |linear: [i32; 4], sign: i64| {
+                Affine::new(linear.map(Unit::from_bits), [e, f].map(|t| Real::from_bits((sign * t) as i32)))
+            };
+            let maps = [map(first, 1), map(second, -1)];
+            let Ok(ifs) = Ifs::<2>::new(&maps, &[Unit::from_num(0.5); 2]) else { continue };
+            let Ok(moments) = ifs.moments() else { continue };
+            assert_eq!(moments.mean, [Wide::ZERO; 2]);
+            let [xx, xy, yy] = moments.covariance.map(|c| i128::from(c.to_bits()));
+            // twice the equation
+            let mut sums = [0_i128; 3];
+            for [a, b, c, d] in [first, second].map(|l| l.map(i128::from)) {
+                sums[0] += a * a * xx + 2 * a * b * xy + b * b * yy;
+                sums[1] += a * c * xx + (a * d + b * c) * xy + b * d * yy;
+                sums[2] += c * c * xx + 2 * c * d * xy + d * d * yy;
+            }
+            let [e, f] = [e, f].map(i128::from);
+            for ((c, sum), t) in [xx, xy, yy].into_iter().zip(sums).zip([e * e, e * f, f * f]) {
+                most = most.max(((2 * c - 2 * t) * (1 << 60) - sum).abs() as f64 / 2_f64.powi(61));
+            }
+            checked += 1;
+        }
+        assert!(checked > 300 && most > 0.5 && most < 1.5, "{checked} {most}");
+    }
+
+    #[test]
+    fn the_largest_contraction_factor_is_the_largest() {
+        let slow = |units: i32| {
+            let map = Affine { a: Unit::from_bits(LARGEST + units), ..Affine::default() };
+            Ifs::<1>::new(&[map], &[Unit::ONE]).unwrap().moments()
+        };
+        assert!(slow(-2).is_ok() && slow(2).is_err());
+    }
+
+    #[test]
+    fn a_variance_may_be_as_large_as_the_range_allows() {
+        let at = |e: i32| Affine { e: Real::from_num(e), ..Affine::default() };
+        let ifs = Ifs::<2>::new(&[at(50), at(-50)], &[Unit::from_num(0.5); 2]).unwrap();
+        assert_eq!(ifs.moments().unwrap().covariance[0], 2500);
+    }
 }

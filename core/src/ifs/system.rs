@@ -328,4 +328,11 @@ mod tests {
             assert!(got <= exact && got >= 0.98 * exact - 1.0, "{numerator}: {got} against {exact}");
         }
     }
+
+    #[test]
+    fn a_system_has_256_maps_at_most() {
+        let error = Ifs::<300>::proportional_to_determinant(&[HALF; 257]).unwrap_err();
+        assert_eq!(error, Error::Capacity { what: "maps", needed: 257, capacity: 256 });
+        assert_eq!(Ifs::<300>::proportional_to_determinant(&[HALF; 256]).unwrap().maps().len(), 256);
+    }
 }

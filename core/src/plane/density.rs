@@ -526,4 +526,20 @@ mod tests {
         assert_eq!((toned.row(0, 0..3).len(), toned.row(3, 0..4).len()), (3, 0));
         assert_eq!(toned.row(0, 0..4).map(|h| h.tone).max(), Some(21845));
     }
+
+    /// One in ten of ten is not fewer than one in ten; 0 counts as none that may exceed.
+    #[test]
+    fn a_quantile_is_met_and_not_only_neared() {
+        let counts: Vec<u16> = (1..=10).collect();
+        for (one_in, least) in [(10, 10), (9, 9), (5, 9), (4, 8), (1, 1), (0, 1)] {
+            assert_eq!(tones(&counts, |d| vec![d.quantile(one_in)]), [least], "one in {one_in}");
+        }
+    }
+
+    #[test]
+    fn a_buffer_of_maps_is_cleared() {
+        let (mut counts, mut maps) = (vec![7_u8; 12], vec![9_u8; 12]);
+        let density = Density::new(window(4, 3), &mut counts).unwrap().with_maps(&mut maps).unwrap();
+        assert!(density.maps.iter().all(|map| *map == 0) && density.counts().iter().all(|count| *count == 0));
+    }
 }
