@@ -193,12 +193,12 @@ fn midpoints_of_any_part() {
             !points.is_empty()
         },
     );
-    // every end of the format with every other
-    let ends = |k: u32| if k % 2 == 0 { i32::MIN } else { i32::MAX };
-    for k in 0..64_u32 {
-        let corner = |k: u32| Point2::new(Real::from_bits(ends(k)), Real::from_bits(ends(k >> 1)));
-        let (g, h) = (Deviate::from_bits(ends(k >> 4)), Deviate::from_bits(ends(k >> 5)));
-        let (from, to) = (corner(k), corner(k >> 2));
+    // every end of the format, and its middle, with every other
+    let word = |k: u32| [i32::MIN, 0, i32::MAX][k as usize % 3];
+    for k in 0..3_u32.pow(6) {
+        let place = |k: u32| Point2::new(Real::from_bits(word(k)), Real::from_bits(word(k / 3)));
+        let (g, h) = (Deviate::from_bits(word(k / 81)), Deviate::from_bits(word(k / 243)));
+        let (from, to) = (place(k), place(k / 9));
         let part = Part { from, to, middle: Parameter::MAX, level: 31, span: Real::MIN };
         assert_eq!(displaced(&part, g, h), exactly_displaced(&part, g, h));
     }

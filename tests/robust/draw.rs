@@ -279,6 +279,7 @@ fn inks_of_any_colour_anywhere() {
         let rgb = hex(color);
         assert!(bayer(at) < 64);
         let level = dithered(value, max, at);
+        assert_eq!((dithered(0, max, at), dithered(255, max, at)), (0, max));
         let exact = u32::from(value) * u32::from(max) / 255;
         assert!(level <= max && (exact..=exact + 1).contains(&u32::from(level)), "{value} of {max}: {level}");
         let (on, two, four) = (ink::<BinaryColor>(rgb, at), ink::<Gray2>(rgb, at), ink::<Gray4>(rgb, at));
