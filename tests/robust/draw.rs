@@ -318,7 +318,8 @@ fn images_of_any_size_anywhere() {
                 assert_eq!(drawn, if pixels <= room { Ok(()) } else { Err(Broken) });
                 assert_eq!(target.drawn, pixels.min(room));
                 // of what a broken target does not take the first pixel is known
-                let (looked, colored) = (evaluated.take(), painted.take());
+                let (looked, colored) = evaluated.take();
+                painted.take();
                 assert!(
                     looked == colored
                         && (looked == target.drawn || looked == target.drawn + 1 && pixels > room)
@@ -356,7 +357,8 @@ fn images_of_any_size_anywhere() {
             assert_eq!(target.drawn, steps * length(&visible.0));
             assert_eq!(RowCursor::starting_at(u32::MAX).draw_next(&picture, &mut target), Ok(false));
             assert!(RowCursor::new() == RowCursor::default() && steps == 0 || cursor.row() > 0);
-            (evaluated.take(), painted.take());
+            evaluated.take();
+            painted.take();
 
             // single pixels, and rows with a hole
             for p in [
@@ -406,7 +408,8 @@ where
     let expected = K::length(at[2].min(size.width).saturating_sub(at[1]));
     assert_eq!(packed.ok(), (at[0] < size.height && expected <= given).then_some(expected));
     assert_eq!(Strips::<_, _, _, K>::new(&picture, buffer).is_ok(), K::length(size.width) <= given);
-    (evaluated.take(), painted.take());
+    evaluated.take();
+    painted.take();
     let Ok(mut strips) = Strips::<_, _, _, K>::of_part(&picture, area, buffer) else {
         assert!(K::length(length(&columns)) > given);
         return false;

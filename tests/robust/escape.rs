@@ -160,8 +160,8 @@ fn filling_looks_at_each_pixel_once() {
         let looked = vec![Counter::new(0_u32); (width * height) as usize];
         let is_inside = |x: u32, y: u32| match kind {
             0 => true,
-            1 => x % (period + 1) != 0,
-            2 => x.min(y).min(width - 1 - x).min(height - 1 - y) % (period + 1) == 0,
+            1 => !x.is_multiple_of(period + 1),
+            2 => x.min(y).min(width - 1 - x).min(height - 1 - y).is_multiple_of(period + 1),
             3 => (x ^ y) & period != 0,
             _ => (noise.rotate_left(x * 7 + y * 13) ^ noise >> (x + y)) & 3 != 0,
         };
@@ -171,7 +171,7 @@ fn filling_looks_at_each_pixel_once() {
             assert!(x < width && y < height, "asked for {x}, {y} of {size:?}");
             let looked = &looked[(y * width + x) as usize];
             looked.set(looked.get() + 1);
-            let is_inside = is_inside(x, y) != (is_fickle && looked.get() % 2 == 0);
+            let is_inside = is_inside(x, y) != (is_fickle && looked.get().is_multiple_of(2));
             Dwell { count: if is_inside { 9 } else { 3 }, max: 9 }
         });
         let mut bits = vec![0; Filled::<Mandelbrot>::bytes(size)];
