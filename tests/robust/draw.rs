@@ -1,4 +1,5 @@
-//! From values to pixels: any palette, ink and packing; images, strips, points and paths anywhere on targets anywhere.
+//! From values to pixels: any palette, ink and packing; images, strips, points and paths anywhere on targets
+//! anywhere.
 
 use std::cell::Cell as Counter;
 use std::fmt::Debug;
@@ -158,7 +159,8 @@ fn closures_as_fields_of_any_size() {
     });
 }
 
-/// A value by all palettes: what is inside is black, and the same colour comes by reference and through `dyn`.
+/// A value by all palettes: what is inside is black, and the same colour comes by reference and through
+/// `dyn`.
 fn paint<V: Leveled + Copy + Debug>(
     value: V,
     gradient: &Gradient<3>,
@@ -318,8 +320,7 @@ fn images_of_any_size_anywhere() {
                 assert_eq!(drawn, if pixels <= room { Ok(()) } else { Err(Broken) });
                 assert_eq!(target.drawn, pixels.min(room));
                 // of what a broken target does not take the first pixel is known
-                let (looked, colored) = evaluated.take();
-                painted.take();
+                let (looked, colored) = (evaluated.take(), painted.take());
                 assert!(
                     looked == colored
                         && (looked == target.drawn || looked == target.drawn + 1 && pixels > room)

@@ -135,7 +135,8 @@ fn buffers_and_colourings_of_any_view() {
         assert_eq!(filled.picture(), &set);
         for i in 0..pixels as u32 {
             let (x, y) = (i.wrapping_mul(at[1] | 1) % size.width, i % size.height);
-            // filling changes what has no edge of its own, never the outside into something else than the inside
+            // filling changes what has no edge of its own, never the outside into something else than the
+            // inside
             let (got, exact) = (filled.dwell_at(x, y), plain[(y * size.width + x) as usize]);
             assert!(got == exact || got.is_inside(), "{got:?} for {exact:?} at {x}, {y}");
         }
@@ -149,7 +150,8 @@ fn buffers_and_colourings_of_any_view() {
     });
 }
 
-/// Filling looks at a pixel once, in whatever order it is asked, and nowhere else: pictures of dots, lines, rings and noise.
+/// Filling looks at a pixel once, in whatever order it is asked, and nowhere else: pictures of dots, lines,
+/// rings and noise.
 #[test]
 fn filling_looks_at_each_pixel_once() {
     let size = (1..=24_u32, 1..=24_u32).prop_map(|(w, h)| Size::new(w, h));
