@@ -26,7 +26,8 @@ fn polyline() -> impl Strategy<Value = Vec<[Wide; 2]>> {
     prop_oneof![3 => tame, 1 => vec((wide(), wide()).prop_map(|(x, y)| [x, y]), 0..8)]
 }
 
-/// How many steps a path has at most, and that it is one: the pen is put down first, and nothing is drawn with the pen up.
+/// How many steps a path has at most, and that it is one: the pen is put down first, and nothing is drawn
+/// with the pen up.
 fn walk(path: impl Iterator<Item = PathElement>, most: usize) -> usize {
     let mut count = 0;
     for (i, step) in path.enumerate() {
@@ -194,12 +195,12 @@ fn midpoints_of_any_part() {
             !points.is_empty()
         },
     );
-    // every end of the format with every other
-    let ends = |k: u32| if k % 2 == 0 { i32::MIN } else { i32::MAX };
-    for k in 0..64_u32 {
-        let corner = |k: u32| Point2::new(Real::from_bits(ends(k)), Real::from_bits(ends(k >> 1)));
-        let (g, h) = (Deviate::from_bits(ends(k >> 4)), Deviate::from_bits(ends(k >> 5)));
-        let (from, to) = (corner(k), corner(k >> 2));
+    // every end of the format, and its middle, with every other
+    let word = |k: u32| [i32::MIN, 0, i32::MAX][k as usize % 3];
+    for k in 0..3_u32.pow(6) {
+        let place = |k: u32| Point2::new(Real::from_bits(word(k)), Real::from_bits(word(k / 3)));
+        let (g, h) = (Deviate::from_bits(word(k / 81)), Deviate::from_bits(word(k / 243)));
+        let (from, to) = (place(k), place(k / 9));
         let part = Part { from, to, middle: Parameter::MAX, level: 31, span: Real::MIN };
         assert_eq!(displaced(&part, g, h), exactly_displaced(&part, g, h));
     }

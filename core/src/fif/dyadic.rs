@@ -391,7 +391,7 @@ mod tests {
         let f = Fif::<2, 1>::interpolating(&knots, &[0.75, -0.5].map(Scaling::from_num)).unwrap();
         let (three, five, seven) =
             (f.dyadic::<8>().unwrap(), f.dyadic::<32>().unwrap(), f.dyadic::<128>().unwrap());
-        assert_eq!([three.bits.get(), five.bits.get(), seven.bits.get()], [3, 5, 7]);
+        assert_eq!([three.bits, five.bits, seven.bits], [3, 5, 7]);
         let mut state = 5;
         for _ in 0..500 {
             for last in [1, 2, 3, 4, 8] {
@@ -421,9 +421,9 @@ mod tests {
         let whole = Fif::<256, 1>::interpolating(&[knots[0], knots[1]], &[Scaling::ZERO]).unwrap();
         assert!(whole.dyadic::<2>().is_none());
         let halves = Fif::<2, 1>::interpolating(&knots[..3], &[Scaling::ZERO; 2]).unwrap();
-        assert_eq!(halves.dyadic::<256>().map(|fast| fast.bits.get()), Some(8));
-        assert_eq!(halves.dyadic::<512>().map(|fast| fast.bits.get()), Some(8));
-        assert_eq!(halves.dyadic::<511>().map(|fast| fast.bits.get()), Some(8));
+        assert_eq!(halves.dyadic::<256>().map(|fast| fast.bits), Some(8));
+        assert_eq!(halves.dyadic::<512>().map(|fast| fast.bits), Some(8));
+        assert_eq!(halves.dyadic::<511>().map(|fast| fast.bits), Some(8));
     }
 
     /// Against its formula in integers with 55 fractional bits: never below, and above by less than a unit of the result.
