@@ -11,6 +11,7 @@ use core::fmt;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
+use crc::Digest;
 use embedded_graphics::Drawable;
 use embedded_graphics::Pixel;
 use embedded_graphics::draw_target::DrawTarget;
