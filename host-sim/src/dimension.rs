@@ -32,6 +32,7 @@ use crate::cover;
 use crate::fail::{Fail, one_line};
 use crate::fit::Fit;
 use crate::scene::{self, Chords, Graph, Law, Subject, Trail};
+use crate::table;
 use crate::theory::{Theory, boundary_of, similarity};
 
 /// Cells a side: the finest grid, and the coarsest that is still good enough.
@@ -66,16 +67,12 @@ pub(crate) fn run(args: &Dimension) -> Result<(), Fail> {
         other => other,
     };
     let (ways, left_out) = ways(scene.subject().map_err(fail)?, args.boundary).map_err(fail)?;
-    let mut out = std::io::stdout().lock();
     if args.csv {
-        writeln!(out, "method,log_inverse_size,log_count")?;
-        for way in &ways {
-            for (size, count) in &way.counts {
-                writeln!(out, "{},{size:?},{count:?}", way.method)?;
-            }
-        }
-        return Ok(());
+        let points = |way: Measured| way.counts.into_iter().map(move |(x, y)| (way.method, x, y));
+        let rows = ways.into_iter().flat_map(points);
+        return table::csv(&["method", "log_inverse_size", "log_count"], rows);
     }
+    let mut out = std::io::stdout().lock();
     writeln!(out, "scene      {} ({})", one_line(&scene.name), scene.kind())?;
     for way in &ways {
         let fit = Fit::of(&way.counts).ok_or_else(|| fail(Fail::new(TOO_FEW)))?;

@@ -5,6 +5,7 @@ use std::io::Write as _;
 use crate::builtin;
 use crate::fail::Fail;
 use crate::scene;
+use crate::table;
 
 const KINDS: &str = "\
 Kinds of scene files (TOML); keys in brackets may be left out, every kind has [title]
@@ -46,11 +47,12 @@ Commands
 pub(crate) fn run() -> Result<(), Fail> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "attractor: fractals for small displays, in fixed point\n\nScenes")?;
-    let width = builtin::SCENES.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-    for (name, _) in builtin::SCENES {
+    let scenes = builtin::SCENES.iter().map(|(name, _)| {
         let scene = scene::load(name)?;
-        writeln!(out, "  {name:width$}  {:12}  {}", scene.kind(), scene.title)?;
-    }
+        Ok([(*name).to_owned(), scene.kind().to_owned(), scene.title])
+    });
+    let scenes = scenes.collect::<Result<Vec<_>, Fail>>()?;
+    table::columns(scenes, 3).lines().try_for_each(|line| writeln!(out, "  {line}"))?;
     write!(out, "\n{KINDS}\n{COMMANDS}")?;
     Ok(())
 }

@@ -22,6 +22,7 @@ mod sample;
 mod scene;
 mod source;
 mod spectrum;
+mod table;
 mod theory;
 mod window;
 

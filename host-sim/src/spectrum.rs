@@ -10,10 +10,13 @@
 use std::f64::consts::TAU;
 use std::io::Write as _;
 
+use realfft::RealFftPlanner;
+
 use crate::cli::Spectrum;
 use crate::fail::{Fail, one_line};
 use crate::fit::Fit;
 use crate::scene::{self, Subject};
+use crate::table;
 use crate::theory::Theory;
 
 /// Logarithm of the number of ordinates of a function, and of the points of a random curve.
@@ -47,14 +50,10 @@ pub(crate) fn run(args: &Spectrum) -> Result<(), Fail> {
     let count = signals.first().map_or(0, Vec::len).saturating_sub(1);
     let octaves = octaves(&signals).ok_or_else(|| fail("it is flat: it has no spectrum"))?;
     let fit = Fit::of(&octaves).ok_or_else(|| fail("it is flat: it has no spectrum"))?;
-    let mut out = std::io::stdout().lock();
     if args.csv {
-        writeln!(out, "log_frequency,log_power")?;
-        for (frequency, power) in &octaves {
-            writeln!(out, "{frequency:?},{power:?}")?;
-        }
-        return Ok(());
+        return table::csv(&["log_frequency", "log_power"], octaves);
     }
+    let mut out = std::io::stdout().lock();
     writeln!(out, "scene      {} ({})", one_line(&scene.name), scene.kind())?;
     writeln!(out, "method     periodogram: {count} {what}, Hann window, mean power of octaves")?;
     writeln!(out, "fit range  {} to {} periods, {} octaves", 1 << FIRST, count >> LAST, octaves.len())?;
@@ -83,15 +82,18 @@ fn coordinates(law: &scene::Law) -> Result<Signals, Fail> {
 /// `(log f, log P)` of each octave that is fitted, the powers of all signals added up. Each has `2^n + 1` values, of which the last is left out.
 fn octaves(signals: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     let n = signals.first()?.len() - 1;
-    let mut power = vec![0.0; n];
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
+    let mut spectrum = transform.make_output_vec();
+    let mut power = vec![0.0; spectrum.len()];
     for signal in signals {
         let (first, last) = (*signal.first()?, *signal.last()?);
         let windowed = signal.iter().take(n).enumerate().map(|(i, y)| {
             let t = i as f64 / n as f64;
-            ((y - first - (last - first) * t) * (1.0 - (TAU * t).cos()) / 2.0, 0.0)
+            (y - first - (last - first) * t) * (1.0 - (TAU * t).cos()) / 2.0
         });
-        for (sum, (re, im)) in power.iter_mut().zip(fourier(windowed.collect())) {
-            *sum += re * re + im * im;
+        transform.process(&mut windowed.collect::<Vec<_>>(), &mut spectrum).ok()?;
+        for (sum, value) in power.iter_mut().zip(&spectrum) {
+            *sum += value.norm_sqr();
         }
     }
     let octave = |k: u32| {
@@ -102,62 +104,24 @@ fn octaves(signals: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     (FIRST..n.ilog2() - LAST).map(octave).collect()
 }
 
-/// The discrete Fourier transform of `2^n` complex values, by decimation in time (J. W. Cooley, J. W. Tukey, 1965).
-fn fourier(mut z: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    let n = z.len();
-    let shift = usize::BITS - n.trailing_zeros();
-    for i in 0..n {
-        let j = i.reverse_bits() >> shift;
-        if i < j {
-            z.swap(i, j);
-        }
-    }
-    let mut half = 1;
-    while half < n {
-        for k in 0..half {
-            let (sin, cos) = (-TAU * k as f64 / (2 * half) as f64).sin_cos();
-            for i in (k..n).step_by(2 * half) {
-                let ((a, b), (c, d)) = (z[i], z[i + half]);
-                let (re, im) = (c * cos - d * sin, c * sin + d * cos);
-                (z[i], z[i + half]) = ((a + re, b + im), (a - re, b - im));
-            }
-        }
-        half *= 2;
-    }
-    z
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn the_transform_is_the_sum_that_defines_it() {
-        let signal: Vec<(f64, f64)> = (0..16).map(|i| (f64::from(i * i % 7), f64::from(i % 3))).collect();
-        for (k, (re, im)) in fourier(signal.clone()).into_iter().enumerate() {
-            let (mut x, mut y) = (0.0, 0.0);
-            for (i, (a, b)) in signal.iter().enumerate() {
-                let (sin, cos) = (-TAU * (i * k) as f64 / 16.0).sin_cos();
-                x += a * cos - b * sin;
-                y += a * sin + b * cos;
-            }
-            assert!((re - x).abs() < 1e-12 && (im - y).abs() < 1e-12, "{k}");
-        }
-    }
-
-    #[test]
     fn a_power_law_is_found_again() {
         // phases by the golden ratio
         let n = 1 << ORDINATES;
+        let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(n);
         for request in [1.0, 1.5, 2.0, 2.5] {
-            let mut z = vec![(0.0, 0.0); n];
-            for k in 1..n / 2 {
+            let mut z = transform.make_input_vec();
+            for (k, z) in z.iter_mut().enumerate().take(n / 2).skip(1) {
                 let (sin, cos) = (TAU * (k as f64 * k as f64 * 0.618_033_988_749_895).fract()).sin_cos();
                 let amplitude = (k as f64).powf(-request / 2.0);
-                z[k] = (amplitude * cos, amplitude * sin);
-                z[n - k] = (amplitude * cos, -amplitude * sin);
+                (z.re, z.im) = (amplitude * cos, amplitude * sin);
             }
-            let mut signal: Vec<f64> = fourier(z).into_iter().map(|z| z.0).collect();
+            let mut signal = transform.make_output_vec();
+            transform.process(&mut z, &mut signal).unwrap();
             signal.push(signal[0]);
             let fit = Fit::of(&octaves(&[signal]).unwrap()).unwrap();
             assert!((fit.slope + request).abs() < 0.1, "{request}: {fit:?}");

@@ -1,7 +1,8 @@
-#!/bin/sh
-# The window under Xvfb: it shows the picture that dump writes, keys change the scene, keys and mouse move about in it, and what it saves can be
-# shown again from the lines that it prints. It never goes black, stays bright however far one zooms, and Esc
-# closes it at any time.
+#!/usr/bin/env bash
+# The window under Xvfb: it shows the picture that dump writes, keys change the scene, keys and mouse move about
+# in it, and what it saves can be shown again from the lines that it prints. It never goes black, stays bright
+# however far one zooms, and Esc closes it at any time. A picture in it takes little more than the same picture
+# as a file.
 # Needs: apt install libsdl2-dev xvfb xdotool imagemagick
 # Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]
 set -eu
@@ -13,7 +14,7 @@ rm -f "$shots"/tip-*.png "$shots"/mandelbrot-*.png
 if [ "${ATTRACTOR_UNDER_XVFB:-}" != 1 ]; then
     # the profile of the tests: optimised, with every overflow checked
     cargo build --quiet -p attractor-sim --features window
-    ATTRACTOR_UNDER_XVFB=1 exec timeout 240 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
+    ATTRACTOR_UNDER_XVFB=1 exec timeout 300 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
 fi
 attractor=$PWD/target/debug/attractor
 fail() {
@@ -23,7 +24,7 @@ fail() {
 }
 # Waits until the window shows this file.
 shows() {
-    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
+    for _ in $(seq 50); do
         sleep 0.4
         import -window "$window" "$shots/$2.png" || continue
         [ "$(compare -metric AE "$1" "$shots/$2.png" null: 2>&1)" = 0 ] && return 0
@@ -151,6 +152,41 @@ closes
 } >"$shots/bright.toml"
 "$attractor" dump "$shots/bright.toml" -o "$shots/bright.png" >/dev/null
 [ "$(compare -metric AE "$shots/mandelbrot-1.png" "$shots/bright.png" null: 2>&1)" = 0 ] || fail "saves other colours than its lines show"
+
+# a picture of some seconds: in hundredths of a second of processor time, what the window takes beyond one that
+# shows next to nothing, over what the file takes
+most=1.3
+cat >"$shots/empty.toml" <<'END'
+kind = "mandelbrot"
+centre = ["5", "0"]
+width = "1"
+END
+cat >"$shots/heavy.toml" <<'END'
+kind = "mandelbrot"
+centre = ["-0.743643887037151", "0.13182590420533"]
+width = "2e-6"
+max_dwell = 5000
+palette = "fire"
+END
+ticks() {
+    awk -v hz="$(getconf CLK_TCK)" '{ print 100 * ($14 + $15) / hz }' "/proc/$1/stat"
+}
+dumped() {
+    local TIMEFORMAT='%U %S'
+    { time "$attractor" dump "$shots/$1.toml" --size 800x600 -o "$shots/dump/$1.png" >/dev/null; } 2>&1 |
+        awk '{ print 100 * ($1 + $2) }'
+}
+for scene in empty heavy; do
+    file=$(dumped $scene)
+    open "$shots/$scene.toml" --size 800x600
+    shows "$shots/dump/$scene.png" $scene
+    shown=$(ticks "$pid")
+    closes
+    [ $scene = heavy ] || opening=$shown
+done
+ratio=$(awk -v shown="$shown" -v opening="$opening" -v file="$file" 'BEGIN { printf "%.2f", (shown - opening) / file }')
+echo "window: 800 x 600 pixels of a heavy scene: $shown hundredths of a second, $opening of them to open an empty window; $file for the file; ratio $ratio"
+awk -v ratio="$ratio" -v most="$most" 'BEGIN { exit !(ratio > 0.8 && ratio <= most) }' || fail "takes $ratio times what the file takes, allowed is $most"
 
 # an equalised picture: after a pan the last one stays, moved
 cat >"$shots/slow.toml" <<'END'

@@ -12,7 +12,6 @@
 extern crate std;
 
 mod built_in;
-mod crc;
 mod escape_scenes;
 mod float;
 mod inputs;
@@ -23,8 +22,12 @@ pub mod scenes;
 pub mod sink;
 mod surface;
 
-pub use crc::Crc32;
+use crc::{CRC_32_ISO_HDLC, Crc};
+
 pub use machine::{Blind, Machine};
+
+/// The checksum of what is drawn: that of zlib and PNG.
+pub static CRC_32: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// Whether this is an image for Armv6-M, which alone lacks atomic exchange: it has only the rows that a machine with 16 KiB of RAM runs, since all of
 /// them would not fit its flash.

@@ -11,6 +11,7 @@ use core::fmt;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
+use crc::Digest;
 use embedded_graphics::Drawable;
 use embedded_graphics::Pixel;
 use embedded_graphics::draw_target::DrawTarget;
@@ -18,7 +19,7 @@ use embedded_graphics::geometry::{Dimensions, OriginDimensions, Point, Size};
 use embedded_graphics::pixelcolor::{BinaryColor, IntoStorage, PixelColor};
 use embedded_graphics::primitives::{PointsIter, Rectangle};
 
-use crate::{Crc32, Machine};
+use crate::{CRC_32, Machine};
 
 /// Pixels between two stops of the clock.
 const BUFFER: usize = 320;
@@ -157,7 +158,7 @@ impl<'m> Stage<'m> {
         empty.repeat(calls);
         let floor = empty.spent;
         self.outcome = Outcome {
-            crc32: crc.value(),
+            crc32: crc.finalize(),
             pixels: calls.row_pixels + calls.points,
             instructions: spent.saturating_sub(floor),
             stack_bytes,
@@ -180,7 +181,7 @@ struct Calls {
 pub struct Sink<'m, C> {
     machine: &'m mut dyn Machine,
     size: Size,
-    crc: Crc32,
+    crc: Digest<'static, u32>,
     calls: Calls,
     spent: u64,
     since: u32,
@@ -201,7 +202,7 @@ impl<'m, C: Colour> Sink<'m, C> {
         Self {
             machine,
             size,
-            crc: Crc32::default(),
+            crc: CRC_32.digest(),
             calls: Calls::default(),
             spent: 0,
             since: 0,
@@ -226,14 +227,12 @@ impl<'m, C: Colour> Sink<'m, C> {
     #[inline(never)]
     fn take_in(&mut self, area: Rectangle, offset: usize, count: usize) {
         self.pause();
-        self.crc.word(area.top_left.x as u32);
-        self.crc.word(area.top_left.y as u32);
-        self.crc.word(area.size.width);
+        for word in [area.top_left.x as u32, area.top_left.y as u32, area.size.width] {
+            self.crc.update(&word.to_le_bytes());
+        }
         let pixels = self.buffer.get(..count).unwrap_or(&[]);
         for value in pixels {
-            let [low, high] = value.to_le_bytes();
-            self.crc.byte(low);
-            self.crc.byte(high);
+            self.crc.update(&value.to_le_bytes());
         }
         if self.tell {
             self.machine.pixels(area, offset, pixels);
@@ -247,9 +246,7 @@ impl<'m, C: Colour> Sink<'m, C> {
         self.pause();
         for point in self.buffer.get(..3 * count).unwrap_or(&[]).chunks_exact(3) {
             for value in point {
-                let [low, high] = value.to_le_bytes();
-                self.crc.byte(low);
-                self.crc.byte(high);
+                self.crc.update(&value.to_le_bytes());
             }
             if let ([x, y, value], true) = (point, self.tell) {
                 let area = Rectangle::new(Point::new(i32::from(*x), i32::from(*y)), Size::new(1, 1));

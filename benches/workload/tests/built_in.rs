@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use attractor_workload::{Crc32, Machine, scenes};
+use attractor_workload::{CRC_32, Machine, scenes};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::primitives::Rectangle;
 
@@ -36,15 +36,13 @@ impl Machine for Frame {
 impl Frame {
     /// What a driver would send: 16 bits big-endian, or packed bits with the leftmost pixel highest.
     fn crc(&self) -> String {
-        let mut crc = Crc32::default();
-        if self.bits == 1 {
-            for byte in self.pixels.chunks(8) {
-                crc.byte(byte.iter().fold(0, |byte, pixel| byte << 1 | *pixel as u8));
-            }
+        let bytes: Vec<u8> = if self.bits == 1 {
+            let packed = |byte: &[u16]| byte.iter().fold(0, |byte, pixel| byte << 1 | *pixel as u8);
+            self.pixels.chunks(8).map(packed).collect()
         } else {
-            self.pixels.iter().flat_map(|pixel| pixel.to_be_bytes()).for_each(|byte| crc.byte(byte));
-        }
-        format!("{:08x}", crc.value())
+            self.pixels.iter().flat_map(|pixel| pixel.to_be_bytes()).collect()
+        };
+        format!("{:08x}", CRC_32.checksum(&bytes))
     }
 }
 

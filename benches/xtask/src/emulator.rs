@@ -1,13 +1,15 @@
 //! Runs an image in QEMU, with a time limit.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
+use wait_timeout::ChildExt as _;
+use which::which_in_global;
 
 use crate::targets::{Machine, Target};
 
@@ -19,7 +21,7 @@ pub(crate) fn find_all(targets: &[&Target]) -> Result<()> {
 fn look_for(targets: &[&Target], path: &OsStr) -> Result<()> {
     let machines = targets.iter().flat_map(|target| [Some(target.machine), target.counting]).flatten();
     let mut missing: Vec<_> =
-        machines.filter(|m| find_in(path, m.qemu).is_none()).map(|m| (m.qemu, m.package)).collect();
+        machines.filter(|m| !is_in(path, m.qemu)).map(|m| (m.qemu, m.package)).collect();
     missing.sort_unstable();
     missing.dedup();
     if missing.is_empty() {
@@ -33,17 +35,17 @@ fn look_for(targets: &[&Target], path: &OsStr) -> Result<()> {
     )
 }
 
-/// Where a program is.
-pub(crate) fn find(program: &str) -> Option<PathBuf> {
-    find_in(&path(), program)
+/// Whether there is such a program.
+pub(crate) fn has(program: &str) -> bool {
+    is_in(&path(), program)
 }
 
-fn path() -> std::ffi::OsString {
+fn path() -> OsString {
     std::env::var_os("PATH").unwrap_or_default()
 }
 
-fn find_in(path: &OsStr, program: &str) -> Option<PathBuf> {
-    std::env::split_paths(path).map(|dir| dir.join(program)).find(|path| path.is_file())
+fn is_in(path: &OsStr, program: &str) -> bool {
+    which_in_global(program, Some(path)).is_ok_and(|mut found| found.next().is_some())
 }
 
 /// Runs `image` on `machine` and returns what it printed. An image that fails or does not end in time is an error.
@@ -87,18 +89,11 @@ pub(crate) fn run(
     };
     let output = drain(child.stdout.take().map(|pipe| Box::new(pipe) as _));
     let errors = drain(child.stderr.take().map(|pipe| Box::new(pipe) as _));
-    let end = Instant::now() + limit;
-    let status = loop {
-        if let Some(status) = child.try_wait()? {
-            break Some(status);
-        }
-        if Instant::now() >= end {
-            child.kill()?;
-            child.wait()?;
-            break None;
-        }
-        thread::sleep(Duration::from_millis(5));
-    };
+    let status = child.wait_timeout(limit)?;
+    if status.is_none() {
+        child.kill()?;
+        child.wait()?;
+    }
     let text = |reader: thread::JoinHandle<String>| reader.join().unwrap_or_default();
     let (output, errors) = (text(output), text(errors));
     let tail = || {
@@ -139,7 +134,7 @@ mod tests {
 
     #[test]
     fn an_image_that_hangs_is_stopped_and_reported() {
-        let start = Instant::now();
+        let start = std::time::Instant::now();
         let stopped = ran("echo started; exec sleep 60").unwrap_err().to_string();
         assert!(start.elapsed() < Duration::from_secs(30), "the image was not stopped");
         assert!(stopped.contains("image on shell did not end within 0.5 s and was stopped"), "{stopped}");

@@ -1,8 +1,9 @@
 //! What was measured, as tables and as JSON.
 
-use anyhow::Result;
 use std::collections::BTreeMap;
 
+use anyhow::Result;
+use comfy_table::{CellAlignment, Row, Table, presets};
 use serde::Serialize;
 
 use crate::lines::{KernelLine, SceneLine};
@@ -220,7 +221,7 @@ impl Measured {
                 grouped(row.ram_bytes),
             ]
         }));
-        print_table(&rows, 4);
+        print_table(rows, 4);
 
         let count = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.2}"));
         let mut rows = vec![["kernel", "unit", "fixed", "f32", "f64", "host"].map(str::to_owned)];
@@ -228,33 +229,26 @@ impl Measured {
             let [fixed, f32, f64, host] = [row.fixed, row.f32, row.f64, row.host].map(count);
             [row.name.clone(), row.unit.clone(), fixed, f32, f64, host]
         }));
-        print_table(&rows, 2);
+        print_table(rows, 2);
 
         let mut rows = vec![["image", "flash", ".data", ".bss", "stack"].map(str::to_owned)];
         rows.extend(self.flash.iter().map(|row| {
             let [bytes, data, bss] = [row.bytes, row.data, row.bss].map(grouped);
             [row.name.clone(), bytes, data, bss, number(row.stack)]
         }));
-        print_table(&rows, 1);
+        print_table(rows, 1);
     }
 }
 
 /// Prints rows in columns: the first `left` flush left, the others flush right.
-fn print_table<const N: usize>(rows: &[[String; N]], left: usize) {
-    let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
-    let widths: [usize; N] = std::array::from_fn(width);
-    for row in rows {
-        let mut line = String::new();
-        for (column, (cell, width)) in row.iter().zip(widths).enumerate() {
-            if column < left {
-                line.push_str(&format!("{cell:<width$}  "));
-            } else {
-                line.push_str(&format!("{cell:>width$}  "));
-            }
-        }
-        println!("  {}", line.trim_end());
+fn print_table<R: Into<Row>>(rows: Vec<R>, left: usize) {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).add_rows(rows);
+    for (i, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((2, 0));
+        column.set_cell_alignment(if i < left { CellAlignment::Left } else { CellAlignment::Right });
     }
-    println!();
+    println!("{}\n", table.trim_fmt());
 }
 
 /// A number with its digits in groups of three.

@@ -22,7 +22,7 @@ const MARK: &str = "desc: Trigger: --dump-before=loops::mark";
 
 /// Fills in the column `host`; without valgrind it stays empty.
 pub(crate) fn count(report: &mut Report) -> Result<()> {
-    if emulator::find("valgrind").is_none() {
+    if !emulator::has("valgrind") {
         return Ok(());
     }
     let counts = measure(&build()?)?;

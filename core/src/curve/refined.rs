@@ -113,6 +113,36 @@ enum Pen {
 }
 
 /// The path of a refined polyline. Size on a 32-bit machine: 32 bytes for each of `DEPTH` orders, and 72.
+///
+/// ```
+/// use attractor::curve::koch;
+/// use attractor::draw::Stroke;
+/// use attractor::plane::{Bounds2, Point2, Window};
+/// use embedded_graphics::{mock_display::MockDisplay, pixelcolor::BinaryColor, prelude::*};
+///
+/// // the second order of the Koch curve, on a stack for four
+/// let curve = koch::GENERATOR.refined::<4>(&koch::SEGMENT, 2)?;
+/// assert_eq!(curve.clone().count(), 17);
+/// const BOUNDS: Bounds2 = Bounds2 { min: Point2::lit("0", "0"), max: Point2::lit("1", "0.29") };
+/// let window = Window::stretch(BOUNDS, Size::new(37, 11))?;
+/// let mut display = MockDisplay::new();
+/// display.set_allow_overdraw(true);
+/// Stroke::new(curve, window, BinaryColor::On).draw(&mut display).unwrap();
+/// display.assert_pattern(&[
+///     "                  #                  ",
+///     "                 # #                 ",
+///     "                 # #                 ",
+///     "            #####   #####            ",
+///     "             #          #            ",
+///     "             #         #             ",
+///     "              #        #             ",
+///     "      #       #       #       #      ",
+///     "     # #     #         #     # #     ",
+///     "     # #     #         #     # #     ",
+///     "#####   #####           #####   #####",
+/// ]);
+/// # Ok::<(), attractor::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Refined<'a, const S: usize, const DEPTH: usize> {
     generator: &'a Generator<S>,

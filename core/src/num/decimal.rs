@@ -285,4 +285,30 @@ mod tests {
             assert_eq!(value, Wide::MAX, "{text}");
         }
     }
+
+    #[test]
+    fn as_many_places_as_are_said_to_fit_do_fit() {
+        fn check<const N: usize>() {
+            // whatever stands before the point; zeros behind it are places
+            for (text, leading) in [("0.", 0), ("3.", 0), ("-0.00", 2)] {
+                let threes = |count: usize| format!("{text}{}", "3".repeat(count));
+                let long = threes(200 * N);
+                let Err(Error::Capacity { needed, capacity, .. }) = long.parse::<Limbs<N>>() else {
+                    panic!("{N}: {text}")
+                };
+                assert_eq!((needed, capacity), (200 * N + leading, Limbs::<N>::DECIMAL_PLACES), "{text}");
+                assert!(threes(capacity - leading).parse::<Limbs<N>>().is_ok(), "{N}: {text}");
+                assert!(threes(capacity - leading + 1).parse::<Limbs<N>>().is_err(), "{N}: {text}");
+                // an exponent moves the point, zeros at the end are none
+                let moved = format!("{}00e-{}", threes(capacity - leading - 5), 5);
+                assert!(moved.parse::<Limbs<N>>().is_ok(), "{moved}");
+                let moved = format!("{}00e-{}", threes(capacity - leading - 5), 6);
+                assert!(moved.parse::<Limbs<N>>().is_err(), "{moved}");
+            }
+        }
+        check::<2>();
+        check::<3>();
+        check::<4>();
+        check::<12>();
+    }
 }

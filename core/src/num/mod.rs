@@ -1,5 +1,10 @@
 //! Numbers: the formats of the project and the arithmetic that `fixed` does not have.
 //!
+#![doc = include_str!("../../docs/num.md")]
+//!
+//! A spiral of the Mandelbrot set, `1.2e-6` wide: on the left at the points that [`Real`] has, `2^-24` apart, on
+//! the right at those of [`Wide`], which has `2^24` steps between two of them.
+//!
 //! | type | format | resolution | used for |
 //! | --- | --- | --- | --- |
 //! | [`Real`] | I8F24 | 6e-8 | coordinates, heights, distances |

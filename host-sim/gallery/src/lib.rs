@@ -18,6 +18,7 @@ mod named;
 mod nested;
 mod page;
 mod pencil;
+mod plot;
 mod random_curve;
 
 pub use area::ground_words;

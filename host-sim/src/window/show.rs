@@ -1,8 +1,9 @@
 //! The window itself: shows what is drawn, grants wishes.
 //!
 //! The thread of the window computes nothing: it shows what the painter has done and listens to the keys. A
-//! wish ends the picture that is being drawn;
-//! the last one stays, moved or scaled, until rows of the next one cover it.
+//! wish ends the picture that is being drawn; the last one stays, moved or scaled, until rows of the next one
+//! cover it. Showing a picture takes 10 ms for 800 x 600 pixels, be they new or not: it is left to a small
+//! part of the time.
 
 use std::collections::VecDeque;
 use std::io::Write as _;
@@ -23,12 +24,14 @@ use crate::fail::{Fail, say};
 use crate::output;
 use crate::scene::{self, Request, Scene};
 
-/// Time between two frames of a picture that is being drawn.
-pub(super) const FRAME: Duration = Duration::from_millis(40);
+/// Time between two frames of a picture that is being drawn, at least.
+const FRAME: Duration = Duration::from_millis(40);
+/// It is also so many times as long as a frame takes to be shown.
+const REST: u32 = 12;
 /// Time between two looks at the keys.
 const LISTEN: Duration = Duration::from_millis(8);
 /// Time after which a picture is shown again: another window may have lain over it.
-const REFRESH: Duration = Duration::from_millis(250);
+const REFRESH: Duration = Duration::from_millis(500);
 
 /// Shows a scene; the built-in ones follow.
 pub(crate) fn run(args: &Window) -> Result<(), Fail> {
@@ -46,7 +49,7 @@ pub(crate) fn run(args: &Window) -> Result<(), Fail> {
 fn show<C: Depth>(look: &Look, names: &[&str], mut at: usize, first: Scene) -> Result<(), Fail> {
     let settings = OutputSettingsBuilder::new().scale(look.scale).build();
     let request = Request { size: look.size, seed: look.seed };
-    let mut view = View { screen: Screen::new("attractor", &settings), last: Instant::now() };
+    let mut view = View::new(Screen::new("attractor", &settings));
     let mut hand = Hand::new(look.size);
     let (mut scene, mut display) = (first, SimulatorDisplay::<C>::new(look.size));
     let mut wishes = VecDeque::new();
@@ -55,6 +58,9 @@ fn show<C: Depth>(look: &Look, names: &[&str], mut at: usize, first: Scene) -> R
     loop {
         let mut painter = Painter::start(scene, display.clone(), request);
         while !painter.is_done() {
+            if view.rest() >= FRAME {
+                painter.ask();
+            }
             match painter.frame() {
                 Some(frame) => {
                     view.show(&frame);
@@ -127,22 +133,36 @@ fn show<C: Depth>(look: &Look, names: &[&str], mut at: usize, first: Scene) -> R
     }
 }
 
-/// The screen, and when something was last shown on it.
+/// The screen, when something was last shown on it, and how long that took.
 struct View {
     screen: Screen,
     last: Instant,
+    took: Duration,
 }
 
 impl View {
+    fn new(mut screen: Screen) -> Self {
+        // frames are counted here
+        screen.set_max_fps(u32::MAX);
+        Self { screen, last: Instant::now(), took: Duration::ZERO }
+    }
+
     fn show<C: Depth>(&mut self, display: &SimulatorDisplay<C>) {
+        let start = Instant::now();
         self.screen.update(display);
-        self.last = Instant::now();
+        (self.last, self.took) = (Instant::now(), start.elapsed());
+    }
+
+    /// How long nothing has been shown; nothing before it is as much as a frame takes to be allowed for.
+    fn rest(&self) -> Duration {
+        let rest = self.last.elapsed();
+        if rest >= self.took * REST { rest } else { Duration::ZERO }
     }
 
     /// Waits a little; what is shown stays.
     fn wait<C: Depth>(&mut self, display: &SimulatorDisplay<C>) {
         thread::sleep(LISTEN);
-        if self.last.elapsed() >= REFRESH {
+        if self.rest() >= REFRESH {
             self.show(display);
         }
     }

@@ -31,6 +31,67 @@ pub(crate) fn bad(directory: &Path, args: &[&str]) -> String {
     complaint
 }
 
+/// What the command says of bad input, case by case: a text that stands in `snapshots/`.
+#[derive(Default)]
+pub(crate) struct Said(String);
+
+impl std::fmt::Display for Said {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Said {
+    /// Of a scene file that is good but for one thing.
+    pub(crate) fn change(&mut self, good: &str, from: &str, to: &str) {
+        assert!(good.contains(from), "{from}");
+        let kind = good.split('"').nth(1).unwrap_or("");
+        let shown = |text: &str| text.replace('\n', "\\n");
+        let complaint = complaint(good.replacen(from, to, 1).as_bytes());
+        self.case(&format!("{kind}: {} -> {}", shown(from), shown(to)), &complaint);
+    }
+
+    /// Of a scene file.
+    pub(crate) fn scene(&mut self, scene: &[u8]) {
+        self.case(&quoted(scene), &complaint(scene));
+    }
+
+    /// Of a command.
+    pub(crate) fn command(&mut self, directory: &Path, args: &[&str]) {
+        self.case(&format!("$ attractor {}", args.join(" ")), &bad(directory, args));
+    }
+
+    /// Of anything; nothing where it does not complain.
+    pub(crate) fn case(&mut self, what: &str, complaint: &str) {
+        for line in [what, "\n"].into_iter().chain(complaint.lines().flat_map(|line| ["    ", line, "\n"])) {
+            self.0.push_str(line);
+        }
+    }
+}
+
+/// A text on one line, of a long one the beginning.
+fn quoted(text: &[u8]) -> String {
+    let shown: String = text.iter().take(200).flat_map(|byte| byte.escape_ascii()).map(char::from).collect();
+    let shown = shown.replace("\\\"", "\"");
+    if text.len() > 200 { format!("{}... {} bytes", &shown[..80], text.len()) } else { shown }
+}
+
+/// What the command says of a scene file that it neither draws nor samples.
+fn complaint(scene: &[u8]) -> String {
+    let directory = tempfile::tempdir().expect("a directory");
+    std::fs::write(directory.path().join("scene.toml"), scene).expect("it can be written");
+    let [drawn, sampled] = [
+        &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"][..],
+        &["sample", "scene.toml", "--size", "4x4"],
+    ]
+    .map(|command| bad(directory.path(), command));
+    for complaint in [&drawn, &sampled] {
+        assert!(complaint.starts_with("attractor: scene.toml"), "{complaint}");
+    }
+    assert_eq!(std::fs::read_dir(directory.path()).expect("it is there").count(), 1, "something was written");
+    if drawn == sampled { drawn } else { drawn + &sampled }
+}
+
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("text")
 }

@@ -11,7 +11,8 @@ use crate::num::{Complex, high, product_u, root_and_reciprocal, square_u};
 impl Complex<I3F29> {
     /// The square root in the right half plane; of a negative number the one above the real axis.
     ///
-    /// Domain: all. Result: `re >= 0`, rounded as in `square_root`. Cost: 143 Cortex-M4 instructions (kernel `complex sqrt`).
+    /// Domain: all. Result: `re >= 0`. Error: below 2 units of `2^-29` in each part
+    /// (`a_root_is_within_two_units`). Cost: 143 Cortex-M4 instructions (kernel `complex sqrt`).
     ///
     /// ```
     /// use attractor::num::Complex;

@@ -530,4 +530,102 @@ mod tests {
         // nothing is asserted of orbits that end at once
         assert!(beyond > 500 && period > 65_536 && endless > 200, "{beyond} {period} {endless}");
     }
+
+    /// A block in 252 bits, as it is.
+    fn exact_of(b: BlockFloat<i64>) -> (Exact, Exact) {
+        if (b.re, b.im) == (0, 0) {
+            return (Exact::ZERO, Exact::ZERO);
+        }
+        let part = |word: i64| {
+            let places = u32::try_from(b.exponent + Exact::FRACTION as i32).unwrap();
+            let mut limbs = [0; 8];
+            for (i, limb) in (0_u32..).zip(&mut limbs) {
+                let above = u128::from(word.unsigned_abs()) << (places % 32);
+                *limb = (i.checked_sub(places / 32)).map_or(0, |i| above.unbounded_shr(32 * i) as u32);
+            }
+            let v = Exact::from_limbs(limbs);
+            if word < 0 { v.negated() } else { v }
+        };
+        (part(b.re), part(b.im))
+    }
+
+    /// Follows orbits beside exact ones. Steps taken, and how often a step's error and that of a point double
+    /// before they reach the bounds by which cycles are proved.
+    fn room<N: Stored>(view: &DeepView<8>, max: u32, wide: fn(N) -> BlockFloat<i64>) -> (u32, [i32; 2]) {
+        let mut orbit = std::vec![OrbitPoint::default(); Reference::<'_, N>::points(max)];
+        let reference = Reference::<'_, N>::new(view.centre(), max, view.reach(), &mut orbit).unwrap();
+        let led = |(x, y): (Exact, Exact), c: (Exact, Exact)| {
+            let xy = x.times(&y);
+            (x.times(&x).minus(&y.times(&y)).plus(&c.0), xy.plus(&xy).plus(&c.1))
+        };
+        let centre = (view.centre().re, view.centre().im);
+        let mut middle = std::vec![(Exact::ZERO, Exact::ZERO)];
+        for k in 1..reference.len() {
+            middle.push(led(middle[k - 1], centre));
+        }
+        let less = |a: (Exact, Exact), b: (Exact, Exact)| block(&a.0.minus(&b.0), &a.1.minus(&b.1)).short();
+        let plus = |a: (Exact, Exact), b: (Exact, Exact)| (a.0.plus(&b.0), a.1.plus(&b.1));
+        let (mut steps, mut room) = (0, [i32::MAX; 2]);
+        let mut note = |off: BlockFloat, bound: Upper, which: usize| {
+            if (off.re, off.im) != (0, 0) {
+                let size = Upper::of(off);
+                assert!(size <= bound, "{which}: {size:?} of {bound:?}");
+                let doublings = (0..64).take_while(|k| size.scaled(k + 1) <= bound).count() as i32;
+                room[which] = room[which].min(doublings);
+            }
+        };
+        for (column, row) in (0..4).flat_map(|row| (0..4).map(move |column| (column, row))) {
+            let g = N::nearest(view.distance(view.steps(column, row)));
+            let c = plus(centre, exact_of(wide(g)));
+            let mut walk = Walk::new(&reference, g);
+            // the point that the steps are computed for: the centre's, not rounded, and the distance
+            let point = |walk: &Walk<'_, N>| {
+                let left = walk.points.as_slice().len();
+                let at = (reference.points.len() - left) / N::POINTS - 1;
+                plus(middle[at], exact_of(wide(walk.distance)))
+            };
+            for _ in 0..max {
+                let (before, bound) = (point(&walk), walk.step_error());
+                if !walk.next() {
+                    break;
+                }
+                let now = point(&walk);
+                note(less(now, led(before, c)), bound, 0);
+                note(less(exact_of(wide(walk.z)), now), walk.blur(), 1);
+                steps += 1;
+            }
+        }
+        (steps, room)
+    }
+
+    #[test]
+    fn steps_and_points_are_within_the_bounds_that_prove_cycles() {
+        // copies of period 34 and 31, and a spiral from which all orbits escape
+        for (re, im, max) in [
+            (
+                "-0.22815549365396177228498592653253904365159762112307",
+                "1.11514250803993715834441655794265638994873014695612",
+                700,
+            ),
+            (
+                "-1.29635513817303623958400101894480453808696728365555",
+                "0.44185160573519697390918186054989267280045414010086",
+                700,
+            ),
+            ("0", "1", 400),
+        ] {
+            let view = DeepView::<8>::parse(re, im, "1e-30", Size::new(4, 4)).unwrap();
+            let narrow = room::<BlockFloat>(&view, max, |b| BlockFloat {
+                re: i64::from(b.re),
+                im: i64::from(b.im),
+                exponent: b.exponent,
+            });
+            let wide = room::<BlockFloat<i64>>(&view, max, |b| b);
+            std::println!("{re}: 30 bits {narrow:?}, 62 bits {wide:?}");
+            for (steps, room) in [narrow, wide] {
+                // a bound that were a sixteenth of what it is would be noticed
+                assert!(steps > 1000 && room.iter().all(|doublings| *doublings < 4), "{steps} {room:?}");
+            }
+        }
+    }
 }
