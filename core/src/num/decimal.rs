@@ -1,7 +1,11 @@
-//! Decimal strings as fixed-point numbers of any width.
+//! Reads a decimal string as a fixed-point number of any width.
 //!
-//! `[+-] digits [. digits] [e [+-] digits]`, read from the last place to the first: `v <- (v + digit) / 10`, each quotient rounded to nearest, so that
-//! the errors form a geometric series (D. E. Knuth, "The Art of Computer Programming", vol. 2, section 4.4, method 2b).
+//! The coordinates of a deep zoom have a hundred decimal places, more than any number type holds: a program
+//! is given them as text.
+//!
+//! The form is `[+-] digits [. digits] [e [+-] digits]`. Places behind the point are read from the last to
+//! the first: `v <- (v + digit) / 10`, each quotient rounded to nearest, so that the errors form a geometric
+//! series (D. E. Knuth, "The Art of Computer Programming", vol. 2, section 4.4, method 2b).
 
 use core::str::FromStr;
 

@@ -1,6 +1,7 @@
-//! Quotients of 128-bit numbers by 64-bit ones, a bit at a time.
+//! Quotients of 128-bit numbers by 64-bit ones, a bit at a time, for constructors.
 //!
-//! The library's division of `i128` takes a kilobyte of code wherever it is inlined. Constructors need few quotients: this loop is short and there once.
+//! The library's division of `i128` takes a kilobyte of code wherever it is inlined. Constructors need few
+//! quotients and may take their time: this loop is short and there once.
 
 /// `v 2^shift / d` rounded down, saturated; the greatest number for `d` = 0.
 ///

@@ -1,4 +1,7 @@
-//! Vectors of three [`Real`] components: positions and directions in the set-up of a camera.
+//! Vectors of three components: positions in [`Real`], directions in [`Unit`], for the set-up of a camera and
+//! its light.
+//!
+//! What is computed for each ray or pixel works on plain words instead, in the kernels.
 
 use super::{Real, Unit, reciprocal_sqrt_of, scaled};
 
