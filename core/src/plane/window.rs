@@ -1,4 +1,8 @@
-//! A window onto the plane: which pixel shows a point.
+//! A window onto the plane: tells which pixel shows a point, for dots, paths and densities.
+//!
+//! The mapping is exact, so that the same point has the same pixel on every machine and in whichever portion
+//! it is drawn. A pixel costs products with a reciprocal of the window's extent, prepared once, and no
+//! division.
 
 use embedded_graphics_core::geometry::{Point, Size};
 
@@ -7,11 +11,11 @@ use super::size::checked_size;
 use crate::Error;
 use crate::num::{Real, nth, product_u, ratio};
 
-/// A rectangle of the plane and the pixels that show it (seeds' world window and viewport).
+/// A rectangle of the plane and the pixels that show it: what textbooks call a world window and its viewport.
 ///
-/// A point belongs to the pixel in column `floor((x - min.x) columns / width)` and row `floor((max.y - y) rows / height)`, exactly: a pixel owns its
-/// left and its upper edge, and the last column and row own the window's right and lower edge too
-/// (`every_point_is_in_the_pixel_of_the_exact_quotient`).
+/// A point belongs to the pixel in column `floor((x - min.x) columns / width)` and row
+/// `floor((max.y - y) rows / height)`, exactly: a pixel owns its left and its upper edge, and the last column
+/// and row own the window's right and lower edge too (`every_point_is_in_the_pixel_of_the_exact_quotient`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -36,8 +40,8 @@ impl Window {
         if min.x >= max.x || min.y >= max.y {
             return Err(Error::Degenerate { what: "area of the window" });
         }
-        let x = Scale::of(size.width, from(min.x, max.x));
-        let y = Scale::of(size.height, from(min.y, max.y));
+        let x = Scale::of(size.width, distance(min.x, max.x));
+        let y = Scale::of(size.height, distance(min.y, max.y));
         Ok(Self { bounds, size, x, y })
     }
 
@@ -80,8 +84,8 @@ impl Window {
     pub fn pixel(&self, p: Point2) -> Option<Point> {
         let Bounds2 { min, max } = self.bounds;
         // modulo 2^32 what lies before the window is farther away than its other end
-        let (right, down) = (from(min.x, p.x), from(p.y, max.y));
-        if right > from(min.x, max.x) || down > from(min.y, max.y) {
+        let (right, down) = (distance(min.x, p.x), distance(p.y, max.y));
+        if right > distance(min.x, max.x) || down > distance(min.y, max.y) {
             return None;
         }
         let column = self.x.pixel(right).min(self.size.width - 1);
@@ -89,8 +93,10 @@ impl Window {
         Some(Point::new(column as i32, row as i32))
     }
 
-    /// The scales of both directions where each pixel is wider than a unit of the format, and no point below the window gets an index inside it
-    /// modulo `2^32`: `row width + column` is then the index of a pixel, or beyond them.
+    /// The shortcut of a [`Density`](super::Density): the scales of both directions without their whole part,
+    /// which is 0 where each pixel is wider than a unit of the format. None also where a point below the
+    /// window would get an index inside it modulo `2^32`: `row width + column` is the index of a pixel, or
+    /// beyond them all.
     pub(crate) fn fractions(&self) -> Option<[[u32; 2]; 2]> {
         let ([0, x @ ..], [0, y @ ..]) = (self.x.digits, self.y.digits) else { return None };
         // the row 2^32 units below the upper edge, and one more
@@ -109,10 +115,12 @@ impl Window {
     }
 }
 
-/// Pixels a unit in one direction: `m = ceil(2^64 pixels / extent)`, 64 fractional bits in three digits of 32.
+/// How many pixels a unit of the plane is long in one direction, so that a pixel is a product and no
+/// division: `m = ceil(2^64 pixels / extent)`, 64 fractional bits in three digits of 32.
 ///
-/// `floor(d m / 2^64) = floor(d pixels / extent)` for every `d < 2^32`: `d m` exceeds `2^64 d pixels / extent` by less than `d`, that is by less than
-/// `2^64 / extent`, the least distance of a quotient from the integer above it.
+/// `floor(d m / 2^64) = floor(d pixels / extent)` for every `d < 2^32`: `d m` exceeds
+/// `2^64 d pixels / extent` by less than `d`, that is by less than `2^64 / extent`, the least distance of a
+/// quotient from the integer above it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Scale {
     digits: [u32; 3],
@@ -173,7 +181,7 @@ fn extent(low: Real, high: Real) -> i64 {
 
 /// How far `end` is from `start`, modulo `2^32`.
 #[inline(always)]
-pub(crate) fn from(start: Real, end: Real) -> u32 {
+pub(crate) fn distance(start: Real, end: Real) -> u32 {
     end.to_bits().wrapping_sub(start.to_bits()) as u32
 }
 
