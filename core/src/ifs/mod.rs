@@ -36,7 +36,7 @@ mod moments;
 mod system;
 
 pub use affine::Affine;
-pub use chaos::{ChaosGame, Walk, WithMaps};
+pub use chaos::{ChaosGame, Labelled, Walk};
 pub use copier::{CopiedPath, CopiedPoints, Copier};
 pub use disc::Disc;
 pub use moments::Moments;

@@ -1,12 +1,15 @@
-//! An iterated function system: at most `N` contractions and the probability of each.
+//! An iterated function system: at most `N` contractions and the probability of each. Everything else in this
+//! room starts from one.
 //!
-//! Source: J. E. Hutchinson, "Fractals and self similarity", 1981; M. F. Barnsley, "Fractals Everywhere", 1988, sections 3.7 and 3.8
-//! (probabilities in proportion to the determinants).
+//! Its constructor checks all there is to check, so that nothing that is computed from a system can wrap: it
+//! proves an invariant [`Disc`] with `|x|, |y| <= 64`, for the maps as they are computed, rounding included;
+//! each chaos game starts in it, and so never leaves it. The coefficients of a contraction are below 1, the
+//! translations below 128; so the 64-bit accumulator of a map stays below `2^60 + 2^60 + 2^61 + 2^29 < 2^63`,
+//! and the result in the disc.
 //!
-//! Nothing wraps once a system exists. Its constructor proves an invariant [`Disc`] with `|x|, |y| <= 64`, for the maps as they are computed,
-//! rounding included; each chaos game starts in it, and so never leaves it. The coefficients of a contraction are below 1, the translations below 128;
-//! so the 64-bit accumulator of a map stays below `2^60 + 2^60 + 2^61 + 2^29 < 2^63`, and the result in the disc.
-//! Left out: systems that contract on average only.
+//! Source: J. E. Hutchinson, "Fractals and self similarity", 1981; M. F. Barnsley, "Fractals Everywhere",
+//! 1988, sections 3.7 and 3.8 (probabilities in proportion to the determinants). Left out: systems that
+//! contract on average only.
 
 use super::affine::Affine;
 use super::disc::{Contractions, Disc};
@@ -17,7 +20,7 @@ use crate::plane::Point2;
 /// The largest number of maps in a system.
 pub const MAX_MAPS: usize = 256;
 
-/// How far the sum of the probabilities may be from 1, for each of them: `10^-6`.
+/// How far the sum of the probabilities may be from 1, for each of them: `10^-6` in units of `2^-30`.
 const TOLERANCE: i64 = 1074;
 
 /// An iterated function system of at most `N <= 256` maps. Size on a 32-bit machine: 33 bytes a map, and 36.
@@ -189,9 +192,11 @@ impl<const N: usize> Ifs<N> {
     }
 }
 
-/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, at most 1024. The start lies on the attractor, so that
-/// every point does; but its first successors crowd around it. The distribution of the `k`-th differs from the invariant one by no more than `s^k` times
-/// the diameter (Hutchinson's metric). 1024 steps are enough for `s <= 0.9838`.
+/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, at most 1024.
+///
+/// The start lies on the attractor, so that every point does; but its first successors crowd around it. The
+/// distribution of the `k`-th differs from the invariant one by no more than `s^k` times the diameter
+/// (Hutchinson's metric). 1024 steps are enough for `s <= 0.9838`.
 fn warm_up(contraction_factor: Unit) -> u32 {
     let mut power = 1_u64 << 30;
     let mut steps = 0;
