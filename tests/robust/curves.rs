@@ -107,7 +107,7 @@ fn random_curves_of_any_law() {
             drawn |= subdivide(&elbow, &knots, stop, piece);
             made += 1;
         }
-        for law in [LineToLine::new(offset, seed), LineToLine::with_spectrum(offset, beta, seed)]
+        for law in [LineToLine::new(offset, seed), LineToLine::from_spectrum(offset, beta, seed)]
             .into_iter()
             .flatten()
         {
@@ -116,7 +116,7 @@ fn random_curves_of_any_law() {
             made += 1;
         }
         // a ratio takes a search: asked for now and then
-        let searched = if seed % 64 == 0 { OneVariable::with_ratio(beta, seed).ok() } else { None };
+        let searched = if seed % 64 == 0 { OneVariable::from_ratio(beta, seed).ok() } else { None };
         for law in OneVariable::new(offset, seed).ok().into_iter().chain(searched) {
             assert!(law.offset() >= 0);
             let _ = ends.map(|(a, b)| law.extrapolated(a, b, first));
