@@ -61,7 +61,7 @@ fn deep_pictures_of_any_view() {
         let chosen = all[at[3] as usize % 4];
         for arithmetic in [Arithmetic::of(view.pitch_exponent(), max), chosen] {
             for view in [view, moved] {
-                let Ok(set) = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut orbit) else {
+                let Ok(set) = DeepMandelbrot::new_in(view, max, arithmetic, &mut orbit) else {
                     continue;
                 };
                 assert!(set.dwell_at(at[0], at[1]).count <= max);

@@ -1,7 +1,12 @@
-//! A whole picture in a lent buffer: half of a symmetric one is copied, and what stays in sight while panning is moved.
+//! A whole picture in a lent buffer of 16 bits a pixel: half of a symmetric one is copied, and what stays in
+//! sight while panning is moved.
 //!
-//! Conjugate points have conjugate orbits and the same dwell: rows at `y` and `-y` are equal. A view that is panned by whole pixels shows the same points
-//! ([`View::pan`](crate::escape::View::pan), [`DeepView::pan`](crate::escape::DeepView::pan)), so that neither the mirror nor panning changes a pixel.
+//! For a program that lets its user move about, on a device with the memory: a pan by one pixel computes one
+//! column or row.
+//!
+//! Conjugate points have conjugate orbits and the same dwell: rows at `y` and `-y` are equal. A view that is
+//! panned by whole pixels shows the same points ([`View::pan`](crate::escape::View::pan),
+//! [`DeepView::pan`](crate::escape::DeepView::pan)), so that neither the mirror nor panning changes a pixel.
 
 use core::ops::Range;
 
