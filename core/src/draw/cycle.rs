@@ -1,4 +1,5 @@
-//! Palettes on counts: colours that come round again, as dwell pictures of deep windows need them.
+//! Palettes on counts, whose colours come round again: pictures of deep windows have dwells of thousands,
+//! which one pass through a palette would not tell apart.
 
 use core::num::NonZeroU32;
 

@@ -1,4 +1,5 @@
-//! A level: where a value lies on a scale from 0 to 1. Palettes are functions of a level, so that one palette serves every kernel.
+//! A level: where a value lies on a scale from 0 to 1. Palettes are functions of a level, so that one palette
+//! serves every kernel and a kernel of one's own every palette.
 //!
 //! Format: 16 bits, `0..=65535` for `0..=1`.
 
