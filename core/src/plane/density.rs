@@ -14,7 +14,7 @@ use embedded_graphics_core::geometry::Size;
 
 use super::field::Field;
 use super::point::{Bounds2, Point2};
-use super::window::{Window, distance, part};
+use super::window::{Window, distance, whole_pixels};
 use crate::Error;
 use crate::num::formats::UQ31;
 use crate::num::{log2, reciprocal};
@@ -156,7 +156,7 @@ impl<'a, C: Counter> Density<'a, C> {
         if right >= self.extent {
             return usize::MAX;
         }
-        let (column, row) = (part(right, x), part(down, y));
+        let (column, row) = (whole_pixels(right, x), whole_pixels(down, y));
         row.wrapping_mul(self.width).wrapping_add(column) as usize
     }
 

@@ -25,8 +25,8 @@ use crate::num::{Real, nth, product_u, ratio};
 pub struct Window {
     bounds: Bounds2,
     size: Size,
-    x: Scale,
-    y: Scale,
+    x: PixelsPerUnit,
+    y: PixelsPerUnit,
 }
 
 impl Window {
@@ -40,8 +40,8 @@ impl Window {
         if min.x >= max.x || min.y >= max.y {
             return Err(Error::Degenerate { what: "area of the window" });
         }
-        let x = Scale::of(size.width, distance(min.x, max.x));
-        let y = Scale::of(size.height, distance(min.y, max.y));
+        let x = PixelsPerUnit::of(size.width, distance(min.x, max.x));
+        let y = PixelsPerUnit::of(size.height, distance(min.y, max.y));
         Ok(Self { bounds, size, x, y })
     }
 
@@ -122,11 +122,11 @@ impl Window {
 /// `2^64 d pixels / extent` by less than `d`, that is by less than `2^64 / extent`, the least distance of a
 /// quotient from the integer above it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Scale {
+struct PixelsPerUnit {
     digits: [u32; 3],
 }
 
-impl Scale {
+impl PixelsPerUnit {
     /// For an extent of at least 1; 0 counts as 1.
     fn of(pixels: u32, extent: u32) -> Self {
         let extent = extent.max(1);
@@ -144,7 +144,7 @@ impl Scale {
     #[inline(always)]
     fn pixel(self, distance: u32) -> u32 {
         let [whole, high, low] = self.digits;
-        distance.wrapping_mul(whole).wrapping_add(part(distance, [high, low]))
+        distance.wrapping_mul(whole).wrapping_add(whole_pixels(distance, [high, low]))
     }
 
     /// The pixel at any signed distance; the far edge itself belongs to the last pixel.
@@ -152,7 +152,7 @@ impl Scale {
         let [whole, high, low] = self.digits;
         // below 2^32
         let d = distance.unsigned_abs() as u32;
-        let fraction = scaled(d, [high, low]);
+        let fraction = pixels_q32(d, [high, low]);
         let pixel = (product_u(d, whole) + (fraction >> 32)) as i64;
         if distance < 0 {
             // the floor of a negative quotient; where it is an integer, the fraction that is left is below 2^-32
@@ -163,16 +163,16 @@ impl Scale {
     }
 }
 
-/// `distance` times a fraction of two digits, with 32 fractional bits. Below `2^64`.
+/// `distance` times a fraction of two digits: 32 fractional bits in a word of 64, which it does not leave.
 #[inline(always)]
-fn scaled(distance: u32, [high, low]: [u32; 2]) -> u64 {
+fn pixels_q32(distance: u32, [high, low]: [u32; 2]) -> u64 {
     product_u(distance, high) + (product_u(distance, low) >> 32)
 }
 
 /// `floor(distance fraction)`.
 #[inline(always)]
-pub(crate) fn part(distance: u32, fraction: [u32; 2]) -> u32 {
-    (scaled(distance, fraction) >> 32) as u32
+pub(crate) fn whole_pixels(distance: u32, fraction: [u32; 2]) -> u32 {
+    (pixels_q32(distance, fraction) >> 32) as u32
 }
 
 fn extent(low: Real, high: Real) -> i64 {
