@@ -1,7 +1,7 @@
 //! Laws of displacement: what tells one random curve from another is where the midpoint of a part lies.
 //!
-//! [`super::Subdivision`] halves parts and asks a [`Displacement`] for each midpoint. The laws of this crate,
-//! and one of your own, are written with the same formula: `p_m = (p_1 + p_2) / 2 + g (p_2 - p_1)` for a
+//! [`super::Subdivision`] halves parts and asks a [`Displacement`] for each midpoint. What displaces points
+//! of the plane, a law of your own too, can use one formula: `p_m = (p_1 + p_2) / 2 + g (p_2 - p_1)` for a
 //! complex `g`, whose real part displaces along the part and whose imaginary part along the perpendicular
 //! bisector ([`displaced`]).
 //!

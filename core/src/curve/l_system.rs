@@ -7,7 +7,8 @@
 //! | `f` | a step forward, not drawn |
 //! | `+`, `-` | turn left, turn right by the angle |
 //! | `\|` | turn round |
-//! | `[`, `]` | remember place and direction, return to them |
+//! | `[` | remember place and direction |
+//! | `]` | return to the place and direction remembered last |
 //! | any other of `A` to `Z`, `a` to `z` | nothing: it only rewrites |
 //!
 //! Every letter, `F`, `G` and `f` among them, may have a rule. Source: P. Prusinkiewicz and A. Lindenmayer,

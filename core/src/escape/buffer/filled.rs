@@ -9,7 +9,7 @@
 //! every run of pixels between two edges becomes inner. The pixels of the outside are computed as ever. A
 //! curve is made of pixels: an outer filament that slips in between two of them is lost.
 //!
-//! # Why the order of the pixels changes nothing
+//! ### Why the order of the pixels changes nothing
 //! A pixel is settled when all to its left in its row are known. Whatever surrounds it has an edge among
 //! those, was met there, and filled the pixel with the rest. So the first inner pixel behind a settled one
 //! lies in no hole and has the outer edge of its component to its left; the walls along that edge lie in no

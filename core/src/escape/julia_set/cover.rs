@@ -48,7 +48,8 @@ const FAR: UQ27 = ONE_UQ27 / 2 * 5;
 /// by half of one, the modulus is low by less than one and so is the new radius: below 5 units in all.
 const ROUNDING: u64 = 5;
 
-type Point = (Q27, Q27);
+/// A point of the plane, as discs have it for their middles.
+type Point27 = (Q27, Q27);
 
 impl JuliaSet {
     /// The radius of a disc round 0 that contains `J_c`: `(1 + sqrt(1 + 4 |c|)) / 2`, beyond which every
@@ -98,7 +99,7 @@ impl JuliaSet {
 const WIDEST: Wide = Wide::lit("4");
 
 /// A point, rounded to nearest; none beyond `-4 .. 4`, where squares as wide as 4 do not meet the set.
-fn point(z: Complex<Wide>) -> Option<Point> {
+fn point(z: Complex<Wide>) -> Option<Point27> {
     let part = |v: Wide| {
         let bits = (v.to_bits() >> 20).saturating_add(1) >> 1;
         i32::try_from(bits).ok().filter(|bits| bits.unsigned_abs() < 4 * ONE_UQ27)
@@ -121,7 +122,7 @@ const fn half_diagonal(side: UQ27) -> UQ27 {
 /// What is needed of a set to carry discs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Discs {
-    c: Point,
+    c: Point27,
     /// The radius of the disc round 0 that contains the set.
     bound: UQ27,
 }
@@ -133,7 +134,7 @@ impl Discs {
         Self { c: (nearest(x), nearest(y)), bound: up(set.radius()) }
     }
 
-    fn may_meet(&self, middle: Point, radius: UQ27) -> bool {
+    fn may_meet(&self, middle: Point27, radius: UQ27) -> bool {
         let (mut z, mut r) = (middle, radius);
         let mut first_order = radius;
         let mut is_large = false;
@@ -186,7 +187,7 @@ impl Discs {
         false
     }
 
-    fn sixteenths(&self, middle: Point, side: UQ27) -> u8 {
+    fn sixteenths(&self, middle: Point27, side: UQ27) -> u8 {
         let mut count = 0;
         if !self.may_meet(middle, half_diagonal(side)) {
             return 0;
@@ -202,13 +203,13 @@ impl Discs {
     }
 }
 
-fn around((x, y): Point, d: UQ27) -> [Point; 4] {
+fn around((x, y): Point27, d: UQ27) -> [Point27; 4] {
     let d = d as i32; // at most 2^27; the parts of a point are below 2^29 each
     [(x - d, y - d), (x + d, y - d), (x - d, y + d), (x + d, y + d)]
 }
 
 /// Whether the first disc lies in the second.
-fn is_within((z, r): (Point, UQ27), (w, s): (Point, UQ27)) -> bool {
+fn is_within((z, r): (Point27, UQ27), (w, s): (Point27, UQ27)) -> bool {
     let Some(room) = s.checked_sub(r) else { return false };
     let square = |a: i32, b: i32| {
         let d = (i64::from(a) - i64::from(b)).unsigned_abs();

@@ -6,7 +6,7 @@
 //! `dwell = min(iterations until |d_k| > 2, Num)`, so that a start beyond 2 has dwell 0. Format: I3F29 in
 //! 32-bit words, every product rounded once.
 //!
-//! # Why nothing that wrapped can be mistaken for a point of the disc
+//! ### Why nothing that wrapped can be mistaken for a point of the disc
 //! An I3F29 holds `[-4, 4)`, and a step from `|d| <= 2` with `|c| <= 2` reaches 6. A component that leaves
 //! the format comes back 8 away: from `4 <= |v| < 6` it lands strictly beyond 2, so that the next test sees
 //! an escape, as it should. Only `|v| = 6` would land on 2, the edge of the disc (`c = 2`: `2 -> 6`, stored
@@ -21,7 +21,7 @@
 //! The sum itself does not wrap either: `high(x x) <= 2^30`, so that it is at most `2^31` in an unsigned
 //! word.
 //!
-//! # Why stopping at a repeated point changes nothing
+//! ### Why stopping at a repeated point changes nothing
 //! The next stored point is a function of the stored point alone. When one comes back, the loop runs for ever
 //! through points that have all passed the test: the dwell is `Num`. The loop compares with a saved point
 //! once every 8 iterations and moves the saved point at doubling distances (R. P. Brent, "An improved Monte

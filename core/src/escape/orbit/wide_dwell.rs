@@ -105,7 +105,7 @@ pub(crate) fn dwell<W: WideWord>(z: (W, W), c: (W, W), max: u32) -> u32 {
         while unfinished > 0 {
             let (tx, ty) = (x.top(), y.top());
             // |z| < 8 sqrt 2: below 2^31 as unsigned words
-            let norm = high(tx).wrapping_add(high(ty));
+            let norm = high_square(tx).wrapping_add(high_square(ty));
             if norm >= NEAR && W::is_beyond(x, y) {
                 return max - left + (block - unfinished);
             }
@@ -134,7 +134,7 @@ pub(crate) fn period<W: WideWord>(c: (W, W), max: u32) -> Option<u32> {
 
 /// The upper word of the square.
 #[inline(always)]
-fn high(v: Q28) -> UQ24 {
+fn high_square(v: Q28) -> UQ24 {
     high_of_square(v) as u32
 }
 

@@ -452,16 +452,16 @@ mod tests {
             let mut orbit = [OrbitPoint::default(); 600];
             let picture = DeepMandelbrot::new_in(view, 300, arithmetic, &mut orbit).unwrap();
             let mut counts = [0; 300];
-            let mut canvas = Buffered::new(picture, &mut counts).unwrap();
-            assert_eq!(canvas.computed(), if im == "0" { 20 * 8 } else { 300 });
+            let mut buffered = Buffered::new(picture, &mut counts).unwrap();
+            assert_eq!(buffered.computed(), if im == "0" { 20 * 8 } else { 300 });
             for (right, up) in [(0, 0), (3, 1), (-9, 4), (0, -15), (40, -2)] {
-                canvas.pan(right, up).unwrap();
-                let (moved, size) = (canvas.picture(), canvas.size());
+                buffered.pan(right, up).unwrap();
+                let (moved, size) = (buffered.picture(), buffered.size());
                 for y in 0..size.height {
-                    assert!(canvas.row(y, 0..20).eq(moved.row(y, 0..20)), "{arithmetic:?} {y}");
+                    assert!(buffered.row(y, 0..20).eq(moved.row(y, 0..20)), "{arithmetic:?} {y}");
                 }
             }
-            assert!(canvas.pan(40_000, 0).is_err());
+            assert!(buffered.pan(40_000, 0).is_err());
             // the same point, whichever way it came
             let (once, twice) = (view.pan(5, -3).unwrap(), view.pan(7, 0).unwrap().pan(-2, -3).unwrap());
             assert_eq!((once, once.point(2, 9)), (twice, view.point(7, 12)));
