@@ -83,6 +83,7 @@ impl LineToLine {
     /// # Errors
     /// [`Error::OutOfRange`] when the knot leaves the range of [`Real`].
     pub fn extrapolated(&self, from: Point2, to: Point2, at: Parameter) -> Result<Point2, Error> {
+        // `to` is the midpoint of a part twice as long as those between knots, one level above the first:
         // o_{-1} (t_2 - t_1) = o_0 / (o_1 / o_0) span over the whole of twice the span
         let [first, second] = self.first_offsets();
         let above = product(first, first).checked_div(i64::from(second).max(1)).unwrap_or(0);

@@ -138,7 +138,7 @@ impl<const S: usize> Generator<S> {
             return Err(Error::Capacity { what: "segments", needed: segments, capacity });
         }
         let whole = vertices.clone().last().unwrap_or_default();
-        // what the rounding of sines leaves of a closed word
+        // a turtle that comes back to its start misses it by what the rounding of sines leaves
         if whole.iter().all(|w| w.unsigned_abs() < 1 << 10) {
             return Err(Error::Degenerate { what: "the segment that the generator replaces" });
         }

@@ -168,11 +168,11 @@ impl<V: Leveled, P: Palette<V>> Palette<V> for Inside<P> {
 /// Another palette at the square root of the level, which makes dark pixels brighter: it spreads the low
 /// levels, where most of a dwell picture lies.
 ///
-/// Error: below one step of the level (`lifting_is_the_square_root_rounded_down`). Values inside the set stay
-/// black.
+/// Error: below one step of the level (`brightening_is_the_square_root_rounded_down`). Values inside the set
+/// stay black.
 ///
 /// ```
-/// use attractor::draw::{Grey, Level, Brightened, Palette, hex};
+/// use attractor::draw::{Brightened, Grey, Level, Palette, hex};
 ///
 /// assert_eq!(Brightened(Grey).rgb(Level::ratio(1, 4)), hex(0x7f7f7f));
 /// ```
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn lifting_is_the_square_root_rounded_down() {
+    fn brightening_is_the_square_root_rounded_down() {
         let brightened = Brightened(|level: Level| hex(u32::from(level.to_bits())));
         for level in 0..=u16::MAX {
             let root = brightened.rgb(Level::from_bits(level));

@@ -32,8 +32,8 @@ impl<const N: usize> Ifs<N> {
 
     /// The state of a chaos game after its warm-up, without a reference to the system: a structure may hold
     /// both. [`Ifs::resume`] goes on.
-    // Out of line, and it keeps no reference: what the compiler knows of the system in the loop over the
-    // points it still knows.
+    // Out of line and without a reference to the system that outlives it: in the loop over the points the
+    // compiler then still knows that nothing has changed the system.
     #[inline(never)]
     pub fn walk<R: Rng>(&self, rng: R) -> Walk<R> {
         let mut walk = Walk { rng, point: self.start(), map: 0 };
@@ -61,7 +61,7 @@ impl<const N: usize> Ifs<N> {
     /// # Ok::<(), attractor::Error>(())
     /// ```
     pub fn resume<'a, R: Rng>(&'a self, walk: &'a mut Walk<R>) -> ChaosGame<'a, R, N, &'a mut Walk<R>> {
-        // what the maps do not leave is theirs: see `Ifs`
+        // from any point of the disc a game stays in it: see `Ifs`
         if !self.invariant_disc().holds(walk.point) {
             walk.point = self.start();
             walk.warm_up(self);

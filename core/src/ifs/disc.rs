@@ -102,7 +102,7 @@ impl Contractions<'_> {
             let distance = hypotenuse(to_right, upwards) + 1;
             // factors are at most 1; distance < 2^33
             let gap = (1_u32 << 30).saturating_sub(factor.to_bits().unsigned_abs());
-            // most maps do not decide: a product tells
+            // most maps do not have the largest radius: a product tells, and spares the division
             if distance << 30 >= (worst.0 as u64).saturating_mul(gap.into()) {
                 worst = (ratio(distance, 30, gap.into()).min(1 << 62) as i64 + 1, index);
             }

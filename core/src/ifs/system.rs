@@ -72,7 +72,7 @@ impl<const N: usize> Ifs<N> {
         }
         let sum: i64 = probabilities.iter().map(|p| i64::from(p.to_bits())).sum();
         if (sum - (1 << 30)).abs() > TOLERANCE * maps.len() as i64 {
-            // below 512
+            // at most 256 numbers below 2: 512 fits
             return Err(Error::Probabilities { sum: Wide::from_bits(sum << 18) });
         }
         Self::build(maps, probabilities)

@@ -107,7 +107,8 @@ fn share(weights: &[u32], sum: u64, excess: &mut [i64], thresholds: &mut [UQ32],
         if missing >= 0 {
             break;
         }
-        // it owns the first words of its slot: they are `n` apart below 2^32, and begin below `n`
+        // it owns the first words of its slot: `pick` compares `word n` modulo 2^32, which begins below `n`
+        // in each slot and grows by `n` from word to word
         let words = first_word(i + 1, n) - first_word(i, n) + missing;
         if let (Some(threshold), Some(other)) = (thresholds.get_mut(i), others.get_mut(i)) {
             (*threshold, *other) = ((words * n as i64) as u32, rich as u8);

@@ -63,10 +63,10 @@ impl<const LIMBS: usize> FromStr for Limbs<LIMBS> {
             // below 10: there is room for 16
             number = number.plus_whole(decimal.digit(place)).plus_units(5).divided(10).0;
         }
-        // a digit above the ones is too many
+        // the digits before the point: 8 and above is refused below
         let first = decimal.first_place();
         let whole = if first < -8 {
-            // more than the error can tell
+            // more digits than the error can tell
             u32::MAX
         } else {
             (first..=0).fold(0, |whole, place| whole * 10 + decimal.digit(place))

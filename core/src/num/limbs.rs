@@ -134,7 +134,8 @@ impl<const LIMBS: usize> Limbs<LIMBS> {
                 sum.add(u64::from(*x) * u64::from(*y));
             }
             let word = sum.shift();
-            // the point moves by 28 bits within a word
+            // a product has 8 bits before the point, of which 4 stay: a limb takes 28 bits of one column and
+            // the highest 4 of the column below
             if let Some(limb) = column.checked_sub(LIMBS).and_then(|k| product.limbs.get_mut(k)) {
                 *limb = (word << WHOLE) | (below >> (32 - WHOLE));
             }

@@ -33,7 +33,7 @@ pub fn mul_high(a: i64, b: i64) -> i64 {
 }
 
 /// The high 64 bits of the 128-bit product, rounded down. Exact.
-// 70 instructions where products are made by halves: there once
+// 70 instructions where products are made by halves: out of line, so that they are there once only
 #[cfg_attr(no_long_product, inline(never))]
 #[cfg_attr(not(no_long_product), inline)]
 pub fn mul_high_u(a: u64, b: u64) -> u64 {

@@ -99,7 +99,7 @@ impl Window {
     /// beyond them all.
     pub(crate) fn fractions(&self) -> Option<[[u32; 2]; 2]> {
         let ([0, x @ ..], [0, y @ ..]) = (self.x.digits, self.y.digits) else { return None };
-        // the row 2^32 units below the upper edge, and one more
+        // no point is more than 2^32 units below the upper edge: its row there, and one more
         let [high, _] = y;
         let rows = u64::from(high) + 2;
         (rows * u64::from(self.size.width) < 1 << 32).then_some([x, y])
@@ -134,7 +134,8 @@ impl PixelsPerUnit {
         // below the extent
         let rest = pixels - whole * extent;
         let fraction = ratio(u64::from(rest) << 1, 63, extent.into());
-        // what is left of 2^64 rest is below 2^32: 0 exactly where it is 0 modulo 2^64
+        // rounded up: what the quotient leaves of 2^64 rest is below 2^32, so that it is 0 exactly where it
+        // is 0 modulo 2^64
         let up = u64::from(fraction.wrapping_mul(extent.into()) != 0);
         let fraction = fraction.wrapping_add(up);
         Self { digits: [whole, (fraction >> 32) as u32, fraction as u32] }

@@ -121,8 +121,8 @@ macro_rules! arithmetic {
                 if magnitude == 0 {
                     return Self::ZERO;
                 }
-                // the modulus of a product is between 2^(2 BITS - 2) and 2^(2 BITS + 1): BITS - 2 to BITS + 1 places are too many, as many as
-                // a shift within two words takes
+                // the modulus of a product is between 2^(2 BITS - 2) and 2^(2 BITS + 1): it has BITS - 2 to
+                // BITS + 1 places too many, as many as a shift within two words takes
                 let places = (<$double>::BITS - <$word>::BITS - magnitude.leading_zeros() + <$word>::BITS
                     - $bits)
                     .clamp($bits - 2, $bits + 1);

@@ -49,7 +49,8 @@ pub(crate) trait Rounding {
     /// The next point of the orbit that [`dwell`] follows, where both are within 2.
     #[inline(always)]
     fn next(z: Point29, c: Point29) -> Point29 {
-        // the step of `careful`, which leaves no format here
+        // near the edge the loop takes the step of `careful`: that of `Fine`, as nothing leaves the format
+        // here
         if is_near(z) { Fine::step(z, c) } else { Self::step(z, c) }
     }
 }

@@ -31,7 +31,7 @@ impl Upper {
         if square == 0 {
             return Self::power(block.exponent);
         }
-        // a unit too low, and half a unit in each part
+        // the root may be a unit too low, and each part of the block was rounded by half a unit
         let (root, ..) = root_and_reciprocal(square);
         let up = root.saturating_add(2);
         let places = up.leading_zeros();
