@@ -7,8 +7,7 @@
 //! | `f` | a step forward, not drawn |
 //! | `+`, `-` | turn left, turn right by the angle |
 //! | `\|` | turn round |
-//! | `[` | remember place and direction |
-//! | `]` | return to the place and direction remembered last |
+//! | `[..]` | a branch: behind it the turtle has the place and the direction again that it had before it |
 //! | any other of `A` to `Z`, `a` to `z` | nothing: it only rewrites |
 //!
 //! Every letter, `F`, `G` and `f` among them, may have a rule. Source: P. Prusinkiewicz and A. Lindenmayer,
