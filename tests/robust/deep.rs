@@ -95,10 +95,10 @@ fn buffers_and_colourings_of_any_view() {
             part_of_a_row(&Interior(&set), y, at[0], 1);
         }
         let mut counts = vec![0_u16; pixels];
-        let mut buffered = Buffered::new(set, &mut counts).expect("a count a pixel");
-        let shown: Vec<_> = (0..size.height).flat_map(|y| buffered.row(y, 0..size.width)).collect();
+        let mut canvas = Buffered::new(set, &mut counts).expect("a count a pixel");
+        let shown: Vec<_> = (0..size.height).flat_map(|y| canvas.row(y, 0..size.width)).collect();
         assert_eq!(shown, plain);
-        let _ = buffered.pan(by.0, by.1);
+        let _ = canvas.pan(by.0, by.1);
         let mut bits = vec![0_u8; length];
         assert_eq!(Filled::new(set, &mut bits).is_ok(), length >= Filled::<'_, Mandelbrot>::bytes(size));
         let mut bits = vec![0_u8; Filled::<'_, Mandelbrot>::bytes(size)];

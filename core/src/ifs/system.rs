@@ -192,11 +192,9 @@ impl<const N: usize> Ifs<N> {
     }
 }
 
-/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, at most 1024.
-///
-/// The start lies on the attractor, so that every point does; but its first successors crowd around it. The
-/// distribution of the `k`-th differs from the invariant one by no more than `s^k` times the diameter
-/// (Hutchinson's metric). 1024 steps are enough for `s <= 0.9838`.
+/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, at most 1024. The start lies on the attractor, so that
+/// every point does; but its first successors crowd around it. The distribution of the `k`-th differs from the invariant one by no more than `s^k` times
+/// the diameter (Hutchinson's metric). 1024 steps are enough for `s <= 0.9838`.
 fn warm_up(contraction_factor: Unit) -> u32 {
     let mut power = 1_u64 << 30;
     let mut steps = 0;

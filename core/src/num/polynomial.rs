@@ -3,34 +3,32 @@
 //! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
 //! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
-use super::formats::{Q55, UQ63};
 use super::{mul_high, mul_high_u, nth};
 
 /// Fractional bits of values and coefficients.
 pub(crate) const FRACTION: u32 = 55;
-/// One, as an abscissa.
-pub(crate) const ONE: UQ63 = 1 << 63;
+/// One, as an abscissa with 63 fractional bits.
+pub(crate) const ONE: u64 = 1 << 63;
 
-/// A polynomial of degree at most `D` on the unit interval.
+/// A polynomial of degree at most `D` on the unit interval, 55 fractional bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Polynomial<const D: usize> {
-    pub(crate) constant: Q55,
+    pub(crate) constant: i64,
     /// Coefficients of `t`, `t^2`, ...
-    pub(crate) powers: [Q55; D],
+    pub(crate) powers: [i64; D],
 }
 
-/// `value * t` for an abscissa, in the format of `value`. Error: below 2 units, towards minus infinity; exact
-/// for `t` = 1 (`products_are_low_by_less_than_they_say`).
+/// `value * t` for an abscissa with 63 fractional bits. Error: below 2 units, towards minus infinity; exact for `t` = 1 (`products_are_low_by_less_than_they_say`).
 ///
 /// Out of line: constructors ask for many.
 #[inline(never)]
-pub(crate) fn times(value: i64, t: UQ63) -> i64 {
+pub(crate) fn times(value: i64, t: u64) -> i64 {
     inline_times(value, t)
 }
 
 /// [`times`] for the walk along an address.
 #[inline(always)]
-fn inline_times(value: i64, t: UQ63) -> i64 {
+fn inline_times(value: i64, t: u64) -> i64 {
     if t >= ONE {
         return value;
     }
@@ -46,9 +44,9 @@ pub(crate) fn twice_high(a: i64, b: i64) -> i64 {
     mul_high(a, b) << 1
 }
 
-/// `a b` for `a` below 1. Error: below a unit, downwards (`products_are_low_by_less_than_they_say`).
+/// `a b`, both with 63 fractional bits, for `a` below 1. Error: below a unit, downwards (`products_are_low_by_less_than_they_say`).
 #[inline(never)]
-pub(crate) fn part_of(a: UQ63, b: UQ63) -> UQ63 {
+pub(crate) fn part_of(a: u64, b: u64) -> u64 {
     mul_high_u(a << 1, b)
 }
 
@@ -57,7 +55,7 @@ impl<const D: usize> Polynomial<D> {
 
     /// The value at `t`. Error: below `2 D` units (`a_polynomial_keeps_its_bounds`). Cost: `D` products of 64 bits.
     #[inline]
-    pub(crate) fn at(&self, t: UQ63) -> Q55 {
+    pub(crate) fn at(&self, t: u64) -> i64 {
         let mut sum = 0_i64;
         for c in self.powers.iter().rev() {
             sum = inline_times(sum.wrapping_add(*c), t);
@@ -67,7 +65,7 @@ impl<const D: usize> Polynomial<D> {
 
     /// The sum of the magnitudes of the coefficients, saturated.
     #[inline(never)]
-    pub(crate) fn norm(&self) -> Q55 {
+    pub(crate) fn norm(&self) -> i64 {
         self.powers
             .iter()
             .fold(self.constant.saturating_abs(), |sum, c| sum.saturating_add(c.saturating_abs()))
@@ -80,7 +78,7 @@ impl<const D: usize> Polynomial<D> {
 
     /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D` units a coefficient
     /// (`a_polynomial_keeps_its_bounds`).
-    pub(crate) fn part(&self, start: UQ63, width: UQ63) -> Self {
+    pub(crate) fn part(&self, start: u64, width: u64) -> Self {
         let mut part = Self::ZERO;
         // Horner: part <- part * (start + width s) + c
         for c in self.powers.iter().rev().chain([&self.constant]) {
@@ -113,13 +111,13 @@ impl<const D: usize> Polynomial<D> {
     }
 
     /// The mean over the unit interval, `sum of c_k / (k + 1)`. Error: below `D` units (`a_polynomial_keeps_its_bounds`).
-    pub(crate) fn mean(&self) -> Q55 {
+    pub(crate) fn mean(&self) -> i64 {
         self.powers.iter().zip(2..).fold(self.constant, |sum, (c, n)| sum.wrapping_add(nth(*c, n)))
     }
 
     /// Least and greatest value on the unit interval, outward: the hull of the Bernstein coefficients. Exact for degree 1, else wide by
     /// a part of the second differences, which shrink with the square of the interval; above degree 16 the sum of all magnitudes.
-    pub(crate) fn range(&self) -> (Q55, Q55) {
+    pub(crate) fn range(&self) -> (i64, i64) {
         match self.powers.as_slice() {
             [] => (self.constant, self.constant),
             [c] => {
@@ -134,7 +132,7 @@ impl<const D: usize> Polynomial<D> {
 
 /// The hull of the Bernstein coefficients `b_i = sum over k <= i of C(i, k) / C(D, k) c_k`.
 #[inline(never)]
-fn hull(constant: Q55, powers: &[Q55]) -> (Q55, Q55) {
+fn hull(constant: i64, powers: &[i64]) -> (i64, i64) {
     const COARSE: u32 = 16; // 39 fractional bits leave room for binomials
     const PAD: i64 = 1 << (COARSE + 4);
     let degree = powers.len() as u32;

@@ -105,8 +105,8 @@ pub fn sqrt(v: u64) -> u32 {
     if left < 0 { root.wrapping_sub(1) } else { root.wrapping_add(u32::from(left > 2 * i64::from(root))) }
 }
 
-/// `sqrt(v)` within 1 unit, and `1/sqrt(v)` within `2^-24` of itself as `mantissa / 2^(62 - places)`: for
-/// numbers that have been scaled, at a third of the cost of [`sqrt`].
+/// `sqrt(v)` within 1 unit, and `1/sqrt(v)` within `2^-24` of itself as `mantissa / 2^(62 - places)`: for numbers that have been scaled, at a third of
+/// the cost of [`sqrt`].
 ///
 /// Domain: `2^58 <= v < 2^63`. Result: root, mantissa, places (0 to 2).
 #[inline]

@@ -102,8 +102,8 @@ impl Reciprocal {
         mul_high_u(v << self.shift, self.mantissa) << 1
     }
 
-    /// `v / d` for the `d` of which this is the reciprocal, rounded down, for `v < d`. Exact.
-    pub(crate) fn exact(self, v: u64, d: u64) -> UQ63 {
+    /// `v / d` with 63 fractional bits for the `d` of which this is the reciprocal, rounded down, for `v < d`. Exact.
+    pub(crate) fn exact(self, v: u64, d: u64) -> u64 {
         // 0 counts as 1: then v = 0
         let d = d.max(1);
         let mut quotient = self.quotient(v);

@@ -70,9 +70,9 @@ fn colorings<P: EscapeTime + Copy>(picture: P, point: P::Point) -> Result<(), Er
     let interior = Interior(picture);
     bb((interior.value_at(point), interior.row(row().0, row().1).nth(bb(3))));
     let mut counts = [0; 600];
-    let mut buffered = Buffered::new(picture, bb(&mut counts[..]))?;
-    buffered.pan(bb(1), bb(-1))?;
-    bb((buffered.computed(), buffered.row(row().0, row().1).nth(bb(3))));
+    let mut canvas = Buffered::new(picture, bb(&mut counts[..]))?;
+    canvas.pan(bb(1), bb(-1))?;
+    bb((canvas.computed(), canvas.row(row().0, row().1).nth(bb(3))));
     let mut bits = [0; 150];
     let filled = Filled::new(picture, bb(&mut bits[..]))?;
     bb((Filled::<P>::bytes(bb(Size::new(1, 1))), filled.at(bb(1), bb(1))));
