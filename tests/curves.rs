@@ -288,7 +288,7 @@ fn random_curves_are_those_of_the_recursive_procedures() {
     let got = stroke(Subdivision::<_, 12>::new(&law, &knots, stop).unwrap());
     check("line to line", got, &Law::LineToLine(&|level| 0.25 * 3.0 / f64::from(1 << level)), 4.0);
     for beta in [1.0, 1.5, 2.0, 2.5, 3.0] {
-        let law = LineToLine::with_spectrum(offset, Real::from_num(beta), 5).unwrap();
+        let law = LineToLine::from_spectrum(offset, Real::from_num(beta), 5).unwrap();
         let got = stroke(Subdivision::<_, 12>::new(&law, &knots, stop).unwrap());
         let hurst = (beta - 1.0) / 2.0;
         check("spectrum", got, &Law::LineToLine(&|level| 0.75 * (-hurst * f64::from(level)).exp2()), 8.0);
@@ -341,7 +341,7 @@ fn with_every_law(seed: u64, mut check: impl FnMut(&str, &dyn Displacement)) {
     check("elbow", &Elbow::new(offset, beta, seed).unwrap());
     check("self-similar elbow", &Elbow::self_similar(beta, seed).unwrap());
     check("line to line", &LineToLine::new(offset, seed).unwrap());
-    check("line to line, spectrum", &LineToLine::with_spectrum(offset, beta, seed).unwrap());
+    check("line to line, spectrum", &LineToLine::from_spectrum(offset, beta, seed).unwrap());
     check("one variable", &OneVariable::new(offset, seed).unwrap());
     check("two variables", &TwoVariable::new(offset, seed).unwrap());
 }
@@ -500,10 +500,10 @@ fn bad_laws_and_limits_are_refused() {
     for b in [0.99, 3.01, -2.0, 100.0] {
         assert!(matches!(beta(b), Some(Error::OutOfRange { what: "beta", .. })));
         assert!(Elbow::self_similar(Real::from_num(b), 1).is_err());
-        assert!(LineToLine::with_spectrum(Unit::ONE, Real::from_num(b), 1).is_err());
+        assert!(LineToLine::from_spectrum(Unit::ONE, Real::from_num(b), 1).is_err());
     }
     assert!(OneVariable::new(-Unit::DELTA, 1).is_err() && TwoVariable::new(Unit::MIN, 1).is_err());
-    assert!(OneVariable::with_ratio(Real::from_num(2), 1).is_err());
+    assert!(OneVariable::from_ratio(Real::from_num(2), 1).is_err());
     let law = OneVariable::new(Unit::from_num(0.1), 1).unwrap();
     let new = |knots: &[Point2], stop| Subdivision::<_, 10>::new(&law, knots, stop).err();
     assert!(matches!(new(&[], Stop::Norm(Real::ONE)), Some(Error::TooFew { given: 0, .. })));
@@ -595,7 +595,7 @@ fn a_spectrum_falls_as_asked() {
     for beta in [1.0, 1.5, 2.0, 2.5, 3.0] {
         let exact = Real::from_num(beta);
         let line = measured(|seed| {
-            let law = LineToLine::with_spectrum(Unit::from_num(0.5), exact, seed).unwrap();
+            let law = LineToLine::from_spectrum(Unit::from_num(0.5), exact, seed).unwrap();
             stroke(Subdivision::<_, 12>::new(&law, &knots, stop).unwrap())
         });
         let elbow = |deviation: f64| {
@@ -630,7 +630,7 @@ fn a_similarity_ratio_of_1_3_gives_dimension_1_61() {
     let mut lengths = vec![0.0; levels + 1];
     let (mut least, mut greatest) = (f64::MAX, 0.0_f64);
     for seed in 0..64 {
-        let law = OneVariable::with_ratio(Real::from_num(1.3), seed).unwrap();
+        let law = OneVariable::from_ratio(Real::from_num(1.3), seed).unwrap();
         let step = Stop::Parameter(Parameter::from_bits(1 << (32 - levels)));
         let fine: Vec<_> =
             stroke(Subdivision::<_, 16>::new(&law, &knots, step).unwrap()).into_iter().map(xy).collect();

@@ -50,7 +50,7 @@ fn a_graph_continues_with_the_largest_offsets_too() {
     for seed in 0..400 {
         let r = RandomFunction::new(seed).at(Parameter::ONE).to_num::<f64>();
         for (offset, beta) in [(Unit::MAX, 3.0), (Unit::MAX, 2.0), (Unit::MAX, 1.0), (Unit::ONE, 3.0)] {
-            let law = LineToLine::with_spectrum(offset, Real::from_num(beta), seed).unwrap();
+            let law = LineToLine::from_spectrum(offset, Real::from_num(beta), seed).unwrap();
             // the offset of a level above the first is larger by 2^H
             let above = offset.to_num::<f64>() * ((beta - 1.0) / 2.0_f64).exp2();
             let want = 2.0 * (1.0 - above * 1.25 * r) - 0.5;
@@ -182,7 +182,7 @@ proptest! {
             knots.sort_by_key(|p| p.x);
             knots
         };
-        for law in [LineToLine::new(offset, seed), LineToLine::with_spectrum(offset, beta, seed)].into_iter().flatten() {
+        for law in [LineToLine::new(offset, seed), LineToLine::from_spectrum(offset, beta, seed)].into_iter().flatten() {
             walked(&law, &sorted, limit, piece);
             let _ = law.extrapolated(from, to, at);
         }

@@ -240,8 +240,7 @@ fn perturbation_agrees_with_arbitrary_precision_down_to_1e_100() {
     for place in &PLACES {
         let view = DeepView::<LIMBS>::parse(place.re, place.im, place.width, Size::new(SIDE, SIDE)).unwrap();
         let mut orbit = vec![OrbitPoint::default(); place.max as usize];
-        let picture =
-            DeepMandelbrot::with_arithmetic(view, place.max, Arithmetic::Perturbed, &mut orbit).unwrap();
+        let picture = DeepMandelbrot::new_in(view, place.max, Arithmetic::Perturbed, &mut orbit).unwrap();
         let (differ, inside, dwells) = differences(&picture, 32 * LIMBS as u32);
         println!(
             "width {}: {differ} of {} differ, {inside} inside, {dwells} dwells, reference of {} points",
@@ -310,7 +309,7 @@ fn wide_words_agree_with_arbitrary_precision_where_float_shows_blocks() {
         (PLACES[1].re, PLACES[1].im, "1e-30", 1500, Arithmetic::Word128),
     ] {
         let view = DeepView::<LIMBS>::parse(re, im, width, size).unwrap();
-        let picture = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut []).unwrap();
+        let picture = DeepMandelbrot::new_in(view, max, arithmetic, &mut []).unwrap();
         let distinct = columns_in_f64(&view);
         let (differ, inside, dwells) = differences(&picture, 32 * LIMBS as u32);
         println!(
@@ -364,7 +363,7 @@ fn the_seam_between_128_bits_and_perturbation_shows_nothing() {
             let width = format!("{:e}", f64::from(SIDE) * 1.1 * 2_f64.powi(exponent));
             let view = DeepView::<LIMBS>::parse(re, im, &width, Size::new(SIDE, SIDE)).unwrap();
             assert_eq!(view.pitch_exponent(), exponent);
-            let picture = |arithmetic, orbit| DeepMandelbrot::with_arithmetic(view, MAX, arithmetic, orbit);
+            let picture = |arithmetic, orbit| DeepMandelbrot::new_in(view, MAX, arithmetic, orbit);
             let words = picture(Arithmetic::Word128, &mut []).unwrap();
             let (by_words, inside, dwells) = differences(&words, 32 * LIMBS as u32);
             let perturbed = picture(Arithmetic::Perturbed, &mut orbit).unwrap();

@@ -63,7 +63,7 @@ fn every_point_is_within_its_bound() {
     ];
     for (axiom, rules, degrees, order) in cases {
         for heading in [0.0, 90.0, 33.0] {
-            let lent = system(axiom, rules, *degrees).heading(Wide::from_num(heading));
+            let lent = system(axiom, rules, *degrees).with_heading(Wide::from_num(heading));
             let turtle = lent.path::<14, 16>(*order).unwrap();
             let word = rewritten(axiom, rules, *order);
             assert_eq!(turtle.steps(), demands(&word).1);

@@ -1,6 +1,6 @@
 //! Palettes by name: the colours of core's draw room for a scene file.
 
-use attractor::draw::{Cycled, Level, Leveled, Lifted, Palette, hex};
+use attractor::draw::{Brightened, Cycled, Level, Leveled, Palette, hex};
 pub(crate) use attractor_gallery::Named;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use toml::Spanned;
@@ -35,7 +35,7 @@ impl<V: Leveled> Palette<V> for Colors {
         let named = |level: Level| self.named.at(level);
         match self.cycle {
             Some(period) => Cycled::new(named, period).rgb(value),
-            None if self.lift => Lifted(named).rgb(value),
+            None if self.lift => Brightened(named).rgb(value),
             None => named(value.level()),
         }
     }

@@ -117,7 +117,7 @@ fn random_curves_of_any_law() {
             drawn |= subdivide(&elbow, &knots, stop, piece);
             made += 1;
         }
-        for law in [LineToLine::new(offset, seed), LineToLine::with_spectrum(offset, beta, seed)]
+        for law in [LineToLine::new(offset, seed), LineToLine::from_spectrum(offset, beta, seed)]
             .into_iter()
             .flatten()
         {
@@ -126,7 +126,7 @@ fn random_curves_of_any_law() {
             made += 1;
         }
         // a ratio takes a search: asked for now and then
-        let searched = if seed % 64 == 0 { OneVariable::with_ratio(beta, seed).ok() } else { None };
+        let searched = if seed % 64 == 0 { OneVariable::from_ratio(beta, seed).ok() } else { None };
         for law in OneVariable::new(offset, seed).ok().into_iter().chain(searched) {
             assert!(law.offset() >= 0);
             let _ = ends.map(|(a, b)| law.extrapolated(a, b, first));
@@ -187,7 +187,7 @@ fn midpoints_of_any_part() {
             let (g, h) = (Deviate::from_bits(along), Deviate::from_bits(across));
             assert_eq!(displaced(&part, g, h), exactly_displaced(&part, g, h));
             let elbows = [Elbow::new(offset, beta, seed), Elbow::self_similar(beta, seed)];
-            let lines = [LineToLine::new(offset, seed), LineToLine::with_spectrum(offset, beta, seed)];
+            let lines = [LineToLine::new(offset, seed), LineToLine::from_spectrum(offset, beta, seed)];
             let mut points: Vec<Point2> = elbows.iter().flatten().map(|law| law.midpoint(&part)).collect();
             points.extend(lines.iter().flatten().map(|law| law.midpoint(&part)));
             points.extend(OneVariable::new(offset, seed).iter().map(|law| law.midpoint(&part)));
@@ -262,7 +262,7 @@ fn l_systems_of_any_rules() {
             let rules: Vec<(char, &str)> =
                 rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();
             let Ok(system) = LSystem::new(&axiom, &rules, angle) else { return false };
-            let system = system.heading(heading);
+            let system = system.with_heading(heading);
             assert!(far <= 9 || system.path::<9, 64>(far).is_err());
             let turtle = match system.path::<9, 64>(order) {
                 Ok(turtle) => turtle,

@@ -65,7 +65,7 @@ fn deep_pictures_of_any_view() {
         let chosen = all[at[3] as usize % 4];
         for arithmetic in [Arithmetic::of(view.pitch_exponent(), max), chosen] {
             for view in [view, moved] {
-                let Ok(set) = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut orbit) else {
+                let Ok(set) = DeepMandelbrot::new_in(view, max, arithmetic, &mut orbit) else {
                     continue;
                 };
                 assert_eq!((set.view(), set.max_dwell(), set.arithmetic()), (&view, max, arithmetic));

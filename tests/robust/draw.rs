@@ -6,9 +6,9 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 
 use attractor::draw::{
-    ColoredDots, CourseUnit, Cycled, Dots, Equalised, Gradient, Grey, Ink, Inside, Inverted, Level, Leveled,
-    Lifted, Lines, LsbPages, Luminance, MsbRows, Packing, Palette, Picture, PixelBytes, PixelWords, Ramp,
-    RowCursor, Strips, Stroke, bayer, dithered, gradients, hex, luma,
+    Brightened, ColoredDots, CourseUnit, Cycled, Dots, Equalised, Gradient, Grey, Ink, Inside, Inverted,
+    Level, Leveled, Lines, LsbPages, Luminance, MsbRows, Packing, Palette, Picture, PixelBytes, PixelWords,
+    Ramp, RowCursor, Strips, Stroke, bayer, dithered, gradients, hex, luma,
 };
 use attractor::escape::{Dwell, FractionalDwell, Period};
 use attractor::fixed::types::U21F11;
@@ -176,7 +176,7 @@ fn paint<V: Leveled + Copy + Debug>(
     let palettes: [&dyn Palette<V>; 14] = [
         &CourseUnit,
         &Grey,
-        &Lifted(Grey),
+        &Brightened(Grey),
         gradient,
         &cycled,
         &ramp,
@@ -187,7 +187,7 @@ fn paint<V: Leveled + Copy + Debug>(
         &gradients::MOSS,
         &Luminance(Grey),
         &Inside::new(Grey, hex(0)),
-        &Lifted(&cycled),
+        &Brightened(&cycled),
     ];
     for (k, palette) in palettes.into_iter().enumerate() {
         let color = palette.rgb(value);

@@ -25,7 +25,7 @@ fn play(system: &Ifs<5>, shape: &[Point2]) {
     let mut walk = system.walk(Drawn::new(7, &words));
     let mut portions = Vec::new();
     for _ in 0..3 {
-        let mut game = system.resume(&mut walk).with_maps();
+        let mut game = system.resume(&mut walk).labelled();
         portions.extend(game.by_ref().take(30));
     }
     assert_eq!(words.get(), warm_up + 90);

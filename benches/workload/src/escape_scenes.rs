@@ -1,7 +1,7 @@
 //! The escape-time pictures of the command's built-in scenes, with their names, parameters and palettes.
 
 use attractor::draw::Level;
-use attractor::draw::{Cycled, Equalised, Ink, Inside, Lifted, Palette, Ramp, gradients, hex};
+use attractor::draw::{Brightened, Cycled, Equalised, Ink, Inside, Palette, Ramp, gradients, hex};
 use attractor::escape::{
     DeepMandelbrot, DeepView, Distance, FractionalDwell, Interior, Julia, JuliaSet, Mandelbrot, OrbitPoint,
     Period, Smooth, View,
@@ -96,12 +96,12 @@ fn filled_in(stage: &Stage<'_>, re: Wide, im: Wide, max: u32) -> Result<Julia, F
 pub(crate) fn julia<C: Colour + Ink>(stage: &mut Stage<'_>, inside: Rgb888) -> Result<(), Failure> {
     let (re, im) = const { (Wide::lit("-0.12256116687665"), Wide::lit("0.74486176661974")) };
     let set = filled_in(stage, re, im, 60)?;
-    field::<C, _, _>(stage, set, Inside::new(Lifted(gradients::FIRE), inside), 0)
+    field::<C, _, _>(stage, set, Inside::new(Brightened(gradients::FIRE), inside), 0)
 }
 
 pub(crate) fn dendrite<C: Colour + Ink>(stage: &mut Stage<'_>) -> Result<(), Failure> {
     let set = filled_in(stage, const { Wide::lit("-0.8") }, const { Wide::lit("0.156") }, 300)?;
-    field::<C, _, _>(stage, set, Lifted(gradients::DUSK), 0)
+    field::<C, _, _>(stage, set, Brightened(gradients::DUSK), 0)
 }
 
 /// Fractional dwells of a deep picture, `cycle` iterations once round the palette.

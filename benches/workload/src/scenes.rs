@@ -6,7 +6,7 @@
 use core::iter::FusedIterator;
 use core::ops::Range;
 
-use attractor::draw::{CourseUnit, Dots, Grey, Ink, Inside, Lifted, Palette, Picture, Stroke, gradients};
+use attractor::draw::{Brightened, CourseUnit, Dots, Grey, Ink, Inside, Palette, Picture, Stroke, gradients};
 use attractor::escape::{Dwell, Mandelbrot, View};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::ifs::Ifs;
@@ -117,7 +117,7 @@ const OWN: &[Scene] = &[
     colour("waves", waves::<Rgb565>),
     mono("waves", waves::<BinaryColor>),
     colour("mandelbrot", |stage| escape::mandelbrot::<Rgb565>(stage, CourseUnit)),
-    mono("mandelbrot", |stage| escape::mandelbrot::<BinaryColor>(stage, Inside::new(Lifted(Grey), Rgb888::WHITE))),
+    mono("mandelbrot", |stage| escape::mandelbrot::<BinaryColor>(stage, Inside::new(Brightened(Grey), Rgb888::WHITE))),
     Scene { size: Rp2040::SIZE, ..roomy(colour("mandelbrot rp2040", rp2040::<Rgb565>)) },
     colour("julia", |stage| escape::julia::<Rgb565>(stage, Rgb888::BLACK)),
     mono("julia", |stage| escape::julia::<BinaryColor>(stage, Rgb888::WHITE)),

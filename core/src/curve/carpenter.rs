@@ -1,21 +1,30 @@
-//! Carpenter's three curves: the midpoint of a part is displaced by a random function of its parameter.
+//! Carpenter's three curves: random curves through given knots, in which the midpoint of each part is
+//! displaced by a random function of its parameter.
+//!
+//! They make mountain lines and coasts out of a few points. Each is a law for [`super::Subdivision`], with an
+//! offset `o`, how rough the curve is, and the random function `R` of [`crate::num::RandomFunction`]:
 //!
 //! - [`LineToLine`], `h(t)`: `h_m = (h_1 + h_2) / 2 + o (t_2 - t_1) R(t_m)`;
-//! - [`OneVariable`], line to plane: `p_m = (p_1 + p_2) / 2 + o R(t_m) perp(p_2 - p_1)`, `perp(x, y) = (-y, x)`;
-//! - [`TwoVariable`], line to plane: `p_m = (p_1 + p_2) / 2 + o (R_2(t_m) (p_2 - p_1) + R_1(t_m) perp(p_2 - p_1))`.
+//! - [`OneVariable`], line to plane: `p_m = (p_1 + p_2) / 2 + o R(t_m) perp(p_2 - p_1)`,
+//!   `perp(x, y) = (-y, x)`;
+//! - [`TwoVariable`], line to plane:
+//!   `p_m = (p_1 + p_2) / 2 + o (R_2(t_m) (p_2 - p_1) + R_1(t_m) perp(p_2 - p_1))`.
 //!
-//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figures 2 to 4 (signs that the scan lost put back) and 12.
-//! The paper derives a spectrum of `1/f` for the first; by power, not amplitude, a displacement proportional to the length of the part gives `1/f^3`
-//! (Hurst exponent 1). [`LineToLine::with_spectrum`] scales by `2^(-H k)` at level `k` instead, `H = (beta - 1) / 2`, so that the variance falls
-//! by `2^(1 - beta)` a level (M. F. Barnsley et al., "The Science of Fractal Images", 1988, section 1.4.3: midpoint displacement).
+//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figures 2 to 4 (signs
+//! that the scan lost put back) and 12. The paper derives a spectrum of `1/f` for the first; by power, not
+//! amplitude, a displacement proportional to the length of the part gives `1/f^3` (Hurst exponent 1).
+//! [`LineToLine::from_spectrum`] scales by `2^(-H k)` at level `k` instead, `H = (beta - 1) / 2`, so that the
+//! variance falls by `2^(1 - beta)` a level (M. F. Barnsley et al., "The Science of Fractal Images", 1988,
+//! section 1.4.3: midpoint displacement).
 
 use super::displacement::{
-    Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, perpendicular, product, raised,
-    raised_across, undone,
+    Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, perpendicular, product_q28,
+    raised, raised_across, undone,
 };
 use crate::Error;
-use crate::num::{self, Real, Unit, sqrt};
+use crate::num::formats::Q28;
 use crate::num::{Deviate, Parameter, RandomFunction};
+use crate::num::{Real, Unit, product, product_u, sqrt};
 use crate::plane::Point2;
 
 /// The graph of a function `h(t)`: `x` of a point is `t`, `y` is `h`. Size: 136 bytes.
@@ -35,8 +44,8 @@ use crate::plane::Point2;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LineToLine {
     random: RandomFunction,
-    /// `o` at each level over the length of the whole, 28 fractional bits.
-    offsets: [i32; LEVELS],
+    /// `o` at each level over the length of the whole.
+    offsets: [Q28; LEVELS],
 }
 
 impl LineToLine {
@@ -45,16 +54,17 @@ impl LineToLine {
     /// # Errors
     /// [`Error::OutOfRange`] for an offset outside `0 ..= 2`.
     pub fn new(offset: Unit, seed: u64) -> Result<Self, Error> {
-        Self::with_spectrum(offset, Real::from_bits(3 << 24), seed)
+        Self::from_spectrum(offset, Real::from_bits(3 << 24), seed)
     }
 
     /// A function whose power spectrum falls as `1/f^beta`: 2 is Brownian motion, 3 is [`LineToLine::new`].
     ///
-    /// Result: the exponent measured over 64 seeds is within 0.15 of `beta` (`curves.rs`: `a_spectrum_falls_as_asked`).
+    /// Result: the exponent measured over 64 seeds is within 0.15 of `beta`
+    /// (`curves.rs`: `a_spectrum_falls_as_asked`).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an offset outside `0 ..= 2` or `beta` outside `1 ..= 3`.
-    pub fn with_spectrum(offset: Unit, beta: Real, seed: u64) -> Result<Self, Error> {
+    pub fn from_spectrum(offset: Unit, beta: Real, seed: u64) -> Result<Self, Error> {
         let factor = checked_spectrum(beta)?;
         let mut amplitude = u64::from(checked_offset(offset)?) << 30; // 58 fractional bits
         let mut offsets = [0; LEVELS];
@@ -66,15 +76,17 @@ impl LineToLine {
         Ok(Self { random: RandomFunction::new(seed), offsets })
     }
 
-    /// The knot that makes `to` the midpoint between `from` and it: the curve continued by as much again (figure 12), so that `[from, to, new]` are three knots.
-    /// `at` is the parameter of `to`. The other direction: with `from` and `to` exchanged.
+    /// The knot that makes `to` the midpoint between `from` and it: the curve continued by as much again
+    /// (figure 12), so that `[from, to, new]` are three knots. `at` is the parameter of `to`. The other
+    /// direction: with `from` and `to` exchanged.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] when the knot leaves the range of [`Real`].
     pub fn extrapolated(&self, from: Point2, to: Point2, at: Parameter) -> Result<Point2, Error> {
+        // `to` is the midpoint of a part twice as long as those between knots, one level above the first:
         // o_{-1} (t_2 - t_1) = o_0 / (o_1 / o_0) span over the whole of twice the span
         let [first, second] = self.first_offsets();
-        let above = num::product(first, first).checked_div(i64::from(second).max(1)).unwrap_or(0);
+        let above = product(first, first).checked_div(i64::from(second).max(1)).unwrap_or(0);
         // at most twice the offset, 4, and the deviate below 3.31: more than 32 bits hold
         let g = (above * i64::from(self.random.at(at).to_bits()) + (1 << 27)) >> 28;
         let span = i128::from(to.x.to_bits()) - i128::from(from.x.to_bits());
@@ -85,7 +97,7 @@ impl LineToLine {
         undone([x, y])
     }
 
-    fn first_offsets(&self) -> [i32; 2] {
+    fn first_offsets(&self) -> [Q28; 2] {
         let mut offsets = self.offsets.iter().copied();
         [offsets.next().unwrap_or(0), offsets.next().unwrap_or(0)]
     }
@@ -102,7 +114,7 @@ impl Displacement for LineToLine {
     #[inline]
     fn midpoint(&self, part: &Part) -> Point2 {
         let offset = self.offsets.get(part.level as usize).copied().unwrap_or(0);
-        let g = product(offset, self.random.at(part.middle).to_bits());
+        let g = product_q28(offset, self.random.at(part.middle).to_bits());
         let (from, to) = (part.from, part.to);
         Point2::new(raised(from.x, to.x, Real::ZERO, 0), raised(from.y, to.y, part.span, g))
     }
@@ -125,8 +137,7 @@ impl Displacement for LineToLine {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OneVariable {
     random: RandomFunction,
-    /// 28 fractional bits.
-    offset: i32,
+    offset: Q28,
 }
 
 impl OneVariable {
@@ -138,14 +149,16 @@ impl OneVariable {
         Ok(Self { random: RandomFunction::new(seed), offset: checked_offset(offset)? as i32 })
     }
 
-    /// The curve that becomes longer by `ratio` at each subdivision, on average: its dimension is [`super::dimension_of_ratio`].
+    /// The curve that becomes longer by `ratio` at each subdivision, on average: its dimension is
+    /// [`super::dimension_of_ratio`].
     ///
     /// Result: the offset with `mean of sqrt(1 + 4 o^2 R^2) = ratio`. Error: of that ratio below `2^-22`
-    /// (`an_offset_gives_the_ratio_asked_for`). Cost: some 12 thousand square roots, 891 thousand Cortex-M4 instructions (kernel `offset of a ratio`).
+    /// (`an_offset_gives_the_ratio_asked_for`). Cost: some 12 thousand square roots, 891 thousand Cortex-M4
+    /// instructions (kernel `offset of a ratio`).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a ratio outside `1 .. 2`.
-    pub fn with_ratio(ratio: Real, seed: u64) -> Result<Self, Error> {
+    pub fn from_ratio(ratio: Real, seed: u64) -> Result<Self, Error> {
         super::dimension_of_ratio(ratio)?;
         // increasing in o; a ratio of 2 takes an offset of 1.05
         let (mut low, mut high) = (0, 2 << 28);
@@ -170,20 +183,20 @@ impl OneVariable {
     /// # Errors
     /// [`Error::OutOfRange`] when the knot leaves the range of [`Real`].
     pub fn extrapolated(&self, from: Point2, to: Point2, at: Parameter) -> Result<Point2, Error> {
-        let g = product(self.offset, self.random.at(at).to_bits());
+        let g = product_q28(self.offset, self.random.at(at).to_bits());
         perpendicular(from, to, 0, g)
     }
 }
 
 /// The mean of `sqrt(1 + 4 o^2 R^2)`, 28 fractional bits.
-fn mean_ratio(offset: i32) -> i64 {
+fn mean_ratio(offset: Q28) -> i64 {
     let magnitudes = crate::num::magnitudes();
     let sum: i64 = magnitudes
         .iter()
         .map(|r| {
             // twice the product, 27 fractional bits: below 2^31
-            let g = product(offset, *r).unsigned_abs();
-            i64::from(sqrt((1 << 54) + num::product_u(g, g))) * 2
+            let g = product_q28(offset, *r).unsigned_abs();
+            i64::from(sqrt((1 << 54) + product_u(g, g))) * 2
         })
         .sum();
     sum.checked_div(magnitudes.len() as i64).unwrap_or(0)
@@ -192,7 +205,7 @@ fn mean_ratio(offset: i32) -> i64 {
 impl Displacement for OneVariable {
     #[inline]
     fn midpoint(&self, part: &Part) -> Point2 {
-        let g = product(self.offset, self.random.at(part.middle).to_bits());
+        let g = product_q28(self.offset, self.random.at(part.middle).to_bits());
         raised_across(part, g)
     }
 }
@@ -214,8 +227,7 @@ impl Displacement for OneVariable {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TwoVariable {
     random: RandomFunction,
-    /// 28 fractional bits.
-    offset: i32,
+    offset: Q28,
 }
 
 impl TwoVariable {
@@ -238,10 +250,10 @@ impl TwoVariable {
 
     /// `o R_2` and `o R_1`.
     #[inline]
-    fn displacements(&self, t: Parameter) -> [i32; 2] {
+    fn displacements(&self, t: Parameter) -> [Q28; 2] {
         [
-            product(self.offset, self.random.independent().at(t).to_bits()),
-            product(self.offset, self.random.at(t).to_bits()),
+            product_q28(self.offset, self.random.independent().at(t).to_bits()),
+            product_q28(self.offset, self.random.at(t).to_bits()),
         ]
     }
 }
@@ -269,7 +281,7 @@ mod tests {
         let mut worst = 0.0_f64;
         for bits in (1 << 24..2 << 24).step_by(1 << 18).chain([(1 << 24) + 1, (2 << 24) - 1]) {
             let ratio = Real::from_bits(bits);
-            let law = OneVariable::with_ratio(ratio, 1).unwrap();
+            let law = OneVariable::from_ratio(ratio, 1).unwrap();
             let got = mean(f64::from(law.offset) / 2_f64.powi(28));
             worst = worst.max((got - ratio.to_num::<f64>()).abs());
         }

@@ -1,9 +1,12 @@
-//! A coastline to roughen: the outline of Iceland.
+//! A coastline to roughen: the outline of Iceland, as knots for a random curve.
 //!
-//! 44 capes, fjord heads and stretches of the south coast, anticlockwise from Reykjanes, read off by hand at a tenth of a degree of latitude and a fifth of
-//! longitude, as far as general geographical knowledge goes: geographical facts, in the public domain, drawn from no data set. It shows the shape of the
-//! island and no more; it is not for navigation.
-//! Projection: equirectangular about 65 degrees north, 18.5 degrees west, one unit a degree of latitude, so that a degree of longitude is `cos 65 = 0.4226`.
+//! 44 capes, fjord heads and stretches of the south coast, anticlockwise from Reykjanes, read off by hand at
+//! a tenth of a degree of latitude and a fifth of longitude, as far as general geographical knowledge goes:
+//! geographical facts, in the public domain, drawn from no data set. It shows the shape of the island and no
+//! more; it is not for navigation.
+//!
+//! Projection: equirectangular about 65 degrees north, 18.5 degrees west, one unit a degree of latitude, so
+//! that a degree of longitude is `cos 65 = 0.4226`.
 
 use crate::num::Real;
 use crate::plane::Point2;

@@ -1,18 +1,21 @@
-//! Dimensions of curves from how they are made.
+//! The fractal dimension of a curve from how it is made, without measuring it.
 //!
-//! - A curve that becomes longer by `ratio` when each part is halved: `D = ln 2 / ln(2 / ratio)` (L. C. Carpenter, 1980);
+//! - A curve that becomes longer by `ratio` when each part is halved: `D = ln 2 / ln(2 / ratio)` (L. C.
+//!   Carpenter, 1980);
 //! - a graph whose power spectrum falls as `1/f^beta`: `D = (5 - beta) / 2` (course unit V, section 5.6.2);
-//! - segments of lengths `r_j`: `sum r_j^D = 1` (P. A. P. Moran, "Additive functions of intervals and Hausdorff measure", 1946); for `n` equal ones
-//!   `D = ln n / ln(1/r)`.
+//! - a generator with segments of lengths `r_j`: `sum r_j^D = 1` (P. A. P. Moran, "Additive functions of
+//!   intervals and Hausdorff measure", 1946); for `n` equal ones `D = ln n / ln(1/r)`.
 
 use super::displacement::checked_spectrum;
 use super::generator::Generator;
 use crate::Error;
+use crate::num::formats::UQ62;
 use crate::num::{Real, Wide, exp_minus, log2, ratio as quotient};
 
 /// `ln 2 / ln(2 / ratio)`; a ratio of 1.3 gives 1.61.
 ///
-/// It is the slope of `log 2^k` against `log(1 / mean length)` of the chords after `k` halvings (tests/curves.rs: `a_similarity_ratio_of_1_3_gives_dimension_1_61`).
+/// It is the slope of `log 2^k` against `log(1 / mean length)` of the chords after `k` halvings
+/// (tests/curves.rs: `a_similarity_ratio_of_1_3_gives_dimension_1_61`).
 /// Boxes count otherwise: halves of random lengths `r` fill `2 mean(r^D) = 1` of them (R. D. Mauldin, S. C. Williams, "Random recursive
 /// constructions", 1986), 1.70 at a ratio of 1.3, less those that the curve passes twice at its double points. `attractor dimension` measures both.
 ///
@@ -37,18 +40,18 @@ pub fn dimension_of_ratio(ratio: Real) -> Result<Wide, Error> {
             max: max.into(),
         });
     }
-    // ln(2 / ratio) = 2 artanh z, z = (2 - ratio) / (2 + ratio) <= 1/3: 62 fractional bits, so that it is exact where it is small
+    // ln(2 / ratio) = 2 artanh z, z = (2 - ratio) / (2 + ratio) <= 1/3: 62 fractional bits, so that it is
+    // exact where it is small
     let bits = u64::from(ratio.to_bits().unsigned_abs());
     let z = quotient((2 << 24) - bits, 62, (2 << 24) + bits);
-    let times = |a: u64, b: u64| ((u128::from(a) * u128::from(b)) >> 62) as u64;
+    let product_uq62 = |a: UQ62, b: UQ62| ((u128::from(a) * u128::from(b)) >> 62) as u64;
     // z + z^3 / 3 + z^5 / 5 + ..: 3^-40 is below the last place
-    let (square, mut power, mut artanh) = (times(z, z), z, 0);
+    let (square, mut power, mut artanh) = (product_uq62(z, z), z, 0);
     for odd in (1..40).step_by(2) {
         artanh += power / odd;
-        power = times(power, square);
+        power = product_uq62(power, square);
     }
-    // ln 2 with 62 fractional bits
-    const LN_2: u64 = 0x2c5c_85fd_f473_de6b;
+    const LN_2: UQ62 = 0x2c5c_85fd_f473_de6b;
     let dimension = quotient(LN_2, 48, 2 * artanh);
     Ok(Wide::from_bits(dimension.min(i64::MAX as u64) as i64))
 }

@@ -1,11 +1,16 @@
-//! What a random curve needs to know: where the midpoint of a part lies.
+//! Laws of displacement: what tells one random curve from another is where the midpoint of a part lies.
 //!
-//! `p_m = (p_1 + p_2) / 2 + g (p_2 - p_1)` for a complex `g`: its real part displaces along the part, its imaginary part along the perpendicular bisector.
+//! [`super::Subdivision`] halves parts and asks a [`Displacement`] for each midpoint. What displaces points
+//! of the plane, a law of your own too, can use one formula: `p_m = (p_1 + p_2) / 2 + g (p_2 - p_1)` for a
+//! complex `g`, whose real part displaces along the part and whose imaginary part along the perpendicular
+//! bisector ([`displaced`]).
+//!
 //! Formats: points in [`Real`], `g` with 28 fractional bits; one rounding a coordinate.
 
 use crate::Error;
-use crate::num::{self, Real, Unit, Wide, exp_minus};
+use crate::num::formats::{Q28, Q52, UQ28};
 use crate::num::{Deviate, Parameter};
+use crate::num::{Real, Unit, Wide, exp_minus, product};
 use crate::plane::Point2;
 
 /// How often a part between two knots can be halved at most: the parameter has 32 fractional bits.
@@ -49,14 +54,14 @@ pub fn displaced(part: &Part, along: Deviate, across: Deviate) -> Point2 {
     let (dx, dy) = (to.x.saturating_sub(from.x), to.y.saturating_sub(from.y));
     let (g, h, dx, dy) = (along.to_bits(), across.to_bits(), dx.to_bits(), dy.to_bits());
     // |p1 + p2| <= 2^32 and each product is at most 2^62: the second sum saturates, the first cannot
-    let x = (doubled(from.x, to.x) + num::product(dx, g)).saturating_sub(num::product(dy, h));
-    let y = (doubled(from.y, to.y) + num::product(dy, g)).saturating_add(num::product(dx, h));
+    let x = (middle_q52(from.x, to.x) + product(dx, g)).saturating_sub(product(dy, h));
+    let y = (middle_q52(from.y, to.y) + product(dy, g)).saturating_add(product(dx, h));
     Point2::new(rounded(x), rounded(y))
 }
 
-/// The midpoint for `g = across i`, across with 28 fractional bits.
+/// The midpoint for `g = across i`.
 #[inline(always)]
-pub(super) fn raised_across(part: &Part, across: i32) -> Point2 {
+pub(super) fn raised_across(part: &Part, across: Q28) -> Point2 {
     let (from, to) = (part.from, part.to);
     let (dx, dy) = (to.x.saturating_sub(from.x), to.y.saturating_sub(from.y));
     Point2::new(raised(from.x, to.x, dy, across.wrapping_neg()), raised(from.y, to.y, dx, across))
@@ -64,31 +69,31 @@ pub(super) fn raised_across(part: &Part, across: i32) -> Point2 {
 
 /// The midpoint of two coordinates raised by `g` times a length.
 #[inline]
-pub(super) fn raised(a: Real, b: Real, length: Real, g: i32) -> Real {
+pub(super) fn raised(a: Real, b: Real, length: Real, g: Q28) -> Real {
     // below 2^60 + 2^62
-    rounded(doubled(a, b) + num::product(length.to_bits(), g))
+    rounded(middle_q52(a, b) + product(length.to_bits(), g))
 }
 
-/// `(a + b) / 2` with 52 fractional bits, and the half unit that rounds to 24.
+/// `(a + b) / 2`, and the half unit that rounds to 24 fractional bits.
 #[inline]
-fn doubled(a: Real, b: Real) -> i64 {
+fn middle_q52(a: Real, b: Real) -> Q52 {
     ((i64::from(a.to_bits()) + i64::from(b.to_bits())) << 27) + (1 << 27)
 }
 
-/// Saturated to the format, from 52 fractional bits.
+/// A sum as a coordinate, saturated.
 #[inline]
-fn rounded(sum: i64) -> Real {
+fn rounded(sum: Q52) -> Real {
     Real::from_bits((sum >> 28).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
 }
 
-/// The product of two numbers with 28 fractional bits, rounded. For offsets of at most 2 and deviates of at most 3.4 it stays below 8.
+/// The product, rounded. For offsets of at most 2 and deviates of at most 3.4 it stays below 8.
 #[inline]
-pub(super) fn product(a: i32, b: i32) -> i32 {
-    ((num::product(a, b) + (1 << 27)) >> 28) as i32
+pub(super) fn product_q28(a: Q28, b: Q28) -> Q28 {
+    ((product(a, b) + (1 << 27)) >> 28) as i32
 }
 
-/// An offset with 28 fractional bits.
-pub(super) fn checked_offset(offset: Unit) -> Result<u32, Error> {
+/// An offset, unless it is negative.
+pub(super) fn checked_offset(offset: Unit) -> Result<UQ28, Error> {
     if offset < Unit::ZERO {
         return Err(Error::OutOfRange {
             what: "offset",
@@ -101,7 +106,7 @@ pub(super) fn checked_offset(offset: Unit) -> Result<u32, Error> {
     Ok(offset.to_bits().unsigned_abs() >> 2)
 }
 
-/// `2^(1 - beta)`, 30 fractional bits.
+/// `2^(1 - beta)` with 30 fractional bits, for `beta` in `1 ..= 3`.
 pub(super) fn checked_spectrum(beta: Real) -> Result<u64, Error> {
     let (min, max) = (Real::ONE, Real::from_bits(3 << 24));
     if beta < min || beta > max {
@@ -119,9 +124,9 @@ pub(super) fn checked_spectrum(beta: Real) -> Result<u64, Error> {
     Ok(exp_minus(Real::from_bits(exponent as i32)).to_bits().unsigned_abs().into())
 }
 
-/// The end of the part that begins at `from` and has its midpoint at `middle`, `g = along + across i` with 28 fractional bits:
+/// The end of the part that begins at `from` and has its midpoint at `middle`, for `g = along + across i`:
 /// `p_2 - p_1 = (p_m - p_1) / (1/2 + g)`.
-pub(super) fn perpendicular(from: Point2, middle: Point2, along: i32, across: i32) -> Result<Point2, Error> {
+pub(super) fn perpendicular(from: Point2, middle: Point2, along: Q28, across: Q28) -> Result<Point2, Error> {
     let difference = |a: Real, b: Real| i128::from(b.to_bits()) - i128::from(a.to_bits());
     let (x, y) = (difference(from.x, middle.x), difference(from.y, middle.y));
     let (u, v) = (i128::from(along) + (1 << 27), i128::from(across));
@@ -175,7 +180,7 @@ mod tests {
             assert_eq!(i128::from(got.to_bits()), expected, "{a} {b} {length} {g}");
             let (a, b) = (a >> 2, b >> 3);
             let exact = (i64::from(a) * i64::from(b) + (1 << 27)) >> 28;
-            assert_eq!(i64::from(product(a, b)), exact, "{a} {b}");
+            assert_eq!(i64::from(product_q28(a, b)), exact, "{a} {b}");
         }
         // a half is rounded upwards
         let unit = Real::DELTA;

@@ -1,19 +1,26 @@
-//! The random elbow: each segment `AB` becomes `AC` and `CB`, `C` on its perpendicular bisector, `C = M + t perp(B - A)`, `t` normal with deviation `sigma_k` at level `k`.
+//! The random elbow: each segment `AB` becomes `AC` and `CB`, with `C` at a random distance on its
+//! perpendicular bisector.
 //!
-//! The deviations follow from the spectrum. Let `V_k` be the mean square of the length of a segment at level `k` and `D_k = sigma_k^2 V_k` that of the displacement;
-//! `V_{k+1} = V_k / 4 + D_k`. The power spectrum falls as `1/f^beta` when `D_k` falls as `2^(-2 H k)`, `H = (beta - 1) / 2`; so
+//! One number makes it jagged or smooth, the exponent `beta` of its power spectrum. `C = M + t perp(B - A)`,
+//! `M` the midpoint, `t` normal with deviation `sigma_k` at level `k`.
+//!
+//! The deviations follow from the spectrum. Let `V_k` be the mean square of the length of a segment at level
+//! `k` and `D_k = sigma_k^2 V_k` that of the displacement; `V_{k+1} = V_k / 4 + D_k`. The power spectrum
+//! falls as `1/f^beta` when `D_k` falls as `2^(-2 H k)`, `H = (beta - 1) / 2`; so
 //!
 //! `sigma_{k+1}^2 = 2^(1 - beta) sigma_k^2 / (1/4 + sigma_k^2)`.
 //!
-//! While `sigma` is small the factor of `sigma` is `2^((3 - beta) / 2)`, constant as in the course unit's `fract`; in the end `sigma^2 = 2^(1 - beta) - 1/4`, where the curve is
-//! self-similar. Both factors that the text prints give other spectra: `2^((1 - beta) / 2)` falls as `1/f^(beta + 2)`.
-//! Source: course unit V, section 5.6; `t` from Carpenter's table, so that the seed repeats the curve and so does every part of it.
+//! While `sigma` is small the factor of `sigma` is `2^((3 - beta) / 2)`, constant as in the course unit's
+//! `fract`; in the end `sigma^2 = 2^(1 - beta) - 1/4`, where the curve is self-similar. Both factors that the
+//! text prints give other spectra: `2^((1 - beta) / 2)` falls as `1/f^(beta + 2)`. Source: course unit V,
+//! section 5.6; `t` from Carpenter's table, so that the seed repeats the curve and so does every part of it.
 
 use super::displacement::{
-    Displacement, LEVELS, Part, checked_offset, checked_spectrum, product, raised_across,
+    Displacement, LEVELS, Part, checked_offset, checked_spectrum, product_q28, raised_across,
 };
 use crate::Error;
 use crate::num::RandomFunction;
+use crate::num::formats::Q28;
 use crate::num::{Real, Unit, sqrt};
 use crate::plane::Point2;
 
@@ -35,18 +42,21 @@ use crate::plane::Point2;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Elbow {
     random: RandomFunction,
-    /// `sigma_k`, 28 fractional bits.
-    deviations: [i32; LEVELS],
+    /// `sigma_k`.
+    deviations: [Q28; LEVELS],
 }
 
 impl Elbow {
-    /// Elbows with this standard deviation at the first level, over the length of the segment, and this spectral exponent: 1 is jagged, 2 a Brownian path, 3 smooth.
+    /// Elbows with this standard deviation at the first level, over the length of the segment, and this
+    /// spectral exponent: 1 is jagged, 2 a Brownian path, 3 smooth.
     ///
-    /// Result: exponents of the power spectrum over 64 seeds and 4 to 512 periods, deviation 0.2, `y(t)`: 1.04, 1.53, 2.06, 2.61 and 3.10 for 1, 1.5, 2, 2.5 and 3
-    /// (`curves.rs`: `a_spectrum_falls_as_asked`, within 0.15). With 0.01 both coordinates together are as close, but `y(t)` alone is steeper by 0.2 at 1 and 1.5, where
-    /// the curve begins almost straight and ends rough in all directions. At 1 a few long segments dominate single curves: only the mean over seeds is that smooth.
-    /// Cost: 12.7 thousand Cortex-M4 instructions (kernel `elbow law`).
-    /// The deviation of a curve that is rough in the same way at all scales is `sqrt(2^(1 - beta) - 1/4)`: [`Elbow::self_similar`].
+    /// Result: exponents of the power spectrum over 64 seeds and 4 to 512 periods, deviation 0.2, `y(t)`:
+    /// 1.04, 1.53, 2.06, 2.61 and 3.10 for 1, 1.5, 2, 2.5 and 3 (`curves.rs`: `a_spectrum_falls_as_asked`,
+    /// within 0.15). With 0.01 both coordinates together are as close, but `y(t)` alone is steeper by 0.2 at
+    /// 1 and 1.5, where the curve begins almost straight and ends rough in all directions. At 1 a few long
+    /// segments dominate single curves: only the mean over seeds is that smooth. Cost: 12.7 thousand
+    /// Cortex-M4 instructions (kernel `elbow law`). The deviation of a curve that is rough in the same way at
+    /// all scales is `sqrt(2^(1 - beta) - 1/4)`: [`Elbow::self_similar`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a deviation outside `0 .. 2`, or `beta` outside `1 ..= 3`.
@@ -83,7 +93,7 @@ impl Displacement for Elbow {
     #[inline]
     fn midpoint(&self, part: &Part) -> Point2 {
         let deviation = self.deviations.get(part.level as usize).copied().unwrap_or(0);
-        let t = product(deviation, self.random.at(part.middle).to_bits());
+        let t = product_q28(deviation, self.random.at(part.middle).to_bits());
         raised_across(part, t)
     }
 }

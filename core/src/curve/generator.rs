@@ -1,15 +1,26 @@
-//! Generators: the polyline that replaces each segment, as a list of similarity maps of the segment from `(0, 0)` to `(1, 0)`.
+//! Generators: the polyline that replaces each segment of a curve, again and again. The Koch curve's has four
+//! segments, a straight line with a bump.
 //!
-//! A segment from `p` along `d` becomes the segments from `p + d v_i` along `d w_i`, with `w_i = v_{i+1} - v_i` and the vertices `v_0 = 0 .. v_n = 1`
-//! as complex numbers. Each copy may be walked from its end (reversed) and laid on the other side (mirrored):
-//! reversing turns `v_j` into `1 - v_{n-j}`, mirroring into its conjugate.
-//! Source: course unit V, section 5.1.1, "successive refinement of curves"; B. B. Mandelbrot, "The Fractal Geometry of Nature", 1982, plates 42 to 69.
-//! Format: [`Unit`], 30 fractional bits. Left out: copies that are affine but not similar.
+//! A [`Generator`] is made once, from points or from a turtle word, and checked: its segments are shorter
+//! than the one that they replace, so that the curve converges. [`super::Refined`] then walks the curve that
+//! it makes.
+//!
+//! All is said in the frame of the segment that is replaced, which leads from 0 to 1 in the complex plane.
+//! The polyline has the vertices `v_0 = 0 .. v_n = 1` and the segments `w_i = v_{i+1} - v_i`; a segment from
+//! `p` along `d` becomes the segments from `p + d v_i` along `d w_i`. Each of them stands for a copy of the
+//! whole curve, which may be walked from its end (reversed) and laid on the other side (mirrored): reversing
+//! turns `v_j` into `1 - v_{n-j}`, mirroring into its conjugate. So a walk along a copy is in one of four
+//! states, and the segments are kept in the order of a walk forwards and of one backwards.
+//!
+//! Source: course unit V, section 5.1.1, "successive refinement of curves"; B. B. Mandelbrot, "The Fractal
+//! Geometry of Nature", 1982, plates 42 to 69. Format: [`Unit`], 30 fractional bits. Left out: copies that
+//! are affine but not similar.
 
 use crate::Error;
+use crate::num::formats::{Q30, UQ30};
 use crate::num::{Unit, Wide, sqrt};
 
-pub(super) const ONE: i32 = 1 << 30;
+pub(super) const ONE_Q30: Q30 = 1 << 30;
 
 /// How a copy of the curve lies on its segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -41,20 +52,20 @@ impl Orientation {
 
 /// One segment of a generator, in the frame of the segment that it replaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Cell {
+pub(super) struct Segment {
     /// Where the copy starts.
-    pub(super) start: [i32; 2],
+    pub(super) start: [Q30; 2],
     /// From its start to its end.
-    pub(super) vector: [i32; 2],
+    pub(super) vector: [Q30; 2],
     /// The point that stands for the copy when it is not refined further.
-    pub(super) show: [i32; 2],
+    pub(super) show: [Q30; 2],
     /// The length of the vector, rounded up.
-    pub(super) ratio: u32,
+    pub(super) ratio: UQ30,
     /// [`Orientation::bits`].
     pub(super) orientation: u8,
 }
 
-impl Cell {
+impl Segment {
     const EMPTY: Self = Self { start: [0; 2], vector: [0; 2], show: [0; 2], ratio: 0, orientation: 0 };
 }
 
@@ -62,10 +73,10 @@ impl Cell {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Generator<const S: usize> {
     /// The segments in the order of a walk from start to end, and of a walk from end to start.
-    cells: [[Cell; S]; 2],
+    segments: [[Segment; S]; 2],
     len: u8,
     /// The point that stands for a whole copy, when it is not the start.
-    marker: Option<[i32; 2]>,
+    marker: Option<[Q30; 2]>,
 }
 
 impl<const S: usize> Generator<S> {
@@ -76,8 +87,9 @@ impl<const S: usize> Generator<S> {
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` or 127 segments,
-    /// [`Error::Degenerate`] when the first point is the last (within `2^-38`) or two neighbours coincide, [`Error::NotContractive`] with the first segment that is no shorter
-    /// than the one it replaces, [`Error::OutOfRange`] for a vertex outside `-1 < x < 2, -2 < y < 2` in the frame of the segment.
+    /// [`Error::Degenerate`] when the first point is the last (within `2^-38`) or two neighbours coincide,
+    /// [`Error::NotContractive`] with the first segment that is no shorter than the one it replaces,
+    /// [`Error::OutOfRange`] for a vertex outside `-1 < x < 2, -2 < y < 2` in the frame of the segment.
     pub fn polyline(points: &[[Wide; 2]]) -> Result<Self, Error> {
         Self::oriented_polyline(points, &[])
     }
@@ -126,36 +138,36 @@ impl<const S: usize> Generator<S> {
             return Err(Error::Capacity { what: "segments", needed: segments, capacity });
         }
         let whole = vertices.clone().last().unwrap_or_default();
-        // what the rounding of sines leaves of a closed word
+        // a turtle that comes back to its start misses it by what the rounding of sines leaves
         if whole.iter().all(|w| w.unsigned_abs() < 1 << 10) {
             return Err(Error::Degenerate { what: "the segment that the generator replaces" });
         }
-        let mut generator = Self { cells: [[Cell::EMPTY; S]; 2], len: segments as u8, marker: None };
-        let [forward, backward] = &mut generator.cells;
+        let mut generator = Self { segments: [[Segment::EMPTY; S]; 2], len: segments as u8, marker: None };
+        let [forward, backward] = &mut generator.segments;
         let ends = vertices.skip(1).zip(orientations);
         let mut start = [0; 2];
-        for (index, (cell, (end, orientation))) in forward.iter_mut().zip(ends).enumerate() {
-            let end = quotient(end, whole).ok_or(out_of_range(index + 1))?;
-            *cell = Cell::between(start, end, orientation).map_err(|error| match error {
+        for (index, (segment, (end, orientation))) in forward.iter_mut().zip(ends).enumerate() {
+            let end = complex_quotient_q30(end, whole).ok_or(out_of_range(index + 1))?;
+            *segment = Segment::between(start, end, orientation).map_err(|error| match error {
                 Error::NotContractive { .. } => Error::NotContractive { map: index },
                 other => other,
             })?;
             start = end;
         }
-        for (mirror, cell) in backward.iter_mut().zip(forward.iter().take(segments).rev()) {
+        for (mirror, segment) in backward.iter_mut().zip(forward.iter().take(segments).rev()) {
             // the end of the segment, seen from the other end of the whole
-            let [x, y] = [0, 1].map(|i: usize| match (cell.start.get(i), cell.vector.get(i)) {
+            let [x, y] = [0, 1].map(|i: usize| match (segment.start.get(i), segment.vector.get(i)) {
                 (Some(s), Some(v)) => s.wrapping_add(*v),
                 _ => 0,
             });
-            let start = [ONE - x, -y];
-            *mirror = Cell { start, show: start, ..*cell };
+            let start = [ONE_Q30 - x, -y];
+            *mirror = Segment { start, show: start, ..*segment };
         }
         Ok(generator)
     }
 
-    /// The same generator, drawn through one point of each copy instead of through its ends: space-filling curves through the middles of their tiles.
-    /// The marker is given in the frame of the segment.
+    /// The same generator, drawn through one point of each copy instead of through its ends: space-filling
+    /// curves through the middles of their tiles. The marker is given in the frame of the segment.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a marker outside the unit square `|x|, |y| <= 1`.
@@ -170,13 +182,13 @@ impl<const S: usize> Generator<S> {
             });
         }
         let marker = marker.map(Unit::to_bits);
-        for (state, cells) in (0_u8..).zip(&mut self.cells) {
-            for cell in cells {
-                let local = oriented(marker, state ^ cell.orientation);
+        for (state, segments) in (0_u8..).zip(&mut self.segments) {
+            for segment in segments {
+                let local = oriented(marker, state ^ segment.orientation);
                 // |start| < 3 and |w c| < 1.5: far inside 64 bits, and a tile stays near its segment
-                let [x, y] = product(cell.vector, local);
-                let [sx, sy] = cell.start;
-                cell.show = [saturate(i64::from(sx) + x), saturate(i64::from(sy) + y)];
+                let [x, y] = complex_product_q30(segment.vector, local);
+                let [sx, sy] = segment.start;
+                segment.show = [saturate(i64::from(sx) + x), saturate(i64::from(sy) + y)];
             }
         }
         self.marker = Some(marker);
@@ -210,85 +222,88 @@ impl<const S: usize> Generator<S> {
         Unit::from_bits(self.ratios().max().unwrap_or(0) as i32)
     }
 
-    /// The lengths of the segments, 30 fractional bits.
-    pub(super) fn ratios(&self) -> impl Iterator<Item = u32> {
-        self.cells.iter().take(1).flatten().take(self.len()).map(|cell| cell.ratio)
+    /// The lengths of the segments.
+    pub(super) fn ratios(&self) -> impl Iterator<Item = UQ30> {
+        self.segments.iter().take(1).flatten().take(self.len()).map(|segment| segment.ratio)
     }
 
-    /// Where the segments of a walk in a state begin and end among [`Generator::cells`].
+    /// Where the segments of a walk in a state begin and end among [`Generator::segments`].
     #[inline(always)]
     pub(super) const fn range(&self, state: u8) -> (u8, u8) {
-        // 2 S cells at most: the capacity is 127
+        // 2 S segments at most: the capacity is 127
         let first = if state & 1 == 0 { 0 } else { S as u8 };
         (first, first.wrapping_add(self.len))
     }
 
     /// The segments in the order of a walk in a state.
     #[inline(always)]
-    pub(super) fn walk(&self, state: u8) -> &[Cell] {
-        let [forward, backward] = &self.cells;
-        let cells = if state & 1 == 0 { forward } else { backward };
-        cells.get(..self.len()).unwrap_or_default()
+    pub(super) fn walk(&self, state: u8) -> &[Segment] {
+        let [forward, backward] = &self.segments;
+        let segments = if state & 1 == 0 { forward } else { backward };
+        segments.get(..self.len()).unwrap_or_default()
     }
 
     /// All segments, of both walks.
     #[inline(always)]
-    pub(super) const fn cells(&self) -> &[Cell] {
-        self.cells.as_flattened()
+    pub(super) const fn segments(&self) -> &[Segment] {
+        self.segments.as_flattened()
     }
 
-    pub(super) const fn marker(&self) -> Option<[i32; 2]> {
+    pub(super) const fn marker(&self) -> Option<[Q30; 2]> {
         self.marker
     }
 
-    /// How far from its start a copy reaches, over its length, after `order` refinements: 30 fractional bits, rounded up.
+    /// How far from its start a copy reaches, over its length, after `order` refinements: 30 fractional bits,
+    /// rounded up.
     pub(super) fn reach(&self, order: u32) -> u64 {
-        let norm = |[x, y]: [i32; 2]| hypotenuse(i64::from(x), i64::from(y));
+        let norm = |[x, y]: [Q30; 2]| hypotenuse(i64::from(x), i64::from(y));
         let farthest = self
-            .cells
+            .segments
             .iter()
-            .flat_map(|cells| cells.iter().take(self.len()))
-            .map(|cell| norm(cell.start).max(norm(cell.show)))
-            .chain([ONE as u64])
+            .flat_map(|segments| segments.iter().take(self.len()))
+            .map(|segment| norm(segment.start).max(norm(segment.show)))
+            .chain([ONE_Q30 as u64])
             .max()
             .unwrap_or(0);
         // farthest (1 + s + s^2 + ..), at most `order` terms
-        let gap = (ONE as u64).saturating_sub(u64::from(self.contraction_factor().to_bits().unsigned_abs()));
+        let factor = u64::from(self.contraction_factor().to_bits().unsigned_abs());
+        let gap = (ONE_Q30 as u64).saturating_sub(factor);
         let series = (farthest << 30).checked_div(gap).map_or(u64::MAX, |sum| sum + 1);
         series.min(farthest.saturating_mul(u64::from(order.max(1))))
     }
 
     /// A generator whose numbers are already in the frame of the segment: for constants.
-    pub(super) const fn from_vertices(vertices: &[[i32; 2]], ratios: &[u32; S]) -> Self {
-        let mut cells = [[Cell::EMPTY; S]; 2];
+    pub(super) const fn from_vertices(vertices: &[[Q30; 2]], ratios: &[UQ30; S]) -> Self {
+        let mut segments = [[Segment::EMPTY; S]; 2];
         let mut i = 0;
         while i < S {
             let ([x, y], [u, v]) = (vertices[i], vertices[i + 1]);
             let vector = [u - x, v - y];
-            let cell = Cell { start: [x, y], vector, show: [x, y], ratio: ratios[i], orientation: 0 };
-            cells[0][i] = cell;
-            cells[1][S - 1 - i] = Cell { start: [ONE - u, -v], show: [ONE - u, -v], ..cell };
+            let segment = Segment { start: [x, y], vector, show: [x, y], ratio: ratios[i], orientation: 0 };
+            segments[0][i] = segment;
+            let start = [ONE_Q30 - u, -v];
+            segments[1][S - 1 - i] = Segment { start, show: start, ..segment };
             i += 1;
         }
-        Self { cells, len: S as u8, marker: None }
+        Self { segments, len: S as u8, marker: None }
     }
 }
 
-impl Cell {
+impl Segment {
     /// `show` seen from the start.
-    pub(super) const fn show_from_start(&self) -> [i32; 2] {
+    pub(super) const fn show_from_start(&self) -> [Q30; 2] {
         let ([x, y], [u, v]) = (self.start, self.show);
         [u.wrapping_sub(x), v.wrapping_sub(y)]
     }
 
-    fn between(start: [i32; 2], end: [i32; 2], orientation: Orientation) -> Result<Self, Error> {
+    fn between(start: [Q30; 2], end: [Q30; 2], orientation: Orientation) -> Result<Self, Error> {
         let ([x, y], [u, v]) = (start.map(i64::from), end.map(i64::from));
         let (dx, dy) = (u - x, v - y);
         let length = hypotenuse(dx, dy);
         if length == 0 {
             return Err(Error::Degenerate { what: "a segment of the generator" });
         }
-        if length >= ONE as u64 {
+        if length >= ONE_Q30 as u64 {
             return Err(Error::NotContractive { map: 0 });
         }
         // shorter than 1: it fits
@@ -298,19 +313,19 @@ impl Cell {
 }
 
 /// A point of a copy in the frame of the walk along it.
-pub(super) const fn oriented([x, y]: [i32; 2], state: u8) -> [i32; 2] {
-    let [x, y] = if state & 1 == 0 { [x, y] } else { [ONE.saturating_sub(x), -y] };
+pub(super) const fn oriented([x, y]: [Q30; 2], state: u8) -> [Q30; 2] {
+    let [x, y] = if state & 1 == 0 { [x, y] } else { [ONE_Q30.saturating_sub(x), -y] };
     if state & 2 == 0 { [x, y] } else { [x, -y] }
 }
 
-/// The complex product of numbers with 30 fractional bits, rounded.
-fn product(a: [i32; 2], b: [i32; 2]) -> [i64; 2] {
+/// The product of complex numbers, rounded, in words that it cannot leave: 30 fractional bits.
+fn complex_product_q30(a: [Q30; 2], b: [Q30; 2]) -> [i64; 2] {
     let ([a, b], [c, d]) = (a.map(i64::from), b.map(i64::from));
     [(a * c - b * d + (1 << 29)) >> 30, (a * d + b * c + (1 << 29)) >> 30]
 }
 
-/// `v / whole` with 30 fractional bits, rounded, for numbers below `2^46`; none when it lies outside the frame.
-fn quotient(v: [i64; 2], whole: [i64; 2]) -> Option<[i32; 2]> {
+/// `v / whole`, rounded, for complex numbers below `2^46`; none when it lies outside the frame.
+fn complex_quotient_q30(v: [i64; 2], whole: [i64; 2]) -> Option<[Q30; 2]> {
     let ([x, y], [u, w]) = (v.map(i128::from), whole.map(i128::from));
     let square = u * u + w * w;
     // below 2^94 << 31
@@ -319,7 +334,7 @@ fn quotient(v: [i64; 2], whole: [i64; 2]) -> Option<[i32; 2]> {
         i64::try_from((twice + 1) >> 1).ok()
     };
     let (re, im) = (divided(x * u + y * w)?, divided(y * u - x * w)?);
-    let one = i64::from(ONE);
+    let one = i64::from(ONE_Q30);
     if re <= -one || re >= 2 * one || im <= -2 * one || im >= 2 * one {
         return None;
     }
@@ -331,7 +346,7 @@ fn out_of_range(index: usize) -> Error {
     Error::OutOfRange { what: "vertex of the generator", index: Some(index), value, min: -max, max }
 }
 
-fn saturate(bits: i64) -> i32 {
+fn saturate(bits: i64) -> Q30 {
     bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
 }
 
@@ -364,7 +379,7 @@ mod tests {
             assert_eq!(u, [0, 0]);
             let norm = w[0] * w[0] + w[1] * w[1];
             let exact = [v[0] * w[0] + v[1] * w[1], v[1] * w[0] - v[0] * w[1]].map(|e| e << 30);
-            for (got, exact) in generator.cells[0][1].start.into_iter().zip(exact) {
+            for (got, exact) in generator.segments[0][1].start.into_iter().zip(exact) {
                 let twice = 2 * (i128::from(got) * norm - exact).abs();
                 assert!(twice <= norm, "{points:?}: {got}");
                 close += u32::from(4 * twice > norm);

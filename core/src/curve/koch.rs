@@ -1,29 +1,34 @@
-//! The Koch curve and the snowflake: generator, base, lengths and areas.
+//! The Koch curve and the snowflake: generator, bases to draw them on, exact lengths and areas.
 //!
-//! `K_{n+1}` replaces the middle third of each segment of `K_n` by the other two sides of an equilateral triangle: turns of 60, -120 and 60 degrees.
-//! Length of `K_n`: `(4/3)^n`. The snowflake `S_n` is made of three of them: perimeter `3 (4/3)^n`; each order adds `3 4^(n-1)` triangles of `9^-n` of the first,
-//! so that its area is `8/5 - 3/5 (4/9)^n` of the triangle.
-//! Source: H. von Koch, "Sur une courbe continue sans tangente", 1904; course unit V, sections 5.1.1 and 5.1.2.
+//! `K_{n+1}` replaces the middle third of each segment of `K_n` by the other two sides of an equilateral
+//! triangle: turns of 60, -120 and 60 degrees. Length of `K_n`: `(4/3)^n`. The snowflake `S_n` is made of
+//! three of them: perimeter `3 (4/3)^n`; each order adds `3 4^(n-1)` triangles of `9^-n` of the first, so
+//! that its area is `8/5 - 3/5 (4/9)^n` of the triangle.
+//!
+//! Source: H. von Koch, "Sur une courbe continue sans tangente", 1904; course unit V, sections 5.1.1 and
+//! 5.1.2.
 
-use super::generator::{Generator, ONE};
+use super::generator::{Generator, ONE_Q30};
+use crate::num::formats::Q30;
 use crate::num::{Angle, Real, Wide, sin_cos};
 use crate::plane::Point2;
 
-/// `2^30 / 3`, rounded.
-const THIRD: i32 = 357_913_941;
-/// `2^30 sqrt(3) / 6`, rounded.
-const HEIGHT: i32 = 309_962_566;
+/// 1/3, rounded.
+const THIRD: Q30 = 357_913_941;
+/// `sqrt(3) / 6`, rounded.
+const HEIGHT: Q30 = 309_962_566;
 
 /// The generator of the Koch curve, a bump to the left.
 pub const GENERATOR: Generator<4> = Generator::from_vertices(
-    &[[0, 0], [THIRD, 0], [ONE / 2, HEIGHT], [2 * THIRD + 1, 0], [ONE, 0]],
+    &[[0, 0], [THIRD, 0], [ONE_Q30 / 2, HEIGHT], [2 * THIRD + 1, 0], [ONE_Q30, 0]],
     &[THIRD as u32 + 1; 4],
 );
 
 /// The base of the Koch curve: from `(0, 0)` to `(1, 0)`.
 pub const SEGMENT: [Point2; 2] = [Point2::new(Real::ZERO, Real::ZERO), Point2::new(Real::ONE, Real::ZERO)];
 
-/// The base of a snowflake: an equilateral triangle with a corner at the top, closed, walked clockwise, so that all bumps point outwards.
+/// The base of a snowflake: an equilateral triangle with a corner at the top, closed, walked clockwise, so
+/// that all bumps point outwards.
 ///
 /// Domain: all; corners saturate. Error: half a unit and below `2^-27` of the radius
 /// (`corners_lie_on_the_circle`).

@@ -1,4 +1,5 @@
-//! L-systems: a word whose letters are rewritten by rules, all at once, again and again, and the turtle that draws the last word.
+//! L-systems: a word whose letters are rewritten by rules, all at once, again and again, and the turtle that
+//! draws the last word. With brackets they make plants.
 //!
 //! | letter | meaning |
 //! | --- | --- |
@@ -6,19 +7,25 @@
 //! | `f` | a step forward, not drawn |
 //! | `+`, `-` | turn left, turn right by the angle |
 //! | `\|` | turn round |
-//! | `[`, `]` | remember place and direction, return to them |
+//! | `[..]` | a branch: behind it the turtle has the place and the direction again that it had before it |
 //! | any other of `A` to `Z`, `a` to `z` | nothing: it only rewrites |
 //!
-//! Every letter, `F`, `G` and `f` among them, may have a rule. Source: P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990, sections 1.2 to
-//! 1.6: deterministic, context-free, with brackets. Left out: chance, context, parameters, the third dimension, filled polygons.
+//! Every letter, `F`, `G` and `f` among them, may have a rule. Source: P. Prusinkiewicz and A. Lindenmayer,
+//! "The Algorithmic Beauty of Plants", 1990, sections 1.2 to 1.6: deterministic, context-free, with brackets.
+//! Left out: chance, context, parameters, the third dimension, filled polygons.
 //!
-//! No word is ever written down. The turtle walks the tree of rewritings with one rest of a word an order and one place a bracket.
-//! This is no [`super::Generator`]: there each segment is replaced by copies that lead from its start to its end, so that a copy is known from its two ends and
-//! pieces may be refined until they are short. Here a letter may stand for anything; where its word leads is known when it has been walked.
+//! No word is ever written down, as it grows exponentially. The turtle walks the tree of rewritings: it keeps
+//! the rest of one word for each order, and one place and direction for each open bracket.
 //!
-//! Formats: directions in `2^-64` of a turn; places with 56 fractional bits, to which a step adds a sine and a cosine without any rounding, as its length is a power of two.
+//! This is no [`super::Generator`]: there each segment is replaced by copies that lead from its start to its
+//! end, so that a copy is known from its two ends and pieces may be refined until they are short. Here a
+//! letter may stand for anything; where its word leads is known when it has been walked.
+//!
+//! Formats: directions in `2^-64` of a turn; places with 56 fractional bits, to which a step adds a sine and
+//! a cosine without any rounding, as its length is a power of two.
 
 use crate::Error;
+use crate::num::formats::{Q56, UQ64};
 use crate::num::{Angle, Real, Wide, sin_cos};
 use crate::plane::{PathElement, Point2};
 
@@ -60,9 +67,9 @@ const fn command(letter: u8) -> Option<Command> {
 pub struct LSystem<'a> {
     axiom: &'a [u8],
     rules: &'a [(char, &'a str)],
-    /// In `2^-64` of a turn.
-    angle: u64,
-    heading: u64,
+    /// In turns.
+    angle: UQ64,
+    heading: UQ64,
 }
 
 /// What becomes of a letter or a word.
@@ -95,7 +102,7 @@ impl<'a> LSystem<'a> {
     /// ```
     /// use attractor::{curve::LSystem, num::Wide};
     /// let rules = [('X', "F-[[X]+X]+F[+FX]-X"), ('F', "FF")];
-    /// let plant = LSystem::new("X", &rules, Wide::lit("22.5"))?.heading(Wide::lit("90"));
+    /// let plant = LSystem::new("X", &rules, Wide::lit("22.5"))?.with_heading(Wide::lit("90"));
     /// assert!(plant.path::<5, 10>(5)?.count() > 1000);
     /// assert!(LSystem::new("F[+F", &rules, Wide::ONE).is_err());
     /// # Ok::<(), attractor::Error>(())
@@ -122,17 +129,18 @@ impl<'a> LSystem<'a> {
     }
 
     /// The same with another first direction, in degrees to the left of the `x` axis: 90 lets plants grow upwards.
-    pub const fn heading(self, degrees: Wide) -> Self {
+    pub const fn with_heading(self, degrees: Wide) -> Self {
         Self { heading: turns(degrees), ..self }
     }
 
     /// The word after `order` rewritings, drawn: one stroke for each run of lines.
     ///
-    /// Result: the walk begins at `(0, 0)`. Its steps are as long as [`Turtle::step`] says, short enough for no walk of that many to leave the disc of radius 64; a
-    /// [`crate::plane::Window`] brings it to a display. Nothing where the word draws nothing.
-    /// Error: of each coordinate below `2^-21`, whatever the word, its length or its angle (tests/l_systems.rs)
-    /// (`l_systems.rs`: `every_point_is_within_its_bound`).
-    /// Cost: the walk ends after [`MAX_LETTERS`] letters at most; stack and time of this call grow with the rules and the order alone.
+    /// Result: the walk begins at `(0, 0)`. Its steps are as long as [`Turtle::step`] says, short enough for
+    /// no walk of that many to leave the disc of radius 64; a [`crate::plane::Window`] brings it to a
+    /// display. Nothing where the word draws nothing. Error: of each coordinate below `2^-21`, whatever the
+    /// word, its length or its angle (tests/l_systems.rs) (`l_systems.rs`:
+    /// `every_point_is_within_its_bound`). Cost: the walk ends after [`MAX_LETTERS`] letters at most; stack
+    /// and time of this call grow with the rules and the order alone.
     ///
     /// # Errors
     /// [`Error::Capacity`] for more than `ORDERS` rewritings, more than `BRANCHES` brackets open at once, or more than [`MAX_LETTERS`] letters.
@@ -156,9 +164,9 @@ impl<'a> LSystem<'a> {
             rests: [&[]; ORDERS],
             waiting: 0,
             order: order as usize,
-            branches: [Place::default(); BRANCHES],
+            branches: [Pose::default(); BRANCHES],
             open: 0,
-            here: Place { at: [0; 2], heading: self.heading },
+            here: Pose { at: [0; 2], heading: self.heading },
             steps: growth.steps,
             shortening: bits.saturating_sub(6),
             pen: Pen::Up,
@@ -227,21 +235,21 @@ fn check(word: &str, what: &'static str, index: Option<usize>) -> Result<(), Err
     if open > 0 { Err(refused(outermost, '[', "is never closed")) } else { Ok(()) }
 }
 
-/// Degrees in `2^-64` of a turn, rounded to nearest: times `2^13 / 45`.
-const fn turns(degrees: Wide) -> u64 {
+/// Degrees in turns, rounded to nearest: times `2^13 / 45` from units of `2^-48` to units of `2^-64`.
+const fn turns(degrees: Wide) -> UQ64 {
     let (whole, rest) = (degrees.to_bits().div_euclid(45), degrees.to_bits().rem_euclid(45));
     ((whole as u64) << 13).wrapping_add((((rest as u64) << 14) / 45 + 1) >> 1)
 }
 
 /// Where the turtle is and where it looks.
 #[derive(Debug, Clone, Copy, Default)]
-struct Place {
-    /// 56 fractional bits.
-    at: [i64; 2],
-    heading: u64,
+struct Pose {
+    at: [Q56; 2],
+    /// In turns.
+    heading: UQ64,
 }
 
-impl Place {
+impl Pose {
     /// Rounded to nearest: `|at| < 65`.
     fn point(&self) -> Point2 {
         let [x, y] = self.at.map(|c| Real::from_bits((c.wrapping_add(1 << 31) >> 32) as i32));
@@ -267,9 +275,9 @@ pub struct Turtle<'a, const ORDERS: usize, const BRANCHES: usize> {
     waiting: usize,
     order: usize,
     /// Where brackets opened: the first `open`.
-    branches: [Place; BRANCHES],
+    branches: [Pose; BRANCHES],
     open: usize,
-    here: Place,
+    here: Pose,
     steps: u32,
     /// A step is `2^-shortening` long.
     shortening: u32,
@@ -354,8 +362,8 @@ impl<const ORDERS: usize, const BRANCHES: usize> Iterator for Turtle<'_, ORDERS,
                 Some(Command::Round) => self.here.heading = self.here.heading.wrapping_add(1 << 63),
                 Some(Command::Open) => {
                     // the constructor has seen to the room
-                    if let Some(place) = self.branches.get_mut(self.open) {
-                        *place = self.here;
+                    if let Some(pose) = self.branches.get_mut(self.open) {
+                        *pose = self.here;
                         self.open += 1;
                     }
                 }

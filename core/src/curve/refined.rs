@@ -1,31 +1,36 @@
-//! A polyline whose segments are replaced by a generator, again and again: a walk through the tree of copies without recursion.
+//! A polyline whose segments are replaced by a generator, again and again, as a path: this is what draws the
+//! Koch curve and its relatives.
 //!
-//! A copy that starts at `p` and leads along `d` consists of the copies at `p + d v_i` along `d w_i` (see [`Generator`]). The walk keeps the copies on the way
-//! down in a stack of `DEPTH` entries; each vertex is computed from the copy in which it first appears, so that the error grows with the depth of that copy
-//! and never with the number of segments, and the vertices of order `n` are among those of order `n + 1`, to the last bit.
+//! The curve of order `n` has exponentially many vertices and none is stored. Its segments are the leaves of
+//! a tree: a copy of the curve that starts at `p` and leads along `d` consists of the copies at `p + d v_i`
+//! along `d w_i` (see [`Generator`]). The walk through that tree needs no recursion; it keeps the copies on
+//! the way down in a stack of `DEPTH` entries. Each vertex is computed from the copy in which it first
+//! appears, so that the error grows with the depth of that copy and never with the number of segments, and
+//! the vertices of order `n` are among those of order `n + 1`, to the last bit.
 //!
-//! Formats: `p` has 56 fractional bits, `d` 26, `v` and `w` 30; so `p + d v` needs no shift and no rounding, and its high word is a [`crate::num::Real`].
-//! Only `d w` is rounded, by half of `2^-26`.
-//! Source: course unit V, section 5.1.2 (`drawKoch`).
+//! Formats: `p` has 56 fractional bits, `d` 26, `v` and `w` 30; so `p + d v` needs no shift and no rounding,
+//! and its high word is a [`crate::num::Real`]. Only `d w` is rounded, by half of `2^-26`. Source: course
+//! unit V, section 5.1.2 (`drawKoch`).
 
-use super::generator::{Cell, Generator, hypotenuse, oriented};
+use super::generator::{Generator, Segment, hypotenuse, oriented};
 use crate::Error;
+use crate::num::formats::{Q26, Q30, Q56, UQ26, UQ30};
 use crate::num::{Real, Wide, product, product_u};
 use crate::plane::{PathElement, Point2};
 
 /// Segments of the base are shorter than this.
 const LONGEST: u64 = 32;
 
-/// A copy of the whole curve.
+/// A copy of the whole curve in the place of one segment, whose own segments are refined further.
 #[derive(Debug, Clone, Copy, Default)]
-struct Copy {
-    /// Where its next segment begins: 56 fractional bits, and the half unit that rounds the high word.
-    start: [i64; 2],
-    /// To where it ends: 26 fractional bits.
-    vector: [i32; 2],
-    /// The length of that, rounded up: 26 fractional bits.
-    length: u32,
-    /// Its next segment and the one after its last, in [`Generator::cells`].
+struct Replica {
+    /// Where its next segment begins, and the half unit that rounds the high word.
+    start: [Q56; 2],
+    /// From its start to its end.
+    vector: [Q26; 2],
+    /// The length of that, rounded up.
+    length: UQ26,
+    /// Its next segment and the one after its last, in [`Generator::segments`].
     next: u8,
     end: u8,
     /// Reversed, mirrored: [`super::Orientation`].
@@ -37,16 +42,16 @@ struct Copy {
 /// A copy whose segments are drawn as they are.
 #[derive(Debug, Clone, Copy, Default)]
 struct Drawn {
-    /// As in [`Copy`], of its first segment.
-    start: [i64; 2],
-    vector: [i32; 2],
+    /// As in [`Replica`], of its first segment.
+    start: [Q56; 2],
+    vector: [Q26; 2],
     state: u8,
 }
 
 impl Drawn {
     /// `p + d v`, `v` mirrored if the copy is.
     #[inline(always)]
-    fn place(&self, [x, y]: [i32; 2]) -> [i64; 2] {
+    fn place(&self, [x, y]: [Q30; 2]) -> [Q56; 2] {
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
         let ([p, q], [dx, dy]) = (self.start, self.vector);
         // the constructor proves |p + d v| < 128 for all copies
@@ -57,7 +62,7 @@ impl Drawn {
     }
 }
 
-impl Copy {
+impl Replica {
     #[inline(always)]
     const fn drawn(&self) -> Drawn {
         Drawn { start: self.start, vector: self.vector, state: self.state }
@@ -81,10 +86,11 @@ impl Copy {
         }
     }
 
-    /// The copy on its next segment, `cell`. `start` moves on to the one after: `v_{i+1} = v_i + w_i`, so that nothing is rounded.
+    /// The copy on its next segment. `start` moves on to the one after: `v_{i+1} = v_i + w_i`, so that
+    /// nothing is rounded.
     #[inline(always)]
-    fn descend<const S: usize>(&mut self, cell: &Cell, length: u32, generator: &Generator<S>) -> Self {
-        let [x, y] = cell.vector;
+    fn descend<const S: usize>(&mut self, segment: &Segment, length: UQ26, generator: &Generator<S>) -> Self {
+        let [x, y] = segment.vector;
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
         let ([p, q], [dx, dy]) = (self.start, self.vector);
         let u = product(dx, x).wrapping_add(product(dy, y.wrapping_neg()));
@@ -92,7 +98,7 @@ impl Copy {
         self.start = [p.wrapping_add(u), q.wrapping_add(v)];
         // |w| < 1, so that the vector becomes shorter
         let rounded = |bits: i64| (bits.wrapping_add(1 << 29) >> 30) as i32;
-        let state = self.state ^ cell.orientation;
+        let state = self.state ^ segment.orientation;
         let (next, end) = generator.range(state);
         let orders = self.orders.wrapping_sub(1);
         Self { start: [p, q], vector: [rounded(u), rounded(v)], length, next, end, state, orders }
@@ -100,7 +106,7 @@ impl Copy {
 }
 
 #[inline(always)]
-fn point([x, y]: [i64; 2]) -> Point2 {
+fn point([x, y]: [Q56; 2]) -> Point2 {
     Point2::new(Real::from_bits((x >> 32) as i32), Real::from_bits((y >> 32) as i32))
 }
 
@@ -148,17 +154,17 @@ pub struct Refined<'a, const S: usize, const DEPTH: usize> {
     generator: &'a Generator<S>,
     /// The copy whose segments are drawn as they are, and those that are left of them.
     drawn: Drawn,
-    run: core::slice::Iter<'a, Cell>,
+    run: core::slice::Iter<'a, Segment>,
     /// What is left of the base, from the point where the current segment ends.
     base: &'a [Point2],
     /// Copies on the way down to it, some of whose segments are refined further; the first `waiting` are in use.
-    stack: [Copy; DEPTH],
+    stack: [Replica; DEPTH],
     waiting: usize,
     order: u8,
-    /// Copies shorter than this are not refined: 26 fractional bits.
-    shortest: u32,
+    /// Copies shorter than this are not refined.
+    shortest: UQ26,
     /// The length of the longest segment of the generator.
-    longest_ratio: u32,
+    longest_ratio: UQ30,
     pen: Pen,
 }
 
@@ -231,7 +237,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
         generator: &'a Generator<S>,
         base: &'a [Point2],
         order: usize,
-        shortest: u32,
+        shortest: UQ26,
     ) -> Result<Self, Error> {
         longest_segment(base)?;
         let reach = generator.reach(order as u32);
@@ -249,7 +255,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
             base,
             drawn: Drawn::default(),
             run: [].iter(),
-            stack: [Copy::default(); DEPTH],
+            stack: [Replica::default(); DEPTH],
             waiting: 0,
             order: order as u8,
             shortest,
@@ -258,7 +264,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
         })
     }
 
-    fn step(&mut self, p: [i64; 2]) -> PathElement {
+    fn step(&mut self, p: [Q56; 2]) -> PathElement {
         if self.pen == Pen::Down {
             PathElement::LineTo(point(p))
         } else {
@@ -275,7 +281,7 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
             let child;
             if let Some(top) = self.waiting.checked_sub(1) {
                 let copy = self.stack.get_mut(top)?;
-                let cell = self.generator.cells().get(usize::from(copy.next))?;
+                let segment = self.generator.segments().get(usize::from(copy.next))?;
                 copy.next += 1;
                 // after its last segment nothing waits for it
                 if copy.next >= copy.end {
@@ -283,19 +289,20 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
                 }
                 let mut length = 0;
                 if adaptive {
-                    length = scaled(copy.length, cell.ratio);
+                    length = product_uq26(copy.length, segment.ratio);
                     if length < self.shortest {
-                        let place = copy.drawn().place(cell.show_from_start());
-                        copy.descend(cell, 0, self.generator);
+                        let place = copy.drawn().place(segment.show_from_start());
+                        copy.descend(segment, 0, self.generator);
                         return Some(self.step(place));
                     }
                 }
-                child = copy.descend(cell, length, self.generator);
+                child = copy.descend(segment, length, self.generator);
             } else {
                 child = match self.base {
                     [from, rest @ ..] if !rest.is_empty() => {
                         self.base = rest;
-                        Copy::on(*from, rest.first().copied().unwrap_or(*from), self.order, self.generator)
+                        let to = rest.first().copied().unwrap_or(*from);
+                        Replica::on(*from, to, self.order, self.generator)
                     }
                     [last] if self.pen == Pen::Down && self.generator.marker().is_none() => {
                         self.pen = Pen::Done;
@@ -308,9 +315,11 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
                     return Some(self.step(child.drawn().place(show)));
                 }
             }
-            if child.orders <= 1 || (adaptive && scaled(child.length, self.longest_ratio) < self.shortest) {
-                let cells = self.generator.walk(child.state);
-                let (first, rest) = cells.split_first()?;
+            if child.orders <= 1
+                || (adaptive && product_uq26(child.length, self.longest_ratio) < self.shortest)
+            {
+                let segments = self.generator.walk(child.state);
+                let (first, rest) = segments.split_first()?;
                 self.run = rest.iter();
                 self.drawn = child.drawn();
                 let place = self.drawn.place(first.show);
@@ -350,7 +359,7 @@ fn longest_segment(base: &[Point2]) -> Result<u64, Error> {
 }
 
 #[inline(always)]
-fn scaled(length: u32, ratio: u32) -> u32 {
+fn product_uq26(length: UQ26, ratio: UQ30) -> UQ26 {
     (product_u(length, ratio) >> 30) as u32
 }
 
@@ -361,7 +370,7 @@ impl<const S: usize, const DEPTH: usize> Iterator for Refined<'_, S, DEPTH> {
     fn next(&mut self) -> Option<PathElement> {
         match self.run.next() {
             // the first segment of a run is drawn when it is entered
-            Some(cell) => Some(PathElement::LineTo(point(self.drawn.place(cell.show)))),
+            Some(segment) => Some(PathElement::LineTo(point(self.drawn.place(segment.show)))),
             None => self.next_run(),
         }
     }

@@ -1,12 +1,18 @@
-//! A random curve through knots: each part between two knots is halved until it is short, depth first with a bounded stack.
+//! A random curve through knots, as a path: each part between two knots is halved until it is short, depth
+//! first with a bounded stack.
 //!
-//! The knots have the parameters 0, 1, 2 ..; the point in the middle of a part depends on that part alone. So any piece of a curve, at any resolution, consists of
-//! exactly the points that the whole has there.
-//! Source: course unit V, section 5.6.1 (`fract`); L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
+//! Where a midpoint lies is the business of a law ([`Displacement`]); when a part is short enough to be drawn
+//! as a straight line, that of a [`Stop`].
+//!
+//! The knots have the parameters 0, 1, 2 ..; the point in the middle of a part depends on that part alone. So
+//! any piece of a curve, at any resolution, consists of exactly the points that the whole has there. Source:
+//! course unit V, section 5.6.1 (`fract`); L. C. Carpenter, "Computer rendering of fractal curves and
+//! surfaces", 1980.
 
 use super::displacement::{Displacement, LEVELS as MAX_LEVELS, Part};
 use crate::Error;
 use crate::num::Parameter;
+use crate::num::formats::{Q32, UQ24, UQ32, UQ48};
 use crate::num::{Real, Wide};
 use crate::plane::{PathElement, Point2};
 
@@ -17,7 +23,8 @@ use crate::plane::{PathElement, Point2};
 pub enum Stop {
     /// When the parameter grows by no more than this along it: all parts are halved equally often.
     Parameter(Parameter),
-    /// When `|x_1 - x_2| + |y_1 - y_2|`, which Carpenter calls the infinity norm, is less than this, or it has been halved as often as there are levels.
+    /// When `|x_1 - x_2| + |y_1 - y_2|`, which Carpenter calls the infinity norm, is less than this, or it
+    /// has been halved as often as there are levels.
     Norm(Real),
     /// When the distance of its ends is less than this, or it has been halved as often as there are levels.
     Length(Real),
@@ -30,7 +37,8 @@ struct End {
     level: u32,
 }
 
-/// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size on a 32-bit machine: 12 bytes a level, and 88.
+/// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size on a
+/// 32-bit machine: 12 bytes a level, and 88.
 ///
 /// ```
 /// use attractor::curve::{Elbow, Stop, Subdivision};
@@ -72,8 +80,9 @@ pub struct Subdivision<'a, D, const LEVELS: usize> {
     /// The last point.
     from: Point2,
     /// Its parameter.
-    at: i64,
-    /// The ends of the parts that begin where the one before ends; the last of them is next.
+    at: Q32,
+    /// The ends of the parts that wait, each beginning where the one before it ends; the last of them is
+    /// next.
     ends: [End; LEVELS],
     waiting: usize,
     /// The end of the part at hand, if there is one.
@@ -81,11 +90,11 @@ pub struct Subdivision<'a, D, const LEVELS: usize> {
     span: Real,
     levels: u32,
     /// The norm or the length below which a part is short; 0 for none.
-    limit: u32,
+    limit: UQ24,
     /// The square of a length, 0 for a norm.
-    square: u64,
+    square: UQ48,
     /// The piece of the curve that is wanted, if not all of it.
-    piece: [i64; 2],
+    piece: [Q32; 2],
     partial: bool,
     drawing: bool,
 }
@@ -99,8 +108,9 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     /// (kernel `two variable`) for two by norm; 145 (kernel `line to line`) for a function that stops by parameter.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for neighbours that are 128 or more apart in a coordinate and for a limit of 0 or less, [`Error::Capacity`] when the parameter asks for more than
-    /// `LEVELS` or 31 halvings; what the law says against the knots.
+    /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for neighbours that are 128 or more
+    /// apart in a coordinate and for a limit of 0 or less, [`Error::Capacity`] when the parameter asks for
+    /// more than `LEVELS` or 31 halvings; what the law says against the knots.
     pub fn new(law: &'a D, knots: &'a [Point2], stop: Stop) -> Result<Self, Error> {
         let Some((first, rest)) = knots.split_first() else {
             return Err(Error::TooFew { what: "knots", given: 0, at_least: 2 });
@@ -228,7 +238,7 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
 
 /// Half the parameter of a part that has been halved `level <= 31` times.
 #[inline(always)]
-const fn half(level: u32) -> u32 {
+const fn half(level: u32) -> UQ32 {
     (1_u32 << 31) >> (level & 31)
 }
 

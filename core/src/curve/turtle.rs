@@ -1,4 +1,5 @@
-//! Generators as turtle words: `F+F--F+F` at 60 degrees is the Koch curve's.
+//! Generators as turtle words, the shortest way to write one down: `F+F--F+F` at 60 degrees is the Koch
+//! curve's.
 //!
 //! | letter | meaning |
 //! | --- | --- |
@@ -8,12 +9,14 @@
 //! | `b` | a copy on the other side, walked from its end |
 //! | `+`, `-` | turn left, turn right by the angle |
 //!
-//! The word is one refinement; where it ends, `(1, 0)` lies, so that neither its first direction nor its size matters. All steps have length 1.
-//! Source: P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990, section 1.4.1 ("edge rewriting"); course unit V, section 5.1.2.
-//! Left out: `f`, which moves without drawing, brackets, and letters that only rewrite: those are for [`super::LSystem`].
+//! The word is one refinement; where it ends, `(1, 0)` lies, so that neither its first direction nor its size
+//! matters. All steps have length 1. Source: P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of
+//! Plants", 1990, section 1.4.1 ("edge rewriting"); course unit V, section 5.1.2. Left out: `f`, which moves
+//! without drawing, brackets, and letters that only rewrite: those are for [`super::LSystem`].
 
 use super::generator::{Generator, Orientation};
 use crate::Error;
+use crate::num::formats::UQ32;
 use crate::num::{Angle, sin_cos};
 
 /// What a letter asks for.
@@ -47,8 +50,8 @@ pub const fn turn_over(parts: u32) -> Angle {
 impl<const S: usize> Generator<S> {
     /// The generator that a turtle draws.
     ///
-    /// Domain: see the table above; angles in turns. Error: of each vertex below `2^-26` for up to nine steps and turns, from the sines (tests/curves.rs)
-    /// (`curves.rs`: `every_vertex_is_within_its_bound`).
+    /// Domain: see the table above; angles in turns. Error: of each vertex below `2^-26` for up to nine steps
+    /// and turns, from the sines (`curves.rs`: `every_vertex_is_within_its_bound`).
     ///
     /// # Errors
     /// As [`Generator::polyline`]; [`Error::Character`] for a letter that is not in the table.
@@ -91,7 +94,8 @@ impl<const S: usize> Generator<S> {
 struct Vertices<'a> {
     word: &'a [u8],
     angle: Angle,
-    heading: u32,
+    /// In turns.
+    heading: UQ32,
     at: Option<[i64; 2]>,
 }
 

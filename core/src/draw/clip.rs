@@ -1,4 +1,6 @@
-//! Intersections of pixel rectangles, in 64 bits: `Rectangle::intersection` overflows for boxes near the ends of `i32`.
+//! Intersections of pixel rectangles: which part of a picture a target can show.
+//!
+//! In 64 bits, since `Rectangle::intersection` overflows for boxes near the ends of `i32`.
 
 use core::ops::Range;
 

@@ -1,4 +1,5 @@
-//! A cursor that remembers which row comes next: drawing in portions, one row a tick.
+//! A cursor that remembers which row of a picture comes next, for a main loop that draws one row a tick and
+//! does other things between.
 
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::Point;

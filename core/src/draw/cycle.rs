@@ -1,4 +1,5 @@
-//! Palettes on counts: colours that come round again, as dwell pictures of deep windows need them.
+//! Palettes on counts, whose colours come round again: pictures of deep windows have dwells of thousands,
+//! which one pass through a palette would not tell apart.
 
 use core::num::NonZeroU32;
 
@@ -85,7 +86,7 @@ impl<const N: usize> Ramp<N> {
 impl Ramp<6> {
     /// Six colours of a palette, without its darkest fifth: for periods, 1 the first of them.
     pub fn of_periods(palette: impl Palette<Level>) -> Self {
-        // the count 6 comes where 0 is
+        // periods begin at 1, which gets the first colour: the last one is at 0, where the count 6 comes
         let fifth = |k: usize| Level::ratio((k as u32 + 5) % 6, 5).to_bits() / 5 * 4;
         Self { colors: core::array::from_fn(|k| palette.rgb(Level::from_bits(fifth(k) + 13_000))) }
     }

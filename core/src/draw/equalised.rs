@@ -1,4 +1,5 @@
-//! A palette equalised by histogram: each colour covers the same share of the picture.
+//! A palette equalised by histogram: each colour covers the same share of the picture, however unevenly its
+//! values are spread.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 

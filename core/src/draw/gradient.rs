@@ -1,5 +1,6 @@
-//! A gradient: piecewise linear through colours at given levels. The quotient is a product with a reciprocal
-//! prepared in the constructor, 32 bits wide.
+//! A gradient: a palette that is piecewise linear through colours at given levels.
+//!
+//! The quotient of an interpolation is a product with a reciprocal prepared in the constructor, 32 bits wide.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 

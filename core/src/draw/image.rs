@@ -1,4 +1,4 @@
-//! A field with a palette: an image that is computed while it is drawn.
+//! A field with a palette: an image that is computed while it is drawn, without a frame buffer.
 
 use core::iter::FusedIterator;
 use core::marker::PhantomData;

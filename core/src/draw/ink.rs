@@ -1,4 +1,5 @@
-//! Ink: from a display-independent colour to what a display can show.
+//! Ink: from a display-independent colour to what a display can show at a pixel, the nearest colour or a
+//! dither of few.
 
 use embedded_graphics_core::geometry::Point;
 use embedded_graphics_core::pixelcolor::{

@@ -1,9 +1,10 @@
-//! A straight line of pixels (J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4, 1965), clipped
-//! without moving a pixel.
+//! A straight line of pixels, clipped to a box without moving a pixel: what is seen of a path does not depend
+//! on where the window ends.
 //!
-//! The pixels are a set that does not depend on the direction: each is the nearest to the line across its
-//! longer side, and of two equally near ones the lower or the right one, to which the edge between them
-//! belongs in a window too.
+//! The line is Bresenham's (J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM
+//! Systems Journal 4, 1965). Its pixels are a set that does not depend on the direction: each is the nearest
+//! to the line across its longer side, and of two equally near ones the lower or the right one, to which the
+//! edge between them belongs in a window too.
 //!
 //! Along the longer direction, `n` steps, pixel `k` lies `m(k) = floor((2 k d + h) / (2 n))` pixels aside,
 //! `d` steps in all; `h` is `n` where the line goes down or right aside, else `n - 1`. A box allows a range
@@ -12,8 +13,9 @@
 //! - `m(k) >= a` where `k >= ceil((2 a n - h) / (2 d))`,
 //! - `m(k) <= b` where `k < ceil((2 (b + 1) n - h) / (2 d))`.
 //!
-//! The walk starts at the first `k` of the intersection with the remainder that Bresenham's loop would hold there. Coordinates may have 48
-//! bits; the products need 128, once for a line that the box cuts, never for one inside or beside it.
+//! The walk starts at the first `k` of the intersection with the remainder that Bresenham's loop would hold
+//! there. Coordinates may have 48 bits; the products need 128, once for a line that the box cuts, never for
+//! one inside or beside it.
 
 use embedded_graphics_core::geometry::Point;
 

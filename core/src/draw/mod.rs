@@ -76,7 +76,7 @@ pub use level::{Level, Leveled};
 pub use mirrored::Mirrored;
 pub use mono::{Inverted, Luminance};
 pub use packing::{Lines, LsbPages, MsbRows, Packing, PixelBytes, PixelWords};
-pub use palette::{CourseUnit, Grey, Inside, Lifted, Palette, hex};
+pub use palette::{Brightened, CourseUnit, Grey, Inside, Palette, hex};
 pub use path::Stroke;
 pub use points::{ColoredDots, Dots};
 pub use rows::Strips;

@@ -1,8 +1,10 @@
-//! Palettes for displays that know two inks: the light of a colour, and its negative.
+//! Palettes for displays that know two inks: one for the right brightness when a colour becomes dots, and one
+//! for its negative.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
 use crate::draw::Palette;
+use crate::num::formats::UQ16;
 
 /// Another palette as greys in linear light: dithered to dots of one bit, they give off as much light as its
 /// colours do.
@@ -47,9 +49,9 @@ impl<V, P: Palette<V>> Palette<V> for Luminance<P> {
     }
 }
 
-/// The light of an encoded channel with 16 fractional bits, below 1.
+/// The light of an encoded channel, below 1.
 #[inline]
-fn light(channel: u8) -> u32 {
+fn light(channel: u8) -> UQ16 {
     let v = u32::from(channel) * 257;
     let square = ((v * 20_606) >> 16) + 43_741;
     let line = ((v * square) >> 16) + 1_189;

@@ -1,5 +1,6 @@
-//! Packings: how the colours of a few rows lie in a line buffer, as the memory of a display wants them. The
-//! table is [`Packing`]'s.
+//! Packings: how the colours of a few rows lie in a line buffer, as the memory of a display wants them.
+//!
+//! They are for drivers that take bytes or words instead of colours; the table is [`Packing`]'s.
 
 use embedded_graphics_core::pixelcolor::raw::{RawData, ToBytes};
 use embedded_graphics_core::pixelcolor::{

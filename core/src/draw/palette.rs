@@ -1,4 +1,5 @@
-//! Palettes: from a value to a colour that knows no display.
+//! Palettes: from a value to a colour that knows no display. What a display makes of that colour is
+//! [`Ink`](crate::draw::Ink)'s business.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
@@ -68,7 +69,7 @@ by_reference! {
     [V] CourseUnit, V;
     [V] Grey, V;
     [V, P] Inside<P>, V;
-    [V, P] Lifted<P>, V;
+    [V, P] Brightened<P>, V;
     [V, P] Luminance<P>, V;
     [V, P] Inverted<P>, V;
     ['a, V, P] Equalised<'a, P>, V;
@@ -164,20 +165,21 @@ impl<V: Leveled, P: Palette<V>> Palette<V> for Inside<P> {
     }
 }
 
-/// Another palette at the square root of the level: spreads the low levels, where most of a dwell picture lies.
+/// Another palette at the square root of the level, which makes dark pixels brighter: it spreads the low
+/// levels, where most of a dwell picture lies.
 ///
-/// Error: below one step of the level (`lifting_is_the_square_root_rounded_down`). Values inside the set stay
-/// black.
+/// Error: below one step of the level (`brightening_is_the_square_root_rounded_down`). Values inside the set
+/// stay black.
 ///
 /// ```
-/// use attractor::draw::{Grey, Level, Lifted, Palette, hex};
+/// use attractor::draw::{Brightened, Grey, Level, Palette, hex};
 ///
-/// assert_eq!(Lifted(Grey).rgb(Level::ratio(1, 4)), hex(0x7f7f7f));
+/// assert_eq!(Brightened(Grey).rgb(Level::ratio(1, 4)), hex(0x7f7f7f));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Lifted<P>(pub P);
+pub struct Brightened<P>(pub P);
 
-impl<V: Leveled, P: Palette<Level>> Palette<V> for Lifted<P> {
+impl<V: Leveled, P: Palette<Level>> Palette<V> for Brightened<P> {
     #[inline]
     fn rgb(&self, value: V) -> Rgb888 {
         if value.is_inside() {
@@ -226,18 +228,18 @@ mod tests {
     }
 
     #[test]
-    fn lifting_is_the_square_root_rounded_down() {
-        let lifted = Lifted(|level: Level| hex(u32::from(level.to_bits())));
+    fn brightening_is_the_square_root_rounded_down() {
+        let brightened = Brightened(|level: Level| hex(u32::from(level.to_bits())));
         for level in 0..=u16::MAX {
-            let root = lifted.rgb(Level::from_bits(level));
+            let root = brightened.rgb(Level::from_bits(level));
             let root = u64::from(root.g()) << 8 | u64::from(root.b());
             let square = u64::from(level) * 65535;
             assert!(root * root <= square && square < (root + 1) * (root + 1), "{level}");
         }
-        assert_eq!(lifted.rgb(Level::ZERO), hex(0));
-        assert_eq!(lifted.rgb(Level::FULL), hex(65535));
-        assert_eq!(lifted.rgb(Level::from_bits(1 << 14)), hex((1 << 15) - 1));
-        assert_eq!(lifted.rgb(None::<Level>), Rgb888::BLACK);
+        assert_eq!(brightened.rgb(Level::ZERO), hex(0));
+        assert_eq!(brightened.rgb(Level::FULL), hex(65535));
+        assert_eq!(brightened.rgb(Level::from_bits(1 << 14)), hex((1 << 15) - 1));
+        assert_eq!(brightened.rgb(None::<Level>), Rgb888::BLACK);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A path on a display: thin lines from step to step.
+//! Draws a path on a display: thin lines from step to step.
 
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{Dimensions, Point};

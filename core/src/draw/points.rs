@@ -1,4 +1,4 @@
-//! Points on a display: a dot for each.
+//! Draws points on a display: a dot for each, in one colour or in the colour of a value that comes with it.
 
 use core::marker::PhantomData;
 
@@ -132,7 +132,7 @@ impl<I: Iterator<Item = Point2> + Clone, C: PixelColor> Drawable for Dots<I, C> 
 /// let gasket = SIERPINSKI_GASKET.ifs::<3>()?;
 /// let window = Window::stretch(gasket.bounds(), Size::new(8, 8))?;
 /// let maps = Ramp::new([hex(0xff0000), hex(0x00ff00), hex(0x0000ff)]);
-/// let points = gasket.seeded_chaos_game(1).with_maps().take(300);
+/// let points = gasket.seeded_chaos_game(1).labelled().take(300);
 /// let mut display = MockDisplay::<Rgb565>::new();
 /// # display.set_allow_overdraw(true);
 /// let Ok(_) = ColoredDots::new(points, window, maps).draw(&mut display) else { return Ok(()) };

@@ -1,4 +1,8 @@
-//! A picture without a display driver: strips of rows in a buffer that the caller lends, ready for SPI, DMA or a file.
+//! A picture without a display driver: strips of rows in a buffer that the caller lends, ready for SPI, DMA
+//! or a file.
+//!
+//! A display of 240 by 240 pixels then needs memory for one row, or for eight where a byte holds a column of
+//! them, and the picture is sent as it is computed.
 
 use core::fmt;
 use core::marker::PhantomData;

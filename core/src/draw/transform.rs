@@ -1,5 +1,5 @@
 //! Points and paths move as other drawables do: by `Transform` of embedded-graphics, which is not part of its
-//! core.
+//! core, and so is behind a feature.
 
 use embedded_graphics::transform::Transform;
 use embedded_graphics_core::geometry::Point;

@@ -1,4 +1,5 @@
-//! What a pixel of an escape-time picture holds.
+//! What a pixel of an escape-time picture holds: the dwell of its orbit, or the period of the cycle that the
+//! orbit is drawn to.
 
 use core::num::NonZeroU32;
 

@@ -1,16 +1,24 @@
-//! Affine maps of the plane: `x' = a x + b y + e`, `y' = c x + d y + f`, in the order `[a, b, c, d, e, f]` of the textbooks' tables.
+//! Affine maps of the plane, the building blocks of an iterated function system: how one acts on a point,
+//! composes with another, and how much it contracts.
 //!
-//! Source: M. F. Barnsley, "Fractals Everywhere", 1988, section 3.8 ("IFS code"); the course unit's copier, section 5.3.
-//! The singular values `s1 >= s2` of the linear part obey `s1^2 + s2^2 = T = a^2 + b^2 + c^2 + d^2` and `s1 s2 = |D|`, `D = a d - b c`; so
-//! `(1 - s1^2) (1 - s2^2) = 1 - T + D^2`, which is positive exactly when both are below 1 or both above, and `|D| < 1` rules out the latter.
-//! And `s1 = (|(a + d, b - c)| + |(a - d, b + c)|) / 2`: the conformal and the anticonformal part.
+//! `x' = a x + b y + e`, `y' = c x + d y + f`, in the order `[a, b, c, d, e, f]` of the textbooks' tables.
+//! Source: M. F. Barnsley, "Fractals Everywhere", 1988, section 3.8 ("IFS code"); the course unit's copier,
+//! section 5.3.
+//!
+//! A map brings all points closer together when the larger singular value of its linear part is below 1. It
+//! is decided without a root: the singular values `s1 >= s2` obey `s1^2 + s2^2 = T = a^2 + b^2 + c^2 + d^2`
+//! and `s1 s2 = |D|`, `D = a d - b c`; so `(1 - s1^2) (1 - s2^2) = 1 - T + D^2`, which is positive exactly
+//! when both are below 1 or both above, and `|D| < 1` rules out the latter. As a number,
+//! `s1 = (|(a + d, b - c)| + |(a - d, b + c)|) / 2`: half the lengths of the conformal and of the
+//! anticonformal part.
 
-use crate::num::{self, Real, Unit, Wide, mul_high_u, quotient, sqrt};
+use crate::num::formats::{Q54, Q60, UQ60};
+use crate::num::{Real, Unit, Wide, mul_high_u, product, quotient, sqrt};
 use crate::plane::Point2;
 
-const ONE: i64 = 1 << 30;
-/// The square of [`ONE`].
-const SQUARE: u64 = 1 << 60;
+/// 1, with 30 fractional bits as in [`Unit`].
+const ONE_Q30: i64 = 1 << 30;
+const ONE_UQ60: UQ60 = 1 << 60;
 
 /// An affine map of the plane: the linear part in [`Unit`], the translation in [`Real`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -71,7 +79,7 @@ impl Affine {
     pub fn apply(&self, p: Point2) -> Point2 {
         let row = |l: Unit, m: Unit, t: Real| {
             // The sum leaves 64 bits only for l = m = -2, x = y = -128: saturating costs one unit of 2^-54 there.
-            let sum = product(l, p.x).saturating_add(product(m, p.y)).saturating_add(translated(t));
+            let sum = product_q54(l, p.x).saturating_add(product_q54(m, p.y)).saturating_add(translated(t));
             Real::from_bits((sum >> 30).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
         };
         Point2::new(row(self.a, self.b, self.e), row(self.c, self.d, self.f))
@@ -84,7 +92,7 @@ impl Affine {
     pub fn after(&self, first: &Self) -> Self {
         let entry = |l: Unit, m: Unit, p: Unit, q: Unit| {
             // beyond 63 bits only for -2 throughout, where the entry saturates anyhow
-            let sum = (entries(l, p) + (1 << 29)).saturating_add(entries(m, q));
+            let sum = (product_q60(l, p) + (1 << 29)).saturating_add(product_q60(m, q));
             Unit::from_bits((sum >> 30).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
         };
         let Point2 { x: e, y: f } = self.apply(Point2::new(first.e, first.f));
@@ -113,8 +121,8 @@ impl Affine {
         // T - 1 < D^2; T <= 4 with 60 fractional bits
         let determinant = self.area();
         let squares: u64 = self.linear().iter().map(|l| l.unsigned_abs() * l.unsigned_abs()).sum();
-        determinant < SQUARE
-            && match squares.checked_sub(SQUARE) {
+        determinant < ONE_UQ60
+            && match squares.checked_sub(ONE_UQ60) {
                 None => true,
                 Some(excess) => {
                     // D^2 has 120: rounded up to 60
@@ -152,7 +160,7 @@ impl Affine {
         // (1 - a) x - b y = e, -c x + (1 - d) y = f; 60 fractional bits below, 54 above the line, both less than 2^63
         let [a, b, c, d] = self.linear();
         let (e, f) = (i64::from(self.e.to_bits()), i64::from(self.f.to_bits()));
-        let (p, q) = (ONE - a, ONE - d);
+        let (p, q) = (ONE_Q30 - a, ONE_Q30 - d);
         let determinant = p * q - b * c;
         let coordinate = |numerator: i64| {
             let signed = if determinant < 0 { -numerator } else { numerator };
@@ -164,6 +172,7 @@ impl Affine {
         Some(Point2::new(coordinate(q * e + b * f)?, coordinate(c * e + p * f)?))
     }
 
+    /// `a b c d` in words that have room for their sums and products: 30 fractional bits.
     fn linear(&self) -> [i64; 4] {
         [self.a, self.b, self.c, self.d].map(|l| i64::from(l.to_bits()))
     }
@@ -173,26 +182,27 @@ impl Affine {
         [self.a, self.b, self.c, self.d].iter().all(|l| l.unsigned_abs() <= Unit::ONE.unsigned_abs())
     }
 
-    /// `|D|` with 60 fractional bits, for coefficients of at most 1.
-    pub(super) fn area(&self) -> u64 {
+    /// `|D|`, for coefficients of at most 1.
+    pub(super) fn area(&self) -> UQ60 {
         let [a, b, c, d] = self.linear();
         a.wrapping_mul(d).wrapping_sub(b.wrapping_mul(c)).unsigned_abs()
     }
 }
 
+/// A coefficient times a coordinate.
 #[inline(always)]
-pub(super) fn product(l: Unit, x: Real) -> i64 {
-    num::product(l.to_bits(), x.to_bits())
+pub(super) fn product_q54(l: Unit, x: Real) -> Q54 {
+    product(l.to_bits(), x.to_bits())
 }
 
-/// A product of two entries, at most `2^62`.
-fn entries(l: Unit, m: Unit) -> i64 {
-    num::product(l.to_bits(), m.to_bits())
+/// A product of two coefficients, at most `2^62` units.
+fn product_q60(l: Unit, m: Unit) -> Q60 {
+    product(l.to_bits(), m.to_bits())
 }
 
-/// A translation with 54 fractional bits, and the half unit that rounds.
+/// A translation, and the half unit that rounds the sum to 24 fractional bits.
 #[inline(always)]
-pub(super) const fn translated(t: Real) -> i64 {
+pub(super) const fn translated(t: Real) -> Q54 {
     ((t.to_bits() as i64) << 30) + (1 << 29)
 }
 

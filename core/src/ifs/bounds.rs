@@ -1,14 +1,22 @@
-//! The bounding box of an attractor, without sampling: branch and bound over addresses.
+//! The bounding box of an attractor, without drawing a point of it: a search through addresses that leaves
+//! out all that cannot matter (branch and bound).
 //!
-//! The support function of the attractor, `h(u) = max { u . p : p in A }`, is the maximum over addresses `j_1 .. j_k` of the support function of
-//! `w_j1 o .. o w_jk (A)`. Only one row of each composed map matters: `u . w_j1 o .. o w_jk (p) = r . p + t`, and appending a map sends
-//! `(r, t)` to `(r L_j, t + r . t_j)`. With any set `K` that contains `A`, `max_K (r . p + t)` bounds the node from above; a point of `A` bounds `h` from below.
-//! A node that cannot raise the lower bound by more than a tolerance is not opened. `K` is the intersection of the invariant disc and of the box found so far:
+//! A window has to be chosen before the first point is shown, and a box around sampled points would miss the
+//! rare ones. This box is rigorous.
+//!
+//! How far the attractor `A` reaches in the direction `u` is its support function,
+//! `h(u) = max { u . p : p in A }`. `A` is the union of its images under composed maps `w_j1 o .. o w_jk`
+//! (`j_1 .. j_k` is an address), and `h` the maximum over all addresses of one length. Only one row of each
+//! composed map matters: `u . w_j1 o .. o w_jk (p) = r . p + t`, and appending a map sends `(r, t)` to
+//! `(r L_j, t + r . t_j)`. With any set `K` that contains `A`, `max_K (r . p + t)` bounds the address from
+//! above; a point of `A` bounds `h` from below. An address that cannot raise the lower bound by more than a
+//! tolerance is not made longer. `K` is the intersection of the invariant disc and of the box found so far:
 //! four passes, each with an eighth of the tolerance before, tighten the box first where it is cheap.
 //!
 //! Source: the recursion is Hutchinson's `A = u w_j(A)`; branch and bound is A. H. Land and A. G. Doig, 1960.
-//! Formats: `r` has 30 fractional bits, `t` 54. Appending a map is exact in `t` and rounds `r` by `2^-31` an entry, which changes the value
-//! at a point of the disc by at most `(|x| + |y|) 2^-31`; a node at depth `k` is widened by `k` times as much.
+//! Formats: `r` has 30 fractional bits, `t` 54. Appending a map is exact in `t` and rounds `r` by `2^-31` an
+//! entry, which changes the value at a point of the disc by at most `(|x| + |y|) 2^-31`; an address of `k`
+//! letters is widened by `k` times as much.
 
 use heapless::Vec;
 
@@ -16,6 +24,7 @@ use super::affine::{Affine, hypotenuse};
 use super::disc::Disc;
 use super::system::Ifs;
 use crate::num::Real;
+use crate::num::formats::{Q24, Q30, Q54};
 use crate::plane::{Bounds2, Point2};
 
 /// The longest address that is opened: the capacity of the stack, which holds one entry for each letter.
@@ -27,8 +36,8 @@ const NODES: u32 = 1 << 14;
 /// Tolerances of the passes: the larger extent divided by a power of two.
 const PASSES: [u32; 4] = [3, 6, 9, 12];
 
-/// One unit in the last place of [`Real`], with 54 fractional bits.
-const ULP: i64 = 1 << 30;
+/// One unit in the last place of [`Real`].
+const ULP: Q54 = 1 << 30;
 
 impl<const N: usize> Ifs<N> {
     /// A box that contains the attractor and each point of each chaos game.
@@ -52,11 +61,11 @@ impl<const N: usize> Ifs<N> {
     }
 }
 
-/// `r . p + t`.
+/// What a composed map makes of a direction: `r . p + t` is how far the image of `p` lies that way.
 #[derive(Debug, Clone, Copy)]
 struct Functional {
-    r: [i32; 2],
-    t: i64,
+    r: [Q30; 2],
+    t: Q54,
 }
 
 impl Functional {
@@ -71,16 +80,18 @@ impl Functional {
         }
     }
 
-    fn linear(&self, p: Point2) -> i64 {
+    /// `r . p`.
+    fn linear(&self, p: Point2) -> Q54 {
         let [r, s] = self.r.map(i64::from);
         r * i64::from(p.x.to_bits()) + s * i64::from(p.y.to_bits())
     }
 
-    fn at(&self, p: Point2) -> i64 {
+    fn at(&self, p: Point2) -> Q54 {
         self.t + self.linear(p)
     }
 }
 
+/// An address that is open: the search goes on with the addresses one letter longer.
 struct Node {
     functional: Functional,
     /// The next map to append.
@@ -89,56 +100,58 @@ struct Node {
 
 /// One of the four sides of the box.
 #[derive(Debug, Clone, Copy)]
-struct Side {
-    /// Outwards, with 30 fractional bits.
-    r: [i32; 2],
-    /// The support function of the disc in this direction, with 24 fractional bits.
-    disc: i32,
-    /// The same of a box that contains the attractor: what the searches tighten.
-    hull: i32,
-    /// What the attractor is known to reach, with 54 fractional bits.
-    reached: i64,
+struct BoxSide {
+    /// The unit vector outwards.
+    r: [Q30; 2],
+    /// How far the disc reaches in this direction.
+    disc: Q24,
+    /// How far a box reaches that contains the attractor: what the searches tighten.
+    hull: Q24,
+    /// How far the attractor is known to reach.
+    reached: Q54,
 }
 
-impl Side {
-    fn of(disc: Disc, r: [i32; 2]) -> Self {
+impl BoxSide {
+    fn of(disc: Disc, r: [Q30; 2]) -> Self {
         // a coordinate of the centre, at most 64 with its radius
         let centre = (Functional { r, t: 0 }.at(disc.centre) >> 30) as i32;
         let far = centre + disc.radius.to_bits();
         Self { r, disc: far, hull: far, reached: i64::MIN }
     }
 
-    /// The attractor is known to come as near to a point as the deviation, with 54 fractional bits.
-    fn reach(&mut self, p: Point2, deviation: i64) {
+    /// The attractor is known to come as near to a point as the deviation.
+    fn reach(&mut self, p: Point2, deviation: Q54) {
         self.reached = self.reached.max(Functional { r: self.r, t: -deviation }.at(p));
     }
 
     /// The coordinate of this side of the final box, outwards.
-    fn end(&self, deviation: i64) -> i32 {
+    fn end(&self, deviation: Q54) -> Q24 {
         (i64::from(self.hull) + (deviation >> 30)).min(self.disc.into()) as i32
     }
 }
 
+/// The search for all four sides.
 struct Search<'a> {
     maps: &'a [Affine],
     disc: Disc,
     /// Right, left, upper and lower side.
-    sides: [Side; 4],
+    sides: [BoxSide; 4],
     /// A point of the attractor, within one unit.
     probe: Point2,
     /// How much one letter widens a node.
-    widening: i64,
-    /// Of points from the attractor, with 54 fractional bits.
-    deviation: i64,
+    widening: Q54,
+    /// How far a point of a chaos game may be from the attractor.
+    deviation: Q54,
 }
 
 impl<'a> Search<'a> {
     fn new(maps: &'a [Affine], disc: Disc, probe: Point2, deviation: u32) -> Self {
         let [x, y] = disc.reach();
-        // the reach in units of 2^-24, times 2^-31, with 54 fractional bits
+        // the reach, 24 fractional bits, times 2^-31 is 2^-1 of it with 54
         let widening = ((x + y) >> 1) + 1;
-        const ONE: i32 = 1 << 30;
-        let sides = [[ONE, 0], [-ONE, 0], [0, ONE], [0, -ONE]].map(|r| Side::of(disc, r));
+        const ONE_Q30: Q30 = 1 << 30;
+        let directions = [[ONE_Q30, 0], [-ONE_Q30, 0], [0, ONE_Q30], [0, -ONE_Q30]];
+        let sides = directions.map(|r| BoxSide::of(disc, r));
         Self { maps, disc, sides, probe, widening, deviation: i64::from(deviation) << 30 }
     }
 
@@ -165,8 +178,8 @@ impl<'a> Search<'a> {
     }
 
     /// Moves a side inwards to the support function within a tolerance. Result: how many nodes were visited.
-    fn tighten(&mut self, index: usize, tolerance: i64) -> u32 {
-        let Some(Side { r, hull, reached: known, .. }) = self.sides.get(index).copied() else { return 0 };
+    fn tighten(&mut self, index: usize, tolerance: Q54) -> u32 {
+        let Some(BoxSide { r, hull, reached: known, .. }) = self.sides.get(index).copied() else { return 0 };
         let (mut bound, mut reached, mut visited) = (known, known, 0);
         let mut stack: Vec<Node, DEPTH> = Vec::new();
         let mut candidate = Some(Functional { r, t: 0 });
@@ -194,15 +207,16 @@ impl<'a> Search<'a> {
         }
         if let Some(side) = self.sides.get_mut(index) {
             side.reached = reached;
-            // up to a unit in the last place, not beyond what is known; `reached` is within the deviation of a point of the disc: above -2^31
+            // up to a unit in the last place, not beyond what is known; `reached` is within the deviation of
+            // a point of the disc: above -2^31
             let bits = (bound.max(reached) + ULP - 1) >> 30;
             side.hull = bits.min(hull.into()) as i32;
         }
         visited
     }
 
-    /// The largest value in the disc and in the box.
-    fn highest(&self, f: &Functional) -> i64 {
+    /// The largest value that the functional has in both the disc and the box.
+    fn highest(&self, f: &Functional) -> Q54 {
         let [r, s] = f.r;
         let [right, left, top, bottom] = &self.sides;
         let x = if r < 0 { -left.hull } else { right.hull };

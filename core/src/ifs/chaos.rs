@@ -1,7 +1,10 @@
-//! The chaos game: apply a map chosen at random, show the point, repeat.
+//! The chaos game, which draws an attractor point by point: apply a map chosen at random, show the point,
+//! repeat.
 //!
-//! `p_{k+1} = w_i(p_k)`, `i` drawn with its probability by the alias method. Source: M. F. Barnsley, "Fractals Everywhere", 1988, section 3.8
-//! ("random iteration algorithm"). One 32-bit word a point; state: one point, one index and the generator.
+//! `p_{k+1} = w_i(p_k)`, `i` drawn with its probability by the alias method. It needs next to no memory, one
+//! point, one index and the generator, and shows a rough picture at once that becomes finer the longer it
+//! runs. One 32-bit random word a point. Source: M. F. Barnsley, "Fractals Everywhere", 1988, section 3.8
+//! ("random iteration algorithm").
 
 use core::borrow::BorrowMut;
 use core::marker::PhantomData;
@@ -29,8 +32,8 @@ impl<const N: usize> Ifs<N> {
 
     /// The state of a chaos game after its warm-up, without a reference to the system: a structure may hold
     /// both. [`Ifs::resume`] goes on.
-    // Out of line, and it keeps no reference: what the compiler knows of the system in the loop over the
-    // points it still knows.
+    // Out of line and without a reference to the system that outlives it: in the loop over the points the
+    // compiler then still knows that nothing has changed the system.
     #[inline(never)]
     pub fn walk<R: Rng>(&self, rng: R) -> Walk<R> {
         let mut walk = Walk { rng, point: self.start(), map: 0 };
@@ -58,7 +61,7 @@ impl<const N: usize> Ifs<N> {
     /// # Ok::<(), attractor::Error>(())
     /// ```
     pub fn resume<'a, R: Rng>(&'a self, walk: &'a mut Walk<R>) -> ChaosGame<'a, R, N, &'a mut Walk<R>> {
-        // what the maps do not leave is theirs: see `Ifs`
+        // from any point of the disc a game stays in it: see `Ifs`
         if !self.invariant_disc().holds(walk.point) {
             walk.point = self.start();
             walk.warm_up(self);
@@ -109,8 +112,8 @@ impl<'a, R: Rng, const N: usize, W: BorrowMut<Walk<R>>> ChaosGame<'a, R, N, W> {
 
     /// The same points, each with the index of the map that made it: for [`Density`](crate::plane::Density) and
     /// [`ColoredDots`](crate::draw::ColoredDots).
-    pub const fn with_maps(self) -> WithMaps<'a, R, N, W> {
-        WithMaps(self)
+    pub const fn labelled(self) -> Labelled<'a, R, N, W> {
+        Labelled(self)
     }
 }
 
@@ -127,11 +130,11 @@ impl<R: Rng, const N: usize, W: BorrowMut<Walk<R>>> Iterator for ChaosGame<'_, R
     }
 }
 
-/// The points of a chaos game with their maps, without end: see [`ChaosGame::with_maps`].
+/// The points of a chaos game with their maps, without end: see [`ChaosGame::labelled`].
 #[derive(Debug, Clone)]
-pub struct WithMaps<'a, R, const N: usize, W = Walk<R>>(ChaosGame<'a, R, N, W>);
+pub struct Labelled<'a, R, const N: usize, W = Walk<R>>(ChaosGame<'a, R, N, W>);
 
-impl<R: Rng, const N: usize, W: BorrowMut<Walk<R>>> Iterator for WithMaps<'_, R, N, W> {
+impl<R: Rng, const N: usize, W: BorrowMut<Walk<R>>> Iterator for Labelled<'_, R, N, W> {
     type Item = (Point2, u8);
 
     #[inline]
@@ -196,7 +199,7 @@ mod tests {
             // four standard deviations
             assert!((got - want).abs() < 4.0 * (want * (1.0 - want) / 1e5).sqrt(), "{got} against {want}");
         }
-        let pairs = fern.seeded_chaos_game(4).with_maps().take(1000);
+        let pairs = fern.seeded_chaos_game(4).labelled().take(1000);
         assert!(pairs.map(|(p, _)| p).eq(fern.seeded_chaos_game(4).take(1000)));
     }
 
@@ -210,12 +213,12 @@ mod tests {
         let ifs = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();
         let walk = ifs.seeded_walk(9);
         let mut game = Game { ifs, walk };
-        let whole = game.ifs.seeded_chaos_game(9).with_maps().take(700).collect::<std::vec::Vec<_>>();
+        let whole = game.ifs.seeded_chaos_game(9).labelled().take(700).collect::<std::vec::Vec<_>>();
         let mut parts = std::vec::Vec::new();
         for tick in 0..7 {
             let Game { ifs, walk } = &mut game;
             if tick % 2 == 0 {
-                parts.extend(ifs.resume(walk).with_maps().take(100));
+                parts.extend(ifs.resume(walk).labelled().take(100));
             } else {
                 let mut points = ifs.resume(walk);
                 parts.extend((0..100).map(|_| (points.next().unwrap(), points.last_map())));

@@ -1,24 +1,29 @@
-//! The copier: the `k`-th iterate of a polyline or of a set of points under an iterated function system, each of the `N^k` images streamed.
+//! The copier: all images of a shape, a polyline or a set of points, under the maps of a system composed `k`
+//! times, one after the other.
 //!
-//! `I_{k+1} = w_1(I_k) u .. u w_N(I_k)`. Depth first, with a stack of composed maps `w_i1 o w_i2 o ..`; no image is ever stored.
-//! Source: course unit V, sections 5.3.1 to 5.3.3 (`superCopier`).
+//! It shows how an attractor comes about: a copying machine that reduces each sheet to `N` smaller copies,
+//! fed with its own output. `I_{k+1} = w_1(I_k) u .. u w_N(I_k)`, `N^k` images at order `k`. They are visited
+//! depth first, with a stack of composed maps `w_i1 o w_i2 o ..`; no image is ever stored. Source: course
+//! unit V, sections 5.3.1 to 5.3.3 (`superCopier`).
 //!
-//! Formats: the linear part of a composed map has 30 fractional bits and is rounded once a level; its translation has 54 and is exact for that linear part,
-//! `t' = A t_i + t`. An image of a point is rounded once, at the end.
-//! Range: with the invariant disc of [`Ifs`], `|x|, |y| <= 64`, a composed map sends its centre into it, hence the origin no farther than
-//! 64 + 91 and a point of [`Real`] no farther than 64 + 272: below 512, the range of 54 fractional bits in 64. What leaves [`Real`] saturates.
+//! Formats: the linear part of a composed map has 30 fractional bits and is rounded once a level; its
+//! translation has 54 and is exact for that linear part, `t' = A t_i + t`. An image of a point is rounded
+//! once, at the end. Range: with the invariant disc of [`Ifs`], `|x|, |y| <= 64`, a composed map sends its
+//! centre into it, hence the origin no farther than 64 + 91 and a point of [`Real`] no farther than 64 + 272:
+//! below 512, the range of 54 fractional bits in 64. What leaves [`Real`] saturates.
 
 use super::affine::Affine;
 use super::system::Ifs;
 use crate::Error;
-use crate::num::{self, Real, Unit};
+use crate::num::formats::{Q30, Q54};
+use crate::num::{Real, Unit, product};
 use crate::plane::{PathElement, Point2};
 
 /// A composed map, and which of the system's maps is composed with it next.
 #[derive(Debug, Clone, Copy, Default)]
 struct Composed {
-    translation: [i64; 2],
-    linear: [i32; 4],
+    translation: [Q54; 2],
+    linear: [Q30; 4],
     next: u32,
 }
 
@@ -31,7 +36,8 @@ impl Composed {
         let [a, b, c, d] = self.linear;
         let [p, q, r, s] = [map.a, map.b, map.c, map.d].map(Unit::to_bits);
         // contractions: the rows of both have a norm of at most 1 and a rounding
-        let entry = |l, m, p, q| (times(l, p).wrapping_add(times(m, q)).wrapping_add(1 << 29) >> 30) as i32;
+        let entry =
+            |l, m, p, q| (product(l, p).wrapping_add(product(m, q)).wrapping_add(1 << 29) >> 30) as i32;
         Self {
             translation: self.image(Point2::new(map.e, map.f)),
             linear: [entry(a, b, p, r), entry(a, b, q, s), entry(c, d, p, r), entry(c, d, q, s)],
@@ -39,14 +45,14 @@ impl Composed {
         }
     }
 
-    /// The image of a point, 54 fractional bits.
+    /// The image of a point, before it is rounded.
     #[inline]
-    fn image(&self, p: Point2) -> [i64; 2] {
+    fn image(&self, p: Point2) -> [Q54; 2] {
         let ([a, b, c, d], [e, f]) = (self.linear, self.translation);
         let (x, y) = (p.x.to_bits(), p.y.to_bits());
         [
-            e.wrapping_add(times(a, x)).wrapping_add(times(b, y)),
-            f.wrapping_add(times(c, x)).wrapping_add(times(d, y)),
+            e.wrapping_add(product(a, x)).wrapping_add(product(b, y)),
+            f.wrapping_add(product(c, x)).wrapping_add(product(d, y)),
         ]
     }
 
@@ -58,11 +64,6 @@ impl Composed {
         });
         Point2::new(x, y)
     }
-}
-
-#[inline(always)]
-fn times(a: i32, b: i32) -> i64 {
-    num::product(a, b)
 }
 
 /// The composed maps of order `k`, depth first.
@@ -112,7 +113,8 @@ impl<const N: usize, const DEPTH: usize> Compositions<'_, N, DEPTH> {
 }
 
 impl<const N: usize> Ifs<N> {
-    /// The copier of this system set to `order`: images of a shape under all maps that are composed of `order` of its own. `DEPTH` is the largest order that fits.
+    /// The copier of this system set to `order`: images of a shape under all maps that are composed of
+    /// `order` of its own. `DEPTH` is the largest order that fits.
     ///
     /// Error: of an image below `2^-20` in each coordinate at order 12 for a shape and translations within 2 of the origin
     /// (`curves.rs`: `an_image_of_the_copier_is_within_two_to_the_minus_20`). Cost: 212 Cortex-M4

@@ -1,17 +1,24 @@
-//! The invariant disc: a disc that every map of a system sends into itself, so that the attractor and each orbit lie in it.
+//! The invariant disc: a disc that every map of a system sends into itself, so that the attractor and each
+//! orbit lie in it.
 //!
-//! With `s_i` a bound of the contraction of `w_i`, `|w_i(p) - z| <= s_i |p - z| + |w_i(z) - z|`; so the disc about `z` with
-//! `r = max_i |w_i(z) - z| / (1 - s_i)` is invariant. `r` is a convex function of `z`, and going towards the fixed point of the map that decides
-//! lowers that map's share in proportion: steps of `1/2, 1/3, 1/4 ..` settle near the least radius, as in M. Badoiu and K. L. Clarkson,
+//! It is found when a system is built, and is what proves that no later computation leaves its format.
+//!
+//! With `s_i` a bound of the contraction of `w_i`, `|w_i(p) - z| <= s_i |p - z| + |w_i(z) - z|`; so the disc
+//! about `z` with `r = max_i |w_i(z) - z| / (1 - s_i)` is invariant. A small one is wanted. `r` is a convex
+//! function of `z`, and going towards the fixed point of the map that decides lowers that map's share in
+//! proportion: steps of `1/2, 1/3, 1/4 ..` settle near the least radius, as in M. Badoiu and K. L. Clarkson,
 //! "Smaller core-sets for balls", 2003.
-//! Rounding: maps round each coordinate by half a unit, which moves a point by less than one unit; one unit is added to `|w_i(z) - z|`.
+//!
+//! Rounding: maps round each coordinate by half a unit, which moves a point by less than one unit; one unit
+//! is added to `|w_i(z) - z|`.
 
 use super::affine::{Affine, hypotenuse};
 use crate::Error;
+use crate::num::formats::Q24;
 use crate::num::{Real, Unit, Wide, nth, ratio};
 use crate::plane::Point2;
 
-/// How far from the axes an invariant disc may reach: half the range of [`Real`].
+/// How far from the axes an invariant disc may reach: half the range of [`Real`], in its units.
 pub(super) const REACH: i64 = 64 << 24;
 
 /// How often the centre is moved.
@@ -87,7 +94,7 @@ impl Contractions<'_> {
 
     /// The radius of the least invariant disc about `z` that the estimate gives, rounded up, and the map that decides it.
     #[inline(never)]
-    fn radius_about(&self, [x, y]: [i32; 2]) -> (i64, usize) {
+    fn radius_about(&self, [x, y]: [Q24; 2]) -> (i64, usize) {
         let mut worst = (0, 0);
         for (index, (map, factor)) in self.maps.iter().zip(self.factors).enumerate() {
             let to_right = moved(map.a, map.b, map.e, [x, y], x);
@@ -95,7 +102,7 @@ impl Contractions<'_> {
             let distance = hypotenuse(to_right, upwards) + 1;
             // factors are at most 1; distance < 2^33
             let gap = (1_u32 << 30).saturating_sub(factor.to_bits().unsigned_abs());
-            // most maps do not decide: a product tells
+            // most maps do not have the largest radius: a product tells, and spares the division
             if distance << 30 >= (worst.0 as u64).saturating_mul(gap.into()) {
                 worst = (ratio(distance, 30, gap.into()).min(1 << 62) as i64 + 1, index);
             }
@@ -106,7 +113,7 @@ impl Contractions<'_> {
 
 /// How far a row of a map moves a coordinate `z` of the point `(x, y)`, rounded up.
 #[inline(never)]
-fn moved(l: Unit, m: Unit, t: Real, [x, y]: [i32; 2], z: i32) -> i64 {
+fn moved(l: Unit, m: Unit, t: Real, [x, y]: [Q24; 2], z: Q24) -> i64 {
     // coefficients are below 1 and |z| <= 64, |t| <= 128: below 2^62
     let exact = i64::from(l.to_bits()) * i64::from(x)
         + i64::from(m.to_bits()) * i64::from(y)

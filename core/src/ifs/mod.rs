@@ -33,11 +33,11 @@ mod chaos;
 mod copier;
 mod disc;
 mod moments;
-mod step;
+mod prepared;
 mod system;
 
 pub use affine::Affine;
-pub use chaos::{ChaosGame, Walk, WithMaps};
+pub use chaos::{ChaosGame, Labelled, Walk};
 pub use copier::{CopiedPath, CopiedPoints, Copier};
 pub use disc::Disc;
 pub use moments::Moments;

@@ -1,20 +1,26 @@
-//! Mean and covariance of the invariant measure: what the points of a chaos game average to, without playing it.
+//! Mean and covariance of the invariant measure: what the points of an endless chaos game would average to,
+//! computed from the maps without playing it.
 //!
-//! The measure is that of a point `P` distributed as `w_i(P)`, `i` drawn with `p_i` (J. E. Hutchinson, 1981; M. F. Barnsley, "Fractals Everywhere", 1988,
-//! section 9.6). So `m = sum p_i w_i(m)`, a 2x2 system, and with `s_i = w_i(m) - m` the covariance obeys
-//! `C = sum p_i (A_i C A_i^T + s_i s_i^T)`, a 3x3 system for `(C_xx, C_xy, C_yy)`. The probabilities are those that the alias table draws with: divided by
-//! their sum.
+//! They say where an attractor is heavy and in which direction it stretches, and they are what a chaos game
+//! is tested against.
 //!
-//! Formats: the 2x2 system is solved exactly in 128 bits, by Cramer's rule and a long division. The 3x3 system has entries of 60 fractional bits; Cramer's rule
-//! with 40 of them gives a correction from the residual, three times (iterative refinement). Its matrix is `I` minus an average of maps that do not
+//! The measure is that of a point `P` distributed as `w_i(P)`, `i` drawn with `p_i` (J. E. Hutchinson, 1981;
+//! M. F. Barnsley, "Fractals Everywhere", 1988, section 9.6). So `m = sum p_i w_i(m)`, a 2x2 system, and with
+//! `s_i = w_i(m) - m` the covariance obeys `C = sum p_i (A_i C A_i^T + s_i s_i^T)`, a 3x3 system for
+//! `(C_xx, C_xy, C_yy)`. The probabilities are those that the alias table draws with: divided by their sum.
+//!
+//! Formats: the 2x2 system is solved exactly in 128 bits, by Cramer's rule and a long division. The 3x3
+//! system has entries of 60 fractional bits; Cramer's rule with 40 of them gives a correction from the
+//! residual, three times (iterative refinement). Its matrix is `I` minus an average of maps that do not
 //! lengthen: the determinant is at least `(1 - s^2)^3`.
 
 use super::system::Ifs;
 use crate::Error;
+use crate::num::formats::{Q30, Q48};
 use crate::num::{Unit, Wide};
 
 /// The largest contraction factor for which the systems are solved: `1 - 2^-8`.
-const LARGEST: i32 = (1 << 30) - (1 << 22);
+const LARGEST: Q30 = (1 << 30) - (1 << 22);
 
 /// Mean and covariance of a measure in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,12 +59,13 @@ impl<const N: usize> Ifs<N> {
         Ok(Moments { mean: mean.map(Wide::from_bits), covariance })
     }
 
+    /// The sum of the probabilities, 30 fractional bits.
     fn total(&self) -> i128 {
         self.probabilities().iter().map(|p| i128::from(p.to_bits())).sum()
     }
 
-    /// `(I - sum p A) m = sum p t`, with 48 fractional bits.
-    fn mean(&self) -> Option<[i64; 2]> {
+    /// `m` from `(I - sum p A) m = sum p t`.
+    fn mean(&self) -> Option<[Q48; 2]> {
         // 60 fractional bits on the left, 54 on the right: below 2^62
         let one = self.total() << 30;
         let mut matrix = [[one, 0], [0, one]];
@@ -81,8 +88,8 @@ impl<const N: usize> Ifs<N> {
         Some([quotient(e * d - b * f, determinant)?, quotient(a * f - e * c, determinant)?])
     }
 
-    /// The 3x3 system.
-    fn covariance(&self, mean: [i64; 2]) -> Option<[Wide; 3]> {
+    /// `C` from the 3x3 system of [`Ifs::second_order`], by Cramer's rule and three corrections.
+    fn covariance(&self, mean: [Q48; 2]) -> Option<[Wide; 3]> {
         let (matrix, right) = self.second_order(mean)?;
         // 40 fractional bits, each entry at most 2
         let coarse = matrix.map(|row| row.map(|entry| (entry + (1 << 19)) >> 20));
@@ -116,7 +123,7 @@ impl<const N: usize> Ifs<N> {
     }
 
     /// `I - sum p A (x) A` and `sum p s s^T`, both with 60 fractional bits, rows for `xx`, `xy`, `yy`.
-    fn second_order(&self, [x, y]: [i64; 2]) -> Option<([[i128; 3]; 3], [i128; 3])> {
+    fn second_order(&self, [x, y]: [Q48; 2]) -> Option<([[i128; 3]; 3], [i128; 3])> {
         let total = self.total();
         let mut matrix = [[0_i128; 3]; 3];
         let mut right = [0_i128; 3];
@@ -165,8 +172,8 @@ fn cofactors(m: &[[i128; 3]; 3]) -> [[i128; 3]; 3] {
     ]
 }
 
-/// `numerator / denominator` for 114 fractional bits over 120, rounded to nearest, with 48 fractional bits; none outside `-64 .. 64`.
-fn quotient(numerator: i128, denominator: i128) -> Option<i64> {
+/// `numerator / denominator` for 114 fractional bits over 120, rounded to nearest; none outside `-64 .. 64`.
+fn quotient(numerator: i128, denominator: i128) -> Option<Q48> {
     let (mut rest, divisor) = (numerator.unsigned_abs(), denominator.unsigned_abs());
     // the quotient of the integers is 2^-6 of the true one
     if rest >= divisor {

@@ -1,16 +1,19 @@
-//! An iterated function system: at most `N` contractions and the probability of each.
+//! An iterated function system: at most `N` contractions and the probability of each. Everything else in this
+//! room starts from one.
 //!
-//! Source: J. E. Hutchinson, "Fractals and self similarity", 1981; M. F. Barnsley, "Fractals Everywhere", 1988, sections 3.7 and 3.8
-//! (probabilities in proportion to the determinants).
+//! Its constructor checks all there is to check, so that nothing that is computed from a system can wrap: it
+//! proves an invariant [`Disc`] with `|x|, |y| <= 64`, for the maps as they are computed, rounding included;
+//! each chaos game starts in it, and so never leaves it. The coefficients of a contraction are below 1, the
+//! translations below 128; so the 64-bit accumulator of a map stays below `2^60 + 2^60 + 2^61 + 2^29 < 2^63`,
+//! and the result in the disc.
 //!
-//! Nothing wraps once a system exists. Its constructor proves an invariant [`Disc`] with `|x|, |y| <= 64`, for the maps as they are computed,
-//! rounding included; each chaos game starts in it, and so never leaves it. The coefficients of a contraction are below 1, the translations below 128;
-//! so the 64-bit accumulator of a map stays below `2^60 + 2^60 + 2^61 + 2^29 < 2^63`, and the result in the disc.
-//! Left out: systems that contract on average only.
+//! Source: J. E. Hutchinson, "Fractals and self similarity", 1981; M. F. Barnsley, "Fractals Everywhere",
+//! 1988, sections 3.7 and 3.8 (probabilities in proportion to the determinants). Left out: systems that
+//! contract on average only.
 
 use super::affine::Affine;
 use super::disc::{Contractions, Disc};
-use super::step::Step;
+use super::prepared::PreparedMap;
 use crate::Error;
 use crate::num::{Alias, Unit, Wide};
 use crate::plane::Point2;
@@ -18,7 +21,7 @@ use crate::plane::Point2;
 /// The largest number of maps in a system.
 pub const MAX_MAPS: usize = 256;
 
-/// How far the sum of the probabilities may be from 1, for each of them: `10^-6`.
+/// How far the sum of the probabilities may be from 1, for each of them: `10^-6` in units of `2^-30`.
 const TOLERANCE: i64 = 1074;
 
 /// An iterated function system of at most `N <= 256` maps. Size on a 32-bit machine: 65 bytes a map, and 36; 73 a map on a
@@ -31,7 +34,7 @@ const TOLERANCE: i64 = 1074;
 )]
 pub struct Ifs<const N: usize> {
     maps: [Affine; N],
-    steps: [Step; N],
+    prepared: [PreparedMap; N],
     len: usize,
     choice: Alias<N>,
     probabilities: [Unit; N],
@@ -72,7 +75,7 @@ impl<const N: usize> Ifs<N> {
         }
         let sum: i64 = probabilities.iter().map(|p| i64::from(p.to_bits())).sum();
         if (sum - (1 << 30)).abs() > TOLERANCE * maps.len() as i64 {
-            // below 512
+            // at most 256 numbers below 2: 512 fits
             return Err(Error::Probabilities { sum: Wide::from_bits(sum << 18) });
         }
         Self::build(maps, probabilities)
@@ -134,7 +137,7 @@ impl<const N: usize> Ifs<N> {
         let contraction_factor = factors.iter().copied().max().unwrap_or(Unit::ONE);
         Ok(Self {
             maps,
-            steps: maps.each_ref().map(Step::new),
+            prepared: maps.each_ref().map(PreparedMap::new),
             len,
             choice: Alias::new(weights.get(..len).unwrap_or_default())?,
             probabilities,
@@ -178,8 +181,8 @@ impl<const N: usize> Ifs<N> {
 
     /// The map at an index, which the alias table keeps below the number of maps, as a game applies it.
     #[inline(always)]
-    pub(super) fn step(&self, index: usize) -> Option<&Step> {
-        self.steps.get(index)
+    pub(super) fn step(&self, index: usize) -> Option<&PreparedMap> {
+        self.prepared.get(index)
     }
 
     /// The fixed point of the first map: a point of the attractor, within half a unit.

@@ -1,8 +1,20 @@
-//! Choosing one of `n` items with given probabilities in constant time: the alias method.
+//! Draws one of `n` items, each with its own probability, from one random word in constant time: Walker's
+//! alias method.
 //!
-//! Source: A. J. Walker, "An efficient method for generating discrete random variables", 1977; the table by M. D. Vose, 1991. It is made of whole words:
-//! each item gets its share of the `2^32` words first, in slots that `n` divides them into, then they change hands without rounding.
+//! The chaos game draws a map for every point that it shows. A search through the sums of the probabilities
+//! would take longer the more maps there are; here a draw is one multiplication, one comparison and two
+//! loads.
+//!
+//! The `2^32` words are divided into `n` slots of equal length, one for each item. An item with less than the
+//! average probability owns only the first words of its slot; the rest of the slot is let to one other item,
+//! its alias. A word `w` falls into slot `floor(w n / 2^32)`, and the fraction that is left of the product
+//! decides between owner and alias.
+//!
+//! Source: A. J. Walker, "An efficient method for generating discrete random variables", 1977; the table by
+//! M. D. Vose, 1991. It is made of whole words: each item gets its share of the `2^32` words first, then they
+//! change hands without rounding.
 
+use super::formats::UQ32;
 use super::{nth, product_by_short, ratio};
 use crate::Error;
 
@@ -10,9 +22,9 @@ use crate::Error;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Alias<const N: usize> {
-    /// Below this fraction of its slot an item stands for itself.
-    threshold: [u32; N],
-    /// Above it, for this one.
+    /// In a slot of its own, below this fraction of it, an item is drawn itself;
+    threshold: [UQ32; N],
+    /// above it, this other one is.
     other: [u8; N],
     len: u32,
 }
@@ -66,8 +78,9 @@ fn first_word(slot: usize, n: usize) -> i64 {
     nth(((slot as i64) << 32) + n as i64 - 1, n as u32)
 }
 
-/// Fills a table in which each of the items stands for itself.
-fn share(weights: &[u32], sum: u64, excess: &mut [i64], thresholds: &mut [u32], others: &mut [u8]) {
+/// Fills a table in which so far each item has all of its own slot: whoever owns fewer words than that gets
+/// a lodger, the richest item, in what is left of the slot.
+fn share(weights: &[u32], sum: u64, excess: &mut [i64], thresholds: &mut [UQ32], others: &mut [u8]) {
     let n = weights.len();
     // how many words more an item owns than its slot has, from those of all items before it
     let (mut below, mut owned) = (0_u64, 0);
@@ -78,7 +91,7 @@ fn share(weights: &[u32], sum: u64, excess: &mut [i64], thresholds: &mut [u32], 
         owned = end;
     }
     for _ in weights {
-        // the poorest item that still stands for itself, and the richest
+        // the poorest item that still has its slot alone, and the richest
         let (mut poor, mut rich) = ((0, 0), (0, 0));
         for (i, ((excess, other), _)) in excess.iter().zip(&*others).zip(weights).enumerate() {
             if usize::from(*other) == i {
@@ -94,12 +107,14 @@ fn share(weights: &[u32], sum: u64, excess: &mut [i64], thresholds: &mut [u32], 
         if missing >= 0 {
             break;
         }
-        // it owns the first words of its slot: they are `n` apart below 2^32, and begin below `n`
+        // it owns the first words of its slot: `pick` compares `word n` modulo 2^32, which begins below `n`
+        // in each slot and grows by `n` from word to word
         let words = first_word(i + 1, n) - first_word(i, n) + missing;
         if let (Some(threshold), Some(other)) = (thresholds.get_mut(i), others.get_mut(i)) {
             (*threshold, *other) = ((words * n as i64) as u32, rich as u8);
         }
-        // what is open adds up to 0: the richest is another one and has a word too many at least, so that no slot asks it for more than it owns
+        // the excesses of the slots that are not settled add up to 0: the richest is another item, and gives
+        // no more than it owns
         if let Some(left) = excess.get_mut(rich) {
             *left += missing;
         }

@@ -1,4 +1,6 @@
-//! Complex numbers as pairs: vocabulary only, the arithmetic is in the kernels.
+//! Complex numbers as pairs, for whatever says or returns a point of the complex plane.
+//!
+//! Vocabulary only: what multiplies them is in the kernels, each in the format that suits it.
 
 use super::Wide;
 

@@ -1,7 +1,11 @@
-//! Decimal strings as fixed-point numbers of any width.
+//! Reads a decimal string as a fixed-point number of any width.
 //!
-//! `[+-] digits [. digits] [e [+-] digits]`, read from the last place to the first: `v <- (v + digit) / 10`, each quotient rounded to nearest, so that
-//! the errors form a geometric series (D. E. Knuth, "The Art of Computer Programming", vol. 2, section 4.4, method 2b).
+//! The coordinates of a deep zoom have a hundred decimal places, more than any number type holds: a program
+//! is given them as text.
+//!
+//! The form is `[+-] digits [. digits] [e [+-] digits]`. Places behind the point are read from the last to
+//! the first: `v <- (v + digit) / 10`, each quotient rounded to nearest, so that the errors form a geometric
+//! series (D. E. Knuth, "The Art of Computer Programming", vol. 2, section 4.4, method 2b).
 
 use core::str::FromStr;
 
@@ -59,10 +63,10 @@ impl<const LIMBS: usize> FromStr for Limbs<LIMBS> {
             // below 10: there is room for 16
             number = number.plus_whole(decimal.digit(place)).plus_units(5).divided(10).0;
         }
-        // a digit above the ones is too many
+        // the digits before the point: 8 and above is refused below
         let first = decimal.first_place();
         let whole = if first < -8 {
-            // more than the error can tell
+            // more digits than the error can tell
             u32::MAX
         } else {
             (first..=0).fold(0, |whole, place| whole * 10 + decimal.digit(place))

@@ -1,13 +1,15 @@
-//! The exponential `e^-x` by powers of two.
+//! The exponential `e^-x` of a number that is not negative, as spectra, dimensions and error bounds need it.
 //!
-//! `x / ln 2 = k + i / 64 + f`: `e^-x = 2^-k 2^(-i / 64) e^(-f ln 2)`. The second factor is from a table; the third is `1 - y + y^2 / 2 - y^3 / 6` for
-//! `y = f ln 2 < 0.011`, within `2^-30.7`.
+//! A power of two is a shift, so the exponent is split: `x / ln 2 = k + i / 64 + f` with whole `k`, `i` from
+//! 0 to 63 and `f` below `1/64`, and `e^-x = 2^-k 2^(-i / 64) e^(-f ln 2)`. The second factor is from a
+//! table; the third is `1 - y + y^2 / 2 - y^3 / 6` for `y = f ln 2 < 0.011`, within `2^-30.7`.
 
+use super::formats::{UQ30, UQ32};
 use super::product::{high_u, product_u};
 use super::{Real, Unit};
 
-/// `2^(-i / 64)`, 32 fractional bits, below 1.
-static POWERS: [u32; 64] = {
+/// `2^(-i / 64)`, below 1.
+static POWERS: [UQ32; 64] = {
     let mut table = [0; 64];
     // 2^(-1/64) with 64 fractional bits: six square roots of 1/2
     let mut step = 1_u128 << 127;
@@ -32,17 +34,17 @@ static POWERS: [u32; 64] = {
 /// table of 256 bytes.
 pub fn exp_minus(x: Real) -> Unit {
     // x / ln 2 with 32 fractional bits
-    const PER_LN_2: u32 = 0x5c55_1d95; // 2^30 / ln 2
+    const PER_LN_2: UQ30 = 0x5c55_1d95; // 1 / ln 2
     let halvings = product_u(x.to_bits().max(0).unsigned_abs(), PER_LN_2) >> 22;
     let (whole, fraction) = ((halvings >> 32) as u32, halvings as u32);
     // the rest below 1/64 as a whole word: y / ln 2 with 38 fractional bits, y with 38 too
-    const LN_2: u32 = 0xb172_17f8; // 2^32 ln 2
+    const LN_2: UQ32 = 0xb172_17f8; // ln 2
     let y = high_u(fraction << 6, LN_2);
     // y^2 / 2 with 38 fractional bits, y^3 / 6 likewise
     let square = high_u(y, y) >> 7;
     let cube = high_u(high_u(square, y), u32::MAX / 3) >> 6;
-    // e^-y - 1 with 32 fractional bits
-    let less = (y - square + cube) >> 6;
+    // 1 - e^-y
+    let less: UQ32 = (y - square + cube) >> 6;
     let power = POWERS[(fraction >> 26) as usize & 63];
     let value = power - high_u(power, less);
     // 1 is one unit more than the word holds; to 30 fractional bits, to nearest

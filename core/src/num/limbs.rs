@@ -1,8 +1,14 @@
-//! Fixed-point numbers of any width: 4 bits before the point and `32 LIMBS - 4` behind it, in 32-bit limbs.
+//! Fixed-point numbers as wide as it takes: the coordinates of deep zooms, where 128 bits do not tell two
+//! pixels apart.
 //!
-//! Two's complement, least limb first, `-8 .. 8`. Products are summed by columns (P. G. Comba, "Exponentiation cryptosystems on the IBM PC", 1990); the
-//! columns that cannot reach the result are left out. Sums wrap: who uses the numbers knows their range. `Limbs<2>` has the bits of
-//! a Q4.60, `Limbs<4>` those of a Q4.124.
+//! A number is an array of `LIMBS` words of 32 bits ("limbs"), least first, in two's complement: 4 bits
+//! before the point, the sign among them, and `32 LIMBS - 4` behind it. So it lies in `-8 .. 8`, and
+//! `Limbs<2>` has the bits of a Q60, `Limbs<4>` those of a Q124. There are few operations, those that an
+//! orbit of `z^2 + c` and a grid of pixels need. Sums wrap: who uses the numbers knows their range.
+//!
+//! A product is summed column by column: all products of two limbs that are worth the same power of two, then
+//! the next column with the carry (P. G. Comba, "Exponentiation cryptosystems on the IBM PC", 1990). The
+//! columns that cannot reach the result are left out.
 
 use crate::num::Wide;
 
@@ -128,7 +134,8 @@ impl<const LIMBS: usize> Limbs<LIMBS> {
                 sum.add(u64::from(*x) * u64::from(*y));
             }
             let word = sum.shift();
-            // the point moves by 28 bits within a word
+            // a product has 8 bits before the point, of which 4 stay: a limb takes 28 bits of one column and
+            // the highest 4 of the column below
             if let Some(limb) = column.checked_sub(LIMBS).and_then(|k| product.limbs.get_mut(k)) {
                 *limb = (word << WHOLE) | (below >> (32 - WHOLE));
             }

@@ -1,21 +1,27 @@
-//! The binary logarithm by a table and a polynomial.
+//! The binary logarithm of a whole number, by a table and a polynomial: for smooth colours, tones of a
+//! density, dimensions.
 //!
-//! `v = 2^k m` with `m` in `[1, 2)`. For each of 128 parts of that interval there is a seed `r` near `1 / m`, the one that [`super::reciprocal`] begins with:
-//! `m r = 1 + t` with `|t| < 2^-7.9`, so that
+//! `v = 2^k m` with `m` in `[1, 2)`, so that only the logarithm of `m` has to be computed. That interval is
+//! divided into 128 parts; for each there is a number `r` near `1 / m`, the one that [`super::reciprocal`]
+//! begins with: `m r = 1 + t` with `|t| < 2^-7.9`, so that
 //!
 //! `log2(v) = k - log2(r) + log2(1 + t)`, `log2(1 + t) = (t - t^2 / 2 + t^3 / 3) / ln 2`, within `2^-33`.
+//!
+//! The table holds `-log2(r)`.
 
 use core::num::NonZeroU32;
 
+use super::formats::{Q30, Q31, UQ31};
 use super::product::{high, product_u};
 use super::root::SEEDS;
 
-/// `-log2(r)` for the seeds, 31 fractional bits, to nearest.
-static LOGARITHMS: [u32; 128] = {
+/// `-log2(r)` for the seeds, to nearest.
+static LOGARITHMS: [UQ31; 128] = {
     let mut table = [0; 128];
     let mut i = 0;
     while i < 128 {
-        // digit by digit: squaring a number doubles its logarithm, and a carry beyond 2 is the next digit (Knuth, TAOCP vol. 1, 1.2.2, exercise 25)
+        // digit by digit: squaring a number doubles its logarithm, and a carry beyond 2 is the next digit
+        // (Knuth, TAOCP vol. 1, 1.2.2, exercise 25)
         let mut mantissa = (SEEDS[i] as u64) << 48; // 63 fractional bits, in [1, 2) for r in [1/2, 1)
         let mut digits = 0_u64;
         let mut k = 0;
@@ -33,18 +39,19 @@ static LOGARITHMS: [u32; 128] = {
     table
 };
 
-/// `1 / ln 2` with 30 fractional bits, `-1 / (2 ln 2)` and `1 / (3 ln 2)` with 31.
-const FIRST: i32 = 0x5c55_1d95;
-const SECOND: i32 = -FIRST;
-const THIRD: i32 = (2 * FIRST as i64 / 3) as i32;
+/// The coefficients of the polynomial: `1 / ln 2`, `-1 / (2 ln 2)` and `1 / (3 ln 2)`.
+const FIRST: Q30 = 0x5c55_1d95;
+const SECOND: Q31 = -FIRST;
+const THIRD: Q31 = (2 * FIRST as i64 / 3) as i32;
 
 /// `log2(v)` with 24 fractional bits, to nearest.
 ///
 /// Domain: `v > 0` (0 counts as 1). Result: `0..=64` with 24 fractional bits. Error: below `2^-24`
-/// (`a_logarithm_is_within_two_to_the_minus_24`), none for powers of two. Cost: 37 Cortex-M4 instructions (kernel `log2`), a table of 512 bytes.
+/// (`a_logarithm_is_within_two_to_the_minus_24`), none for powers of two. Cost: 37 Cortex-M4 instructions
+/// (kernel `log2`), a table of 512 bytes.
 pub fn log2(v: u64) -> u32 {
-    // the mantissa with 31 fractional bits
-    let (whole, m) = match NonZeroU32::new((v >> 32) as u32) {
+    // v = 2^whole m, the mantissa with 31 fractional bits
+    let (whole, m): (u32, UQ31) = match NonZeroU32::new((v >> 32) as u32) {
         Some(high) => {
             let zeros = high.leading_zeros();
             (63 - zeros, high.get() << zeros | (v as u32 >> 1) >> (zeros ^ 31))
@@ -56,12 +63,12 @@ pub fn log2(v: u64) -> u32 {
         }
     };
     let index = ((m >> 24) & 127) as usize;
-    // m r - 1 with 38 fractional bits: the 1 is beyond the word
+    // t = m r - 1 with 38 fractional bits: the 1 is beyond the word
     let t = (product_u(m, SEEDS[index].into()) >> 9) as i32;
-    let second = SECOND + (high(t, THIRD) >> 6); // 31
-    let first = FIRST + (high(t, second) >> 7); // 30
-    let rest = high(t, first) >> 5; // 31, from 36
-    // from -2^-31 to 1
+    let second: Q31 = SECOND + (high(t, THIRD) >> 6);
+    let first: Q30 = FIRST + (high(t, second) >> 7);
+    let rest: Q31 = high(t, first) >> 5;
+    // the fractional part of the logarithm, from -2^-31 to 1
     let fraction = LOGARITHMS[index].wrapping_add_signed(rest).wrapping_add(1 << 6) >> 7;
     (whole << 24) + fraction
 }

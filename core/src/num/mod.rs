@@ -60,6 +60,7 @@ mod alias;
 mod complex;
 mod decimal;
 mod exponential;
+pub(crate) mod formats;
 mod limbs;
 mod logarithm;
 mod product;

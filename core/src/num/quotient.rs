@@ -1,6 +1,7 @@
-//! Quotients of 128-bit numbers by 64-bit ones, a bit at a time.
+//! Quotients of 128-bit numbers by 64-bit ones, a bit at a time, for constructors.
 //!
-//! The library's division of `i128` takes a kilobyte of code wherever it is inlined. Constructors need few quotients: this loop is short and there once.
+//! The library's division of `i128` takes a kilobyte of code wherever it is inlined. Constructors need few
+//! quotients and may take their time: this loop is short and there once.
 
 /// `v 2^shift / d` rounded down, saturated; the greatest number for `d` = 0.
 ///
@@ -16,7 +17,7 @@ pub(crate) fn ratio(v: u64, shift: u32, d: u64) -> u64 {
     if rest >> 32 == 0 && word < d {
         (rest, low, quotient) = (word, low << 32, 1 << 32);
     }
-    // the mark that leaves the quotient above ends the loop
+    // the quotient begins as a single 1: when that bit leaves the word above, all 64 digits are there
     loop {
         // rest < d: nothing leaves 64 bits
         let (missing, with_bit) = (d - rest, rest + (low >> 63));

@@ -1,10 +1,19 @@
-//! The random function `R(t)`: normally distributed, mean 0, variance 1, the same number for the same parameter whenever it is asked for.
+//! The random function `R(t)`: normally distributed, mean 0, variance 1, and for the same parameter always
+//! the same number.
 //!
-//! A hash of the parameter and the seed chooses one of 1024 numbers `+-x_i`, the quantiles of the normal distribution at `1/2 +- (i + 1/2) / 1024`, scaled to
-//! variance 1. So the mean is exactly 0, the fourth moment 2.98 instead of 3, and the largest number 3.30.
-//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980: "R is a random function and not a random variable"; table lookup,
-//! 10 bits. The hash is the finalizer of A. Appleby's MurmurHash3.
+//! A random curve asks for `R` at the middle of each of its parts. Since the answer depends on the parameter
+//! and the seed alone, any piece of the curve can be drawn again, at any resolution, without a stored number:
+//! "R is a random function and not a random variable" (L. C. Carpenter, "Computer rendering of fractal curves
+//! and surfaces", 1980; table lookup, 10 bits).
+//!
+//! A hash of the parameter and the seed chooses one of 1024 numbers `+-x_i`, the quantiles of the normal
+//! distribution at `1/2 +- (i + 1/2) / 1024`, scaled to variance 1. So the mean is exactly 0, the fourth
+//! moment 2.98 instead of 3, and the largest number 3.30. The hash is the finalizer of A. Appleby's
+//! MurmurHash3.
+//!
 //! Format: 28 fractional bits; the table takes 2 KB of flash.
+
+use super::formats::{Q28, UQ62};
 
 /// A parameter of a curve: knots lie at integers, 32 fractional bits between.
 pub type Parameter = fixed::types::I32F32;
@@ -15,7 +24,7 @@ pub type Deviate = fixed::types::I4F28;
 const COUNT: usize = 512;
 
 /// The positive half of the table, ascending.
-static QUANTILES: [i32; COUNT] = {
+static QUANTILES: [Q28; COUNT] = {
     let raw = quantiles();
     let mut squares = 0_u64;
     let mut i = 0;
@@ -34,7 +43,8 @@ static QUANTILES: [i32; COUNT] = {
     table
 };
 
-/// Where the integral of the normal density from 0 reaches `(i + 1/2) / 1024`: 28 fractional bits. By the midpoint rule in steps of `2^-10`, linear in between.
+/// Where the integral of the normal density from 0 reaches `(i + 1/2) / 1024`: 28 fractional bits. By the
+/// midpoint rule in steps of `2^-10`, linear in between.
 const fn quantiles() -> [u64; COUNT] {
     // densities with 62 fractional bits: at the middle of the first step, and exp(-2^-20)
     let mut density = FIRST_DENSITY as u128;
@@ -58,8 +68,8 @@ const fn quantiles() -> [u64; COUNT] {
     table
 }
 
-/// `exp(-2^-23) / sqrt(2 pi)`, 62 fractional bits.
-const FIRST_DENSITY: u64 = 1_839_796_317_366_000_629;
+/// `exp(-2^-23) / sqrt(2 pi)`.
+const FIRST_DENSITY: UQ62 = 1_839_796_317_366_000_629;
 
 /// A function of the parameter without any visible pattern, one for each seed. Size: 8 bytes.
 ///
@@ -115,7 +125,7 @@ const fn mixed(mut h: u32) -> u32 {
 }
 
 /// The absolute values that `R` takes, each as often as any other.
-pub(crate) fn magnitudes() -> &'static [i32] {
+pub(crate) fn magnitudes() -> &'static [Q28] {
     &QUANTILES
 }
 

@@ -1,10 +1,16 @@
 //! Reciprocal, square root and reciprocal square root: a table, then Newton's iteration.
 //!
-//! Newton: `y <- y (2 - m y)` for `1/m`, `y <- y (3 - m y^2) / 2` for `1/sqrt(m)`; each doubles the number of correct bits. Formats are
-//! chosen so that of every product the high word alone is needed.
+//! No 32-bit processor has them for integers, and a division of 64 bits takes longer than the four to nine
+//! multiplications here.
+//!
+//! The argument is brought into an interval of a factor 2 or 4; its first bits choose a seed, a value good to
+//! 8 bits, from the table. Newton's iteration, `y <- y (2 - m y)` for `1/m` and `y <- y (3 - m y^2) / 2` for
+//! `1/sqrt(m)`, doubles the number of correct bits each time. Formats are chosen so that of every product the
+//! high word alone is needed.
 
 use core::num::NonZeroU32;
 
+use super::formats::{Q31, UQ30, UQ31};
 use super::product::{high, high_of_square_u, high_u, high_u_below, product_u, square_u};
 use super::zeros::shifted_up_evenly;
 
@@ -53,7 +59,7 @@ pub fn reciprocal(d: u32) -> (u32, u32) {
 
 /// The mantissa of `1/d`, below `2^31`, and how many zeros lead `d`: `1/d` is `mantissa 2^zeros / 2^62`.
 #[inline(always)]
-pub(crate) fn reciprocal_of(d: NonZeroU32) -> (i32, u32) {
+pub(crate) fn reciprocal_of(d: NonZeroU32) -> (Q31, u32) {
     let zeros = d.leading_zeros();
     let m = d.get() << zeros; // 31 fractional bits, in [1, 2)
     let seed = SEEDS[((m >> 24) & 127) as usize];
@@ -75,7 +81,7 @@ pub fn reciprocal_sqrt(v: u64) -> (u32, u32) {
 
 /// The mantissa of `1/sqrt(v)`, below `2^31`, and `half`, at most 31: `1/sqrt(v)` is `mantissa / 2^(31 + half)`.
 #[inline(always)]
-pub(crate) fn reciprocal_sqrt_of(v: u64) -> (i32, u32) {
+pub(crate) fn reciprocal_sqrt_of(v: u64) -> (Q31, u32) {
     let (m, half) = normal(v);
     (newton(m) as i32, half)
 }
@@ -124,9 +130,9 @@ pub(crate) fn root_and_reciprocal(v: u64) -> (u32, u32, u32) {
     (root.wrapping_add(correction as u32), y, places)
 }
 
-/// `v` as `m 4^half`, `m` with 30 fractional bits in `[1, 4)`, truncated.
+/// `v` as `m 4^half` with `m` in `[1, 4)`, truncated.
 #[inline(always)]
-fn normal(v: u64) -> (u32, u32) {
+fn normal(v: u64) -> (UQ30, u32) {
     let low = v as u32;
     match NonZeroU32::new((v >> 32) as u32) {
         Some(high) => {
@@ -140,9 +146,9 @@ fn normal(v: u64) -> (u32, u32) {
     }
 }
 
-/// `1/sqrt(m)` with 31 fractional bits.
+/// `1/sqrt(m)`.
 #[inline(always)]
-fn newton(m: u32) -> u32 {
+fn newton(m: UQ30) -> UQ31 {
     // y with 32 fractional bits, m y^2 and 3 - m y^2 with 30; their product is twice the next y, with 30
     let mut y = u32::from(RECIPROCAL_SQRT[(m >> 24) as usize]) << 16;
     y = high_u_below(y, (3 << 30) - high_u(m, high_of_square_u(y))) << 1;

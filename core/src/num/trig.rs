@@ -1,6 +1,11 @@
-//! Sine and cosine by their series, after the angle is brought into an eighth of a turn around zero.
+//! Sine and cosine of an angle in turns: headings of turtles, cameras, corners of triangles.
+//!
+//! The nearest quarter of a turn decides which of the two is which and their signs. What is left is at most
+//! an eighth of a turn, where the power series of both, `x - x^3 / 3! + ..` to `x^9` and `1 - x^2 / 2! + ..`
+//! to `x^10`, are summed by Horner's scheme.
 
 use super::Unit;
+use super::formats::Q31;
 use super::product;
 
 /// An angle in turns: the whole range of the number is one turn, so that it wraps as angles do.
@@ -17,23 +22,23 @@ pub fn sin_cos(angle: Angle) -> (Unit, Unit) {
     // nearest quarter, and the rest in [-1/8, 1/8) turns
     let quarter = angle.to_bits().wrapping_add(1 << 29) >> 30;
     let rest = angle.to_bits().wrapping_sub(quarter << 30) as i32;
-    // radians with 31 fractional bits: rest / 2^32 * 2 pi, and 2 pi = PI_4 * 2^3 with 31 fractional bits below
-    const PI_4: i32 = 0x6487_ed51; // pi / 4 * 2^31
-    let x = (product(rest, PI_4) >> 29) as i32; // |x| <= pi / 4
-    let square = rounded(x, x);
+    // radians: rest / 2^32 turns of 2 pi, which is 8 times PI_4
+    const PI_4: Q31 = 0x6487_ed51; // pi / 4
+    let x: Q31 = (product(rest, PI_4) >> 29) as i32; // |x| <= pi / 4
+    let square = product_q31(x, x);
     let sine = {
         let mut s = RECIPROCALS[9];
         for k in [7, 5, 3] {
-            s = RECIPROCALS[k] - rounded(square, s);
+            s = RECIPROCALS[k] - product_q31(square, s);
         }
-        x - rounded(rounded(square, s), x)
+        x - product_q31(product_q31(square, s), x)
     };
     let cosine = {
         let mut c = RECIPROCALS[10];
         for k in [8, 6, 4, 2] {
-            c = RECIPROCALS[k] - rounded(square, c);
+            c = RECIPROCALS[k] - product_q31(square, c);
         }
-        i32::MAX - rounded(square, c)
+        i32::MAX - product_q31(square, c)
     };
     let (s, c) = ((sine + 1) >> 1, (cosine >> 1) + 1);
     let (s, c) = match quarter & 3 {
@@ -45,13 +50,14 @@ pub fn sin_cos(angle: Angle) -> (Unit, Unit) {
     (Unit::from_bits(s), Unit::from_bits(c))
 }
 
+/// The product, rounded to nearest.
 #[inline]
-fn rounded(a: i32, b: i32) -> i32 {
+fn product_q31(a: Q31, b: Q31) -> Q31 {
     ((product(a, b) + (1 << 30)) >> 31) as i32
 }
 
-/// `1/k!` with 31 fractional bits. The ones for 0 and 1 do not fit and are not used.
-const RECIPROCALS: [i32; 11] = {
+/// `1/k!`. The ones for 0 and 1 do not fit and are not used.
+const RECIPROCALS: [Q31; 11] = {
     let mut table = [0; 11];
     let mut factorial = 1_i64;
     let mut k = 2;

@@ -1,4 +1,7 @@
-//! Vectors of three [`Real`] components: positions and directions in the set-up of a camera.
+//! Vectors of three components: positions in [`Real`], directions in [`Unit`], for the set-up of a camera and
+//! its light.
+//!
+//! What is computed for each ray or pixel works on plain words instead, in the kernels.
 
 use super::{Real, Unit, reciprocal_sqrt_of, scaled};
 
@@ -50,7 +53,7 @@ impl Vec3<Real> {
     pub fn towards(self, other: Self) -> Option<Vec3<Unit>> {
         let differences = [(self.x, other.x), (self.y, other.y), (self.z, other.z)]
             .map(|(a, b)| i64::from(b.to_bits()) - i64::from(a.to_bits()));
-        // 33 bits: where they do not fit 32, halves have 30 bits of the greatest left
+        // differences have 33 bits: where one does not fit 32, all are halved, and the greatest keeps 30 bits
         let far = differences.iter().any(|d| i32::try_from(*d).is_err());
         let [x, y, z] = differences.map(|d| Real::from_bits((d >> u32::from(far)) as i32));
         Self::new(x, y, z).normalised()
@@ -69,7 +72,7 @@ impl Vec3<Real> {
 /// zero vector stays one.
 #[inline]
 pub(crate) fn unit(v: [i32; 3]) -> Vec3<Unit> {
-    // with 31 + half bits below the root, and 30 fractional bits wanted
+    // the reciprocal of the length is mantissa / 2^(31 + half), and 30 fractional bits are wanted
     let root = reciprocal_sqrt_of(square(v));
     let [x, y, z] = v.map(|c| Unit::from_bits(scaled(c, root)));
     Vec3::new(x, y, z)

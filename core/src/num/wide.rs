@@ -1,13 +1,17 @@
-//! Products of 64-bit fixed-point numbers, from the 32-bit products that the target has.
+//! Products, shifts and quotients of 64-bit fixed-point numbers, from the 32-bit products that the target
+//! has.
 //!
-//! `i128` multiplication is a library call on 32-bit machines; these are a handful of `SMULL`/`UMULL` each.
+//! Abscissae and values of interpolation functions have more than 32 bits. The compiler would multiply them
+//! as `i128`, by a library call on 32-bit machines; these functions are a handful of `SMULL`/`UMULL` each.
 
+use super::formats::{Q31, UQ24, UQ63};
 use super::product::{self, high_mixed, product, product_mixed, product_u};
 use super::ratio;
 
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
 ///
-/// Domain: all. Exact, rounded towards minus infinity; -1 times `i64::MIN` saturates (`a_number_is_scaled_exactly_from_end_to_end`). Cost: 3 multiplications.
+/// Domain: all. Exact, rounded towards minus infinity; -1 times `i64::MIN` saturates
+/// (`a_number_is_scaled_exactly_from_end_to_end`). Cost: 3 multiplications.
 #[inline]
 pub fn scale31(value: i64, factor: i32) -> i64 {
     if value == i64::MIN && factor == i32::MIN {
@@ -37,7 +41,7 @@ pub(crate) fn mul_high_short(a: i64, b: i32) -> i64 {
 }
 
 /// The high 64 bits of the 128-bit product, rounded down. Exact.
-// 70 instructions where products are made by halves: there once
+// 70 instructions where products are made by halves: out of line, so that they are there once only
 #[cfg_attr(no_long_product, inline(never))]
 #[cfg_attr(not(no_long_product), inline)]
 pub fn mul_high_u(a: u64, b: u64) -> u64 {
@@ -50,7 +54,7 @@ pub fn mul_high_u(a: u64, b: u64) -> u64 {
 
 /// `v mantissa / 2^(half + 1)` towards minus infinity, for `half` at most 31: a number scaled by a reciprocal square root.
 #[inline(always)]
-pub(crate) fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
+pub(crate) fn scaled(v: i32, (mantissa, half): (Q31, u32)) -> i32 {
     // by halves: a 64-bit shift by a variable takes twice as long
     let product = product(v, mantissa);
     ((((product as u32) >> (half & 31)) >> 1) | ((product >> 32) as u32) << ((half & 31) ^ 31)) as i32
@@ -83,10 +87,10 @@ pub const fn round_shift(value: i64, shift: u32) -> i64 {
 /// Exact when `d` is a power of two; else low by less than `2^-61`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reciprocal {
-    mantissa: u64,
+    mantissa: UQ63,
     shift: u32,
-    /// 24 fractional bits.
-    halvings: u32,
+    /// See [`Reciprocal::halvings`].
+    halvings: UQ24,
 }
 
 impl Reciprocal {
@@ -99,10 +103,10 @@ impl Reciprocal {
         Self { mantissa: ratio(1 << 63, 63, d << shift), shift, halvings: halvings(d << shift, shift) }
     }
 
-    /// How often 1 has to be halved to reach `d` with 63 fractional bits: its negative logarithm with 24 fractional bits. Error: low by less
-    /// than 6 units (`halvings_are_low_by_less_than_six_units`); 0 where `d` is above 1.
+    /// How often 1 has to be halved to reach `d` with 63 fractional bits: its negative logarithm. Error: low
+    /// by less than 6 units (`halvings_are_low_by_less_than_six_units`); 0 where `d` is above 1.
     #[inline]
-    pub(crate) fn halvings(self) -> u32 {
+    pub(crate) fn halvings(self) -> UQ24 {
         self.halvings
     }
 

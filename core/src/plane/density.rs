@@ -1,9 +1,14 @@
-//! Density: how often the chaos game hits each pixel, in a buffer that the caller lends.
+//! Density: counts how often the chaos game hits each pixel, in a buffer that the caller lends.
 //!
-//! The share of hits in a pixel tends to the invariant measure of the pixel (J. H. Elton, "An ergodic theorem for iterated maps", 1987; course unit V,
-//! section 5.3.4). Counters saturate. Tones: linear, `min(count / full, 1)`, and logarithmic, `min(log2(1 + count) / log2(1 + full), 1)`, the usual choice
-//! for measures that span decades (S. Draves, E. Reckase, "The Fractal Flame Algorithm", 2003, section on log-density display).
-//! A second buffer keeps the last map that hit each pixel. Left out: anti-aliasing, decay of old hits.
+//! Dots alone show where an attractor is; counts also show where its points crowd. The share of hits in a
+//! pixel tends to the invariant measure of the pixel (J. H. Elton, "An ergodic theorem for iterated maps",
+//! 1987; course unit V, section 5.3.4).
+//!
+//! A [`Density`] is recorded point by point, then seen as a field of tones: linear, `min(count / full, 1)`,
+//! or logarithmic, `min(log2(1 + count) / log2(1 + full), 1)`, the usual choice for measures that span
+//! decades (S. Draves, E. Reckase, "The Fractal Flame Algorithm", 2003, section on log-density display).
+//! Counters saturate. A second buffer keeps the last map that hit each pixel. Left out: anti-aliasing, decay
+//! of old hits.
 
 use core::ops::Range;
 
@@ -11,8 +16,9 @@ use embedded_graphics_core::geometry::Size;
 
 use super::field::{Field, along};
 use super::point::{Bounds2, Point2};
-use super::window::{Window, from, part};
+use super::window::{Window, distance, whole_pixels};
 use crate::Error;
+use crate::num::formats::UQ31;
 use crate::num::{log2, reciprocal};
 
 /// A saturating counter of hits: `u8` or `u16`, or one of your own.
@@ -101,7 +107,7 @@ impl<'a, C: Counter> Density<'a, C> {
         let counts = one_each("counts", &window, counts)?;
         let Bounds2 { min, max } = window.bounds();
         let (fractions, extent) =
-            window.fractions().map_or(([[0; 2]; 2], 0), |fractions| (fractions, from(min.x, max.x)));
+            window.fractions().map_or(([[0; 2]; 2], 0), |fractions| (fractions, distance(min.x, max.x)));
         counts.fill(C::ZERO);
         Ok(Self { window, fractions, extent, width: window.size().width, counts, maps: &mut [] })
     }
@@ -140,18 +146,19 @@ impl<'a, C: Counter> Density<'a, C> {
         }
     }
 
-    /// The index of [`Window::pixel`], or one beyond the buffer: the right and the lower edge, which belong to the last pixels, and whatever
-    /// lies outside are left to [`Density::record_slowly`]. What lies below the window is in a row below the last one, as rows are exact.
+    /// The index of [`Window::pixel`], or one beyond the buffer: the right and the lower edge, which belong
+    /// to the last pixels, and whatever lies outside are left to [`Density::record_slowly`]. What lies below
+    /// the window is in a row below the last one, as rows are exact.
     #[inline(always)]
     fn index(&self, p: Point2) -> usize {
         let Bounds2 { min, max } = self.window.bounds();
         let [x, y] = self.fractions;
         // modulo 2^32 a coordinate outside is farther than the extent
-        let (right, down) = (from(min.x, p.x), from(p.y, max.y));
+        let (right, down) = (distance(min.x, p.x), distance(p.y, max.y));
         if right >= self.extent {
             return usize::MAX;
         }
-        let (column, row) = (part(right, x), part(down, y));
+        let (column, row) = (whole_pixels(right, x), whole_pixels(down, y));
         row.wrapping_mul(self.width).wrapping_add(column) as usize
     }
 
@@ -239,7 +246,7 @@ impl<C: Counter> Extend<Point2> for Density<'_, C> {
     }
 }
 
-/// Counts every point with its map: `density.extend(game.with_maps().take(100_000))`.
+/// Counts every point with its map: `density.extend(game.labelled().take(100_000))`.
 impl<C: Counter> Extend<(Point2, u8)> for Density<'_, C> {
     #[inline]
     fn extend<I: IntoIterator<Item = (Point2, u8)>>(&mut self, points: I) {
@@ -272,7 +279,7 @@ enum Scale {
     /// `1 / log2(1 + full)` as mantissa and shift.
     Logarithmic {
         full: u16,
-        mantissa: u32,
+        mantissa: UQ31,
         shift: u32,
     },
 }
@@ -470,10 +477,10 @@ mod tests {
         let window = Window::fit(gasket.bounds(), Size::new(64, 64)).unwrap();
         let (mut counts, mut maps) = (vec![0_u8; 4096], vec![0_u8; 4096]);
         let mut density = Density::new(window, &mut counts).unwrap().with_maps(&mut maps).unwrap();
-        density.extend(gasket.seeded_chaos_game(1).with_maps().take(20_000));
+        density.extend(gasket.seeded_chaos_game(1).labelled().take(20_000));
         let toned = density.linear(255);
         let mut seen = [0_u32; 3];
-        for (point, map) in gasket.seeded_chaos_game(1).with_maps().take(20_000) {
+        for (point, map) in gasket.seeded_chaos_game(1).labelled().take(20_000) {
             let pixel = window.pixel(point).unwrap();
             let hits = toned.row(pixel.y as u32, 0..64).nth(pixel.x as usize).unwrap();
             assert!(hits.count > 0 && hits.map < 3);

@@ -1,4 +1,7 @@
-//! A value for each pixel, and the rows in which it is delivered.
+//! A field: a value for each pixel, delivered row by row, never stored.
+//!
+//! It is what the kernels of pictures implement (dwell, density, ray caster) and what [`crate::draw`]
+//! colours.
 
 use core::iter::FusedIterator;
 use core::ops::Range;

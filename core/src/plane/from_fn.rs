@@ -1,4 +1,4 @@
-//! A closure as a field.
+//! A closure as a field: the shortest way to a picture of one's own.
 
 use embedded_graphics_core::geometry::Size;
 

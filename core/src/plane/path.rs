@@ -1,4 +1,4 @@
-//! What a path is made of.
+//! What a path is made of: moves of the pen and straight lines, as the curves of this crate yield them.
 
 use super::point::Point2;
 

@@ -1,4 +1,4 @@
-//! How large a picture may be.
+//! How large a picture may be: the one check that every constructor with a size shares.
 
 use embedded_graphics_core::geometry::Size;
 

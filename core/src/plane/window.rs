@@ -1,4 +1,8 @@
-//! A window onto the plane: which pixel shows a point.
+//! A window onto the plane: tells which pixel shows a point, for dots, paths and densities.
+//!
+//! The mapping is exact, so that the same point has the same pixel on every machine and in whichever portion
+//! it is drawn. A pixel costs products with a reciprocal of the window's extent, prepared once, and no
+//! division.
 
 use embedded_graphics_core::geometry::{Point, Size};
 
@@ -7,11 +11,11 @@ use super::size::checked_size;
 use crate::Error;
 use crate::num::{Real, nth, product_u, ratio};
 
-/// A rectangle of the plane and the pixels that show it (seeds' world window and viewport).
+/// A rectangle of the plane and the pixels that show it: what textbooks call a world window and its viewport.
 ///
-/// A point belongs to the pixel in column `floor((x - min.x) columns / width)` and row `floor((max.y - y) rows / height)`, exactly: a pixel owns its
-/// left and its upper edge, and the last column and row own the window's right and lower edge too
-/// (`every_point_is_in_the_pixel_of_the_exact_quotient`).
+/// A point belongs to the pixel in column `floor((x - min.x) columns / width)` and row
+/// `floor((max.y - y) rows / height)`, exactly: a pixel owns its left and its upper edge, and the last column
+/// and row own the window's right and lower edge too (`every_point_is_in_the_pixel_of_the_exact_quotient`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -21,8 +25,8 @@ use crate::num::{Real, nth, product_u, ratio};
 pub struct Window {
     bounds: Bounds2,
     size: Size,
-    x: Scale,
-    y: Scale,
+    x: PixelsPerUnit,
+    y: PixelsPerUnit,
 }
 
 impl Window {
@@ -36,8 +40,8 @@ impl Window {
         if min.x >= max.x || min.y >= max.y {
             return Err(Error::Degenerate { what: "area of the window" });
         }
-        let x = Scale::of(size.width, from(min.x, max.x));
-        let y = Scale::of(size.height, from(min.y, max.y));
+        let x = PixelsPerUnit::of(size.width, distance(min.x, max.x));
+        let y = PixelsPerUnit::of(size.height, distance(min.y, max.y));
         Ok(Self { bounds, size, x, y })
     }
 
@@ -80,8 +84,8 @@ impl Window {
     pub fn pixel(&self, p: Point2) -> Option<Point> {
         let Bounds2 { min, max } = self.bounds;
         // modulo 2^32 what lies before the window is farther away than its other end
-        let (right, down) = (from(min.x, p.x), from(p.y, max.y));
-        if right > from(min.x, max.x) || down > from(min.y, max.y) {
+        let (right, down) = (distance(min.x, p.x), distance(p.y, max.y));
+        if right > distance(min.x, max.x) || down > distance(min.y, max.y) {
             return None;
         }
         let column = self.x.pixel(right).min(self.size.width - 1);
@@ -89,11 +93,13 @@ impl Window {
         Some(Point::new(column as i32, row as i32))
     }
 
-    /// The scales of both directions where each pixel is wider than a unit of the format, and no point below the window gets an index inside it
-    /// modulo `2^32`: `row width + column` is then the index of a pixel, or beyond them.
+    /// The shortcut of a [`Density`](super::Density): the scales of both directions without their whole part,
+    /// which is 0 where each pixel is wider than a unit of the format. None also where a point below the
+    /// window would get an index inside it modulo `2^32`: `row width + column` is the index of a pixel, or
+    /// beyond them all.
     pub(crate) fn fractions(&self) -> Option<[[u32; 2]; 2]> {
         let ([0, x @ ..], [0, y @ ..]) = (self.x.digits, self.y.digits) else { return None };
-        // the row 2^32 units below the upper edge, and one more
+        // no point is more than 2^32 units below the upper edge: its row there, and one more
         let [high, _] = y;
         let rows = u64::from(high) + 2;
         (rows * u64::from(self.size.width) < 1 << 32).then_some([x, y])
@@ -109,16 +115,18 @@ impl Window {
     }
 }
 
-/// Pixels a unit in one direction: `m = ceil(2^64 pixels / extent)`, 64 fractional bits in three digits of 32.
+/// How many pixels a unit of the plane is long in one direction, so that a pixel is a product and no
+/// division: `m = ceil(2^64 pixels / extent)`, 64 fractional bits in three digits of 32.
 ///
-/// `floor(d m / 2^64) = floor(d pixels / extent)` for every `d < 2^32`: `d m` exceeds `2^64 d pixels / extent` by less than `d`, that is by less than
-/// `2^64 / extent`, the least distance of a quotient from the integer above it.
+/// `floor(d m / 2^64) = floor(d pixels / extent)` for every `d < 2^32`: `d m` exceeds
+/// `2^64 d pixels / extent` by less than `d`, that is by less than `2^64 / extent`, the least distance of a
+/// quotient from the integer above it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Scale {
+struct PixelsPerUnit {
     digits: [u32; 3],
 }
 
-impl Scale {
+impl PixelsPerUnit {
     /// For an extent of at least 1; 0 counts as 1.
     fn of(pixels: u32, extent: u32) -> Self {
         let extent = extent.max(1);
@@ -126,7 +134,8 @@ impl Scale {
         // below the extent
         let rest = pixels - whole * extent;
         let fraction = ratio(u64::from(rest) << 1, 63, extent.into());
-        // what is left of 2^64 rest is below 2^32: 0 exactly where it is 0 modulo 2^64
+        // rounded up: what the quotient leaves of 2^64 rest is below 2^32, so that it is 0 exactly where it
+        // is 0 modulo 2^64
         let up = u64::from(fraction.wrapping_mul(extent.into()) != 0);
         let fraction = fraction.wrapping_add(up);
         Self { digits: [whole, (fraction >> 32) as u32, fraction as u32] }
@@ -136,7 +145,7 @@ impl Scale {
     #[inline(always)]
     fn pixel(self, distance: u32) -> u32 {
         let [whole, high, low] = self.digits;
-        distance.wrapping_mul(whole).wrapping_add(part(distance, [high, low]))
+        distance.wrapping_mul(whole).wrapping_add(whole_pixels(distance, [high, low]))
     }
 
     /// The pixel at any signed distance; the far edge itself belongs to the last pixel.
@@ -144,7 +153,7 @@ impl Scale {
         let [whole, high, low] = self.digits;
         // below 2^32
         let d = distance.unsigned_abs() as u32;
-        let fraction = scaled(d, [high, low]);
+        let fraction = pixels_q32(d, [high, low]);
         let pixel = (product_u(d, whole) + (fraction >> 32)) as i64;
         if distance < 0 {
             // the floor of a negative quotient; where it is an integer, the fraction that is left is below 2^-32
@@ -155,16 +164,16 @@ impl Scale {
     }
 }
 
-/// `distance` times a fraction of two digits, with 32 fractional bits. Below `2^64`.
+/// `distance` times a fraction of two digits: 32 fractional bits in a word of 64, which it does not leave.
 #[inline(always)]
-fn scaled(distance: u32, [high, low]: [u32; 2]) -> u64 {
+fn pixels_q32(distance: u32, [high, low]: [u32; 2]) -> u64 {
     product_u(distance, high) + (product_u(distance, low) >> 32)
 }
 
 /// `floor(distance fraction)`.
 #[inline(always)]
-pub(crate) fn part(distance: u32, fraction: [u32; 2]) -> u32 {
-    (scaled(distance, fraction) >> 32) as u32
+pub(crate) fn whole_pixels(distance: u32, fraction: [u32; 2]) -> u32 {
+    (pixels_q32(distance, fraction) >> 32) as u32
 }
 
 fn extent(low: Real, high: Real) -> i64 {
@@ -173,7 +182,7 @@ fn extent(low: Real, high: Real) -> i64 {
 
 /// How far `end` is from `start`, modulo `2^32`.
 #[inline(always)]
-pub(crate) fn from(start: Real, end: Real) -> u32 {
+pub(crate) fn distance(start: Real, end: Real) -> u32 {
     end.to_bits().wrapping_sub(start.to_bits()) as u32
 }
 

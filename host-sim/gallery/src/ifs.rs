@@ -68,7 +68,7 @@ impl<const N: usize> IfsPicture<'_, N> {
         }
         paper(size, target);
         let colors: [D::Color; N] = core::array::from_fn(|map| solid(self.palette.at(self.level(map))));
-        let mut dots = game.with_maps().map(|(point, map)| {
+        let mut dots = game.labelled().map(|(point, map)| {
             let pixel = room.top_left + window.pixel(point)?;
             Some(Pixel(pixel, *colors.get(usize::from(map))?))
         });

@@ -103,7 +103,7 @@ impl LSystemScene {
     ) -> Result<T, Error> {
         let rules: Vec<(char, &str)> =
             self.rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();
-        let system = LSystem::new(&self.axiom, &rules, self.angle)?.heading(self.heading);
+        let system = LSystem::new(&self.axiom, &rules, self.angle)?.with_heading(self.heading);
         show(LSystemPicture { system, order: self.order, pencil: self.pencil })
     }
 

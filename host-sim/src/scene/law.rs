@@ -116,11 +116,11 @@ pub(super) fn law(source: &Source, file: &Parameters) -> Result<Law, Fail> {
         }
         Name::LineToLine => {
             let beta = real(&file.beta, "beta", three)?;
-            LineToLine::with_spectrum(offset, beta, seed).map(|law| Law::LineToLine(law, beta.to_num()))
+            LineToLine::from_spectrum(offset, beta, seed).map(|law| Law::LineToLine(law, beta.to_num()))
         }
         Name::OneVariable => match &file.ratio {
             None => OneVariable::new(offset, seed),
-            Some(ratio) => OneVariable::with_ratio(source.fixed::<Real>(ratio, "ratio")?, seed),
+            Some(ratio) => OneVariable::from_ratio(source.fixed::<Real>(ratio, "ratio")?, seed),
         }
         .map(Law::OneVariable),
         Name::TwoVariable => TwoVariable::new(offset, seed).map(|law| Law::TwoVariable(law, offset.to_num())),

@@ -1,7 +1,8 @@
 //! The copier: all images of a list of points under the maps composed of `k` of a system's.
 //!
-//! Source: course unit V, section 5.3.3, `superCopier`; ERRATA: each map makes as many new points as there are, and all images are drawn.
-//! The maps are applied to the points one after the other, the last of the composition first; nothing is composed.
+//! Source: course unit V, section 5.3.3, `superCopier`. The text errs here: each map makes as many new points
+//! as there are, and all images are drawn. The maps are applied to the points one after the other, the last
+//! of the composition first; nothing is composed.
 
 /// An affine map `[a, b, c, d, e, f]`: `x' = a x + b y + e`, `y' = c x + d y + f`.
 pub type Affine = [f64; 6];

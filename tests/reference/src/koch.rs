@@ -1,6 +1,7 @@
 //! Curves by refinement: each segment is replaced by a smaller version of the generator, recursively.
 //!
-//! Source: course unit V, sections 5.1.1 and 5.1.2; ERRATA: the turns of `drawKoch` are +60, -120, +60 degrees.
+//! Source: course unit V, sections 5.1.1 and 5.1.2. The text errs here: the turns of `drawKoch` are +60,
+//! -120, +60 degrees.
 
 /// The Koch curve of order `n` from `(0, 0)` to `(1, 0)` as `drawKoch` draws it: a turtle that adds relative lines up.
 pub fn draw_koch(n: u32) -> Vec<(f64, f64)> {

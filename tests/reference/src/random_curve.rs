@@ -1,6 +1,7 @@
 //! Random curves: the recursive procedures of Carpenter and of the course unit, with the random function as an argument.
 //!
-//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980; course unit V, section 5.6; ERRATA for signs and for `factor`.
+//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980; course unit V, section
+//! 5.6, with signs and `factor` put right.
 
 /// What is displaced, and how far at each level.
 #[expect(missing_debug_implementations, reason = "it holds functions")]

@@ -2,7 +2,7 @@
 //!
 //! Source: CONTRIBUTING.md, "The picture of a height field, defined", Tone and Environment; Cochran, Lewis and Hart, "The
 //! Normal of a Fractal Surface", section 5 (diffuse, Phong and mirror surfaces). The mirror direction is
-//! `m = d - 2 (d . n^) n^` (ERRATA of the course unit V). Tones are clamped to `[0, 1]`.
+//! `m = d - 2 (d . n^) n^`, which the course unit V prints with an error. Tones are clamped to `[0, 1]`.
 
 use crate::vector::{Vector, along, dot, normalised};
 

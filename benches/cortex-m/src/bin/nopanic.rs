@@ -79,9 +79,9 @@ fn systems() -> Result<(), Error> {
     bb((ifs.bounds(), ifs.contraction_factor(), ifs.invariant_disc(), ifs.deviation()));
     bb((ifs.maps(), ifs.probabilities()));
     bb(ifs.seeded_chaos_game(bb(1)).take(bb(10)).last());
-    bb(ifs.chaos_game(rng()).with_maps().take(bb(10)).last());
+    bb(ifs.chaos_game(rng()).labelled().take(bb(10)).last());
     let mut walk = ifs.seeded_walk(bb(1));
-    bb(ifs.resume(bb(&mut walk)).with_maps().take(bb(10)).last());
+    bb(ifs.resume(bb(&mut walk)).labelled().take(bb(10)).last());
     let (Some(a), Some(b)) = (attractor.maps.first(), attractor.maps.last()) else { return Ok(()) };
     let (a, b) = (bb(*a), bb(*b));
     bb((
@@ -110,7 +110,7 @@ fn curves() -> Result<(), Error> {
     bb(Generator::<4>::oriented_polyline(bb(&points[..]), bb(&[Orientation::Reversed])).is_ok());
     refined(&Generator::<4>::turtle(bb("F+F--F+F"), turn_over(bb(6)))?)?;
     let rules = bb([('X', "F[+X]fX"), ('F', "FF")]);
-    let plant = LSystem::new(bb("X"), bb(&rules), bb(Wide::ONE))?.heading(bb(Wide::ONE));
+    let plant = LSystem::new(bb("X"), bb(&rules), bb(Wide::ONE))?.with_heading(bb(Wide::ONE));
     let turtle = plant.path::<6, 6>(bb(5))?;
     bb((turtle.step(), turtle.steps(), turtle.last()));
     bb((koch::triangle(point(0), one), koch::length(bb(3)).map(koch::Fraction::to_wide)));
@@ -123,9 +123,9 @@ fn curves() -> Result<(), Error> {
     bb(displaced(&part, along, across));
     bb(Elbow::new(bb(Unit::ONE), one, seed)?.standard_deviation(bb(3)));
     let elbow = bb(Elbow::self_similar(one, seed))?;
-    let graph = bb(LineToLine::with_spectrum(bb(Unit::ONE), one, seed))?;
+    let graph = bb(LineToLine::from_spectrum(bb(Unit::ONE), one, seed))?;
     bb(LineToLine::new(bb(Unit::ONE), seed)?.extrapolated(point(0), point(1), t).is_ok());
-    let plane = bb(OneVariable::with_ratio(one, seed))?;
+    let plane = bb(OneVariable::from_ratio(one, seed))?;
     bb((OneVariable::new(bb(Unit::ONE), seed)?.offset(), plane.extrapolated(point(0), point(1), t).is_ok()));
     let both = bb(TwoVariable::new(bb(Unit::ONE), seed))?;
     bb(both.extrapolated(point(0), point(1), t).is_ok());
@@ -173,7 +173,7 @@ fn copies() -> Result<(), Error> {
     let mut density = Density::new(window, bb(&mut counts[..]))?.with_maps(bb(&mut maps[..]))?;
     let mut game = ifs.seeded_chaos_game(bb(1));
     bb((game.next(), game.last_map()));
-    density.extend(game.clone().with_maps().take(bb(10)));
+    density.extend(game.clone().labelled().take(bb(10)));
     density.extend(game.take(bb(10)));
     density.record(point(0));
     density.record_from(point(0), bb(1));

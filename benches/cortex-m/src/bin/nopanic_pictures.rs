@@ -94,7 +94,7 @@ fn deep() -> Result<(), Error> {
     bb(DeepMandelbrot::new(view, bb(100), &mut orbit)?);
     bb(DeepMandelbrot::orbit_points(&view, bb(100)));
     // which one is not known here
-    let set = DeepMandelbrot::with_arithmetic(view, bb(100), bb(Arithmetic::Word64), &mut orbit)?;
+    let set = DeepMandelbrot::new_in(view, bb(100), bb(Arithmetic::Word64), &mut orbit)?;
     bb((set.dwell_at(bb(1), bb(1)), set.row(bb(1), bb(0)..bb(30)).nth(bb(2)), set.view()));
     bb((set.max_dwell(), set.arithmetic(), set.reference_len()));
     colorings(set, bb((1, 1)))

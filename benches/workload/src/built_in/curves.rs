@@ -95,7 +95,7 @@ pub(super) fn elbow<C: Colour + Ink, const WORDS: usize>(stage: &mut Stage<'_>) 
 }
 
 pub(super) fn carpenter_1<C: Colour + Ink, const WORDS: usize>(stage: &mut Stage<'_>) -> Result<(), Failure> {
-    let law = OneVariable::with_ratio(const { Real::lit("1.3") }, 1980);
+    let law = OneVariable::from_ratio(const { Real::lit("1.3") }, 1980);
     random::<C, _, WORDS>(stage, law, (&koch::SEGMENT, false), Named::Dusk)
 }
 
@@ -113,7 +113,7 @@ pub(super) fn mountain_line<C: Colour + Ink, const WORDS: usize>(
         point(Real::lit("1.6"), Real::lit("0.1")),
         point(Real::lit("2"), Real::lit("0.35")),
     ];
-    let law = LineToLine::with_spectrum(const { Unit::lit("0.16") }, const { Real::lit("2.2") }, 3);
+    let law = LineToLine::from_spectrum(const { Unit::lit("0.16") }, const { Real::lit("2.2") }, 3);
     random::<C, _, WORDS>(stage, law, (&KNOTS, true), Named::Dusk)
 }
 
@@ -160,7 +160,7 @@ pub(super) const DRAGON: Words = Words {
 };
 
 pub(super) fn l_system<C: Colour + Ink>(stage: &mut Stage<'_>, words: &Words) -> Result<(), Failure> {
-    let system = LSystem::new(words.axiom, words.rules, words.angle)?.heading(words.heading);
+    let system = LSystem::new(words.axiom, words.rules, words.angle)?.with_heading(words.heading);
     let pencil = Pencil { palette: words.palette, closed: false };
     let picture = LSystemPicture::<DEPTH, DEPTH> { system, order: words.order, pencil };
     let size = stage.size();

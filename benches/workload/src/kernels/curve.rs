@@ -227,7 +227,7 @@ pub(super) fn elbow_law(watch: &mut Watch<'_>) -> Tally {
 pub(super) fn offset_of_ratio(watch: &mut Watch<'_>) -> Tally {
     const RATIO: Real = Real::lit("1.3");
     watch.time(|| {
-        let Ok(law) = OneVariable::with_ratio(black_box(RATIO), SEED) else { return Tally::default() };
+        let Ok(law) = OneVariable::from_ratio(black_box(RATIO), SEED) else { return Tally::default() };
         Tally { checksum: law.offset().to_bits() as u32, units: 1 }
     })
 }

@@ -28,7 +28,7 @@ fn dwells<const LIMBS: usize>(
     orbit: &mut [OrbitPoint],
 ) -> Result<Tally, Error> {
     let view = DeepView::<LIMBS>::parse(re, im, width, Size::new(9, 9))?;
-    let set = DeepMandelbrot::with_arithmetic(view, max, arithmetic, orbit)?;
+    let set = DeepMandelbrot::new_in(view, max, arithmetic, orbit)?;
     let outside = |x, y| !set.dwell_at(x, y).is_inside();
     let mut pixels = [(0, 0); 32];
     let found = (0..81).map(|i| (i % 9, i / 9)).filter(|(x, y)| outside(*x, *y));
@@ -84,7 +84,7 @@ pub(super) fn reference(watch: &mut Watch<'_>) -> Tally {
     let [re, im, width] = PERIOD_95;
     let Ok(view) = DeepView::<12>::parse(re, im, width, Size::new(64, 64)) else { return Tally::default() };
     watch.time(|| {
-        let set = DeepMandelbrot::with_arithmetic(black_box(view), 200, Arithmetic::Perturbed, &mut orbit);
+        let set = DeepMandelbrot::new_in(black_box(view), 200, Arithmetic::Perturbed, &mut orbit);
         set.map_or(Tally::default(), |set| Tally {
             checksum: set.dwell_at(11, 7).count,
             units: set.reference_len() as u32,

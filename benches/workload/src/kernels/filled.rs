@@ -69,7 +69,7 @@ fn copy<const FILLED: bool>(
     orbit: &mut [OrbitPoint],
 ) -> Tally {
     let view = DeepView::<12>::parse(re, im, width, SIZE);
-    let picture = view.and_then(|view| DeepMandelbrot::with_arithmetic(view, MAX, arithmetic, orbit));
+    let picture = view.and_then(|view| DeepMandelbrot::new_in(view, MAX, arithmetic, orbit));
     picture.map_or(Tally::default(), |picture| show::<FILLED>(watch, picture))
 }
 

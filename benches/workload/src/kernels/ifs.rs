@@ -116,7 +116,7 @@ pub(super) fn density_u8(watch: &mut Watch<'_>) -> Tally {
 #[inline(never)]
 pub(super) fn density_with_maps(watch: &mut Watch<'_>) -> Tally {
     let play = |density: &mut Density<'_, u16>, game: Game<'_>| {
-        density.extend(game.with_maps().take(POINTS as usize));
+        density.extend(game.labelled().take(POINTS as usize));
     };
     counted(watch, (&mut [0_u16; PIXELS], &mut [0; PIXELS]), play).unwrap_or_default()
 }

@@ -1,7 +1,12 @@
-//! A whole picture in a lent buffer: half of a symmetric one is copied, and what stays in sight while panning is moved.
+//! A whole picture in a lent buffer of 16 bits a pixel: half of a symmetric one is copied, and what stays in
+//! sight while panning is moved.
 //!
-//! Conjugate points have conjugate orbits and the same dwell: rows at `y` and `-y` are equal. A view that is panned by whole pixels shows the same points
-//! ([`View::pan`](crate::escape::View::pan), [`DeepView::pan`](crate::escape::DeepView::pan)), so that neither the mirror nor panning changes a pixel.
+//! For a program that lets its user move about, on a device with the memory: a pan by one pixel computes one
+//! column or row.
+//!
+//! Conjugate points have conjugate orbits and the same dwell: rows at `y` and `-y` are equal. A view that is
+//! panned by whole pixels shows the same points ([`View::pan`](crate::escape::View::pan),
+//! [`DeepView::pan`](crate::escape::DeepView::pan)), so that neither the mirror nor panning changes a pixel.
 
 use core::ops::Range;
 
@@ -18,10 +23,10 @@ use crate::plane::{Field, along, checked_size};
 /// use attractor::escape::{Buffered, Mandelbrot, View};
 /// use embedded_graphics_core::geometry::Size;
 /// let mut counts = [0; Buffered::<Mandelbrot>::counts(Size::new(24, 20))];
-/// let mut canvas = Buffered::new(Mandelbrot::new(View::home(Size::new(24, 20))?, 100)?, &mut counts)?;
-/// assert_eq!(canvas.computed(), 24 * 10);
-/// canvas.pan(3, 0)?;
-/// assert_eq!(canvas.computed(), 3 * 20);
+/// let mut buffered = Buffered::new(Mandelbrot::new(View::home(Size::new(24, 20))?, 100)?, &mut counts)?;
+/// assert_eq!(buffered.computed(), 24 * 10);
+/// buffered.pan(3, 0)?;
+/// assert_eq!(buffered.computed(), 3 * 20);
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug)]
@@ -53,9 +58,9 @@ impl<'a, P: EscapeTime> Buffered<'a, P> {
             let what = "iterations in 16 bits";
             return Err(Error::Capacity { what, needed: max, capacity: most });
         }
-        let mut canvas = Self { picture, counts, computed: 0 };
-        canvas.compute(0..size.height);
-        Ok(canvas)
+        let mut buffered = Self { picture, counts, computed: 0 };
+        buffered.compute(0..size.height);
+        Ok(buffered)
     }
 
     /// The picture.
@@ -173,10 +178,10 @@ mod tests {
     use crate::num::Wide;
     use std::vec;
 
-    fn assert_is_plain<P: EscapeTime + Copy>(canvas: &Buffered<'_, P>) {
-        let size = canvas.size();
+    fn assert_is_plain<P: EscapeTime + Copy>(buffered: &Buffered<'_, P>) {
+        let size = buffered.size();
         for y in 0..size.height {
-            assert!(canvas.row(y, 0..size.width).eq(canvas.picture().row(y, 0..size.width)), "row {y}");
+            assert!(buffered.row(y, 0..size.width).eq(buffered.picture().row(y, 0..size.width)), "row {y}");
         }
     }
 
@@ -186,12 +191,12 @@ mod tests {
             let centre = Complex::new(Wide::from_num(-0.7), Wide::from_num(im));
             let view = View::new(centre, Wide::from_num(3), Size::new(w, h)).unwrap();
             let mut counts = vec![0; (w * h) as usize];
-            let canvas = Buffered::new(Mandelbrot::new(view, 200).unwrap(), &mut counts).unwrap();
-            assert_is_plain(&canvas);
+            let buffered = Buffered::new(Mandelbrot::new(view, 200).unwrap(), &mut counts).unwrap();
+            assert_is_plain(&buffered);
             if im == 0.0 {
-                assert_eq!(canvas.computed(), (w * h.div_ceil(2)) as usize);
+                assert_eq!(buffered.computed(), (w * h.div_ceil(2)) as usize);
             } else if im == 0.28125 {
-                assert!(canvas.computed() < (w * h) as usize * 3 / 4);
+                assert!(buffered.computed() < (w * h) as usize * 3 / 4);
             }
         }
     }
@@ -201,22 +206,22 @@ mod tests {
         let centre = Complex::new(Wide::from_num(-0.7), Wide::from_num(0.3));
         let view = View::new(centre, Wide::from_num(1.1), Size::new(50, 40)).unwrap();
         let mut counts = vec![0; 2000];
-        let mut canvas = Buffered::new(Mandelbrot::new(view, 100).unwrap(), &mut counts).unwrap();
+        let mut buffered = Buffered::new(Mandelbrot::new(view, 100).unwrap(), &mut counts).unwrap();
         for (right, up) in
             [(1, 0), (0, 1), (-3, 5), (7, -9), (0, -1), (49, 39), (0, 0), (50, 1), (-200, 3), (190, -40)]
         {
-            canvas.pan(right, up).unwrap();
-            assert_is_plain(&canvas);
+            buffered.pan(right, up).unwrap();
+            assert_is_plain(&buffered);
             let (across, down) = (right.unsigned_abs().min(50) as usize, up.unsigned_abs().min(40) as usize);
-            assert!(canvas.computed() <= 2000 - (50 - across) * (40 - down));
+            assert!(buffered.computed() <= 2000 - (50 - across) * (40 - down));
         }
-        assert!(canvas.pan(1 << 20, 0).is_err() && canvas.pan(i32::MIN, i32::MAX).is_err());
-        assert_is_plain(&canvas);
+        assert!(buffered.pan(1 << 20, 0).is_err() && buffered.pan(i32::MIN, i32::MAX).is_err());
+        assert_is_plain(&buffered);
         let home = View::new(Complex::default(), Wide::from_num(4), Size::new(50, 40)).unwrap();
         let julia = Julia::new(home, Complex::new(Wide::from_num(-0.1), Wide::from_num(0.7)), 99).unwrap();
-        let mut canvas = Buffered::new(julia, &mut counts).unwrap();
-        canvas.pan(-5, 4).unwrap();
-        assert_is_plain(&canvas);
+        let mut buffered = Buffered::new(julia, &mut counts).unwrap();
+        buffered.pan(-5, 4).unwrap();
+        assert_is_plain(&buffered);
     }
 
     #[test]

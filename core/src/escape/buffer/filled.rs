@@ -1,14 +1,20 @@
 //! The inside of a set filled in, not computed: what a closed curve of inner pixels surrounds is inside.
 //!
-//! The complement of the set is connected (A. Douady, J. H. Hubbard, 1982). Where a row meets an inner pixel that is not known yet, the edge of its component
-//! is followed with a hand on the wall (boundary tracing: I. Pitas, "Digital Image Processing Algorithms", 1993, section 7.2), and every run of pixels between
-//! two edges becomes inner. The pixels of the outside are computed as ever; of the inside only the edge is, where a pixel costs `Num` iterations.
-//! A curve is made of pixels: an outer filament that slips in between two of them is lost.
+//! A pixel of the inside costs all of its `Num` iterations, one of the outside only a few. So of the inside
+//! only the edge is computed; deep views in wide words gain most.
 //!
-//! # Why the order of the pixels changes nothing
-//! A pixel is settled when all to its left in its row are. Whatever surrounds it has an edge among those, was met there, and filled the pixel with the rest.
-//! So the first inner pixel behind a settled one lies in no hole and has the outer edge of its component to its left; the walls along that edge lie in no hole
-//! either. Hence every component is traced once, from outside, and a run from wall to wall crosses its holes, of which nothing is known yet.
+//! The complement of the set is connected (A. Douady, J. H. Hubbard, 1982): nothing outer lies in a hole.
+//! Where a row meets an inner pixel that is not known yet, the edge of its component is followed with a hand
+//! on the wall (boundary tracing: I. Pitas, "Digital Image Processing Algorithms", 1993, section 7.2), and
+//! every run of pixels between two edges becomes inner. The pixels of the outside are computed as ever. A
+//! curve is made of pixels: an outer filament that slips in between two of them is lost.
+//!
+//! ### Why the order of the pixels changes nothing
+//! A pixel is settled when all to its left in its row are known. Whatever surrounds it has an edge among
+//! those, was met there, and filled the pixel with the rest. So the first inner pixel behind a settled one
+//! lies in no hole and has the outer edge of its component to its left; the walls along that edge lie in no
+//! hole either. Hence every component is traced once, from outside, and a run from wall to wall crosses its
+//! holes, of which nothing is known yet.
 
 use core::cell::Cell;
 use core::ops::Range;

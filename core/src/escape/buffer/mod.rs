@@ -1,4 +1,4 @@
-//! Escape-time pictures in lent memory: what is known already is not computed again.
+//! Escape-time pictures in lent memory, which spare the iterations of pixels that are known already.
 
 pub(crate) mod buffered;
 pub(crate) mod filled;

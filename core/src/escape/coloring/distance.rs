@@ -1,8 +1,12 @@
-//! The distance from an outer point to the set, estimated: `|z_n| ln |z_n|^2 / |z'_n|`, in pixels.
+//! The distance from an outer point to the set, estimated: it shows filaments that are thinner than a pixel,
+//! which the dwell skips.
 //!
-//! Source: H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.2.5, from J. Milnor: the true distance `d` satisfies
-//! `estimate / 4 < d < estimate` (Koebe's quarter theorem) in the limit. `z' <- 2 z z' + 1` (Mandelbrot), `2 z z'` (Julia).
-//! Format: the derivative as two 32-bit mantissas and a shared exponent.
+//! `|z_n| ln |z_n|^2 / |z'_n|` in pixels, where `z'` is the derivative of the orbit by its start:
+//! `z' <- 2 z z' + 1` (Mandelbrot), `2 z z'` (Julia). Source: H.-O. Peitgen, D. Saupe, "The Science of
+//! Fractal Images", 1988, section 4.2.5, from J. Milnor: the true distance `d` satisfies
+//! `estimate / 4 < d < estimate` (Koebe's quarter theorem) in the limit.
+//!
+//! Format: the derivative, which grows without bound, as two 32-bit mantissas and a shared exponent.
 
 use core::ops::Range;
 
@@ -11,6 +15,7 @@ use embedded_graphics_core::geometry::Size;
 use crate::escape::orbit::block_float::Number;
 use crate::escape::orbit::ending::Ending;
 use crate::escape::set::escape_time::EscapeTime;
+use crate::num::formats::UQ32;
 use crate::num::{Real, log2, sqrt};
 use crate::plane::{Field, along};
 
@@ -80,9 +85,9 @@ fn estimate(ending: &Ending) -> Option<(u64, i32)> {
     }
     let (square, twice) = z.square();
     // ln |z|^2 with 24 fractional bits, below 2^30
-    const LN_2: u64 = 0xb172_17f7; // 32 fractional bits
+    const LN_2: UQ32 = 0xb172_17f7;
     let log = i64::from(log2(square)) + (i64::from(twice) << 24);
-    let log = (u64::try_from(log).ok()? * LN_2) >> 32;
+    let log = (u64::try_from(log).ok()? * u64::from(LN_2)) >> 32;
     let quotient = (u64::from(sqrt(square)) * log).checked_div(u64::from(sqrt(derivative.square().0)))?;
     Some((quotient, z.exponent.saturating_sub(derivative.exponent).saturating_sub(24)))
 }

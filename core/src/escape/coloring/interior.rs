@@ -1,7 +1,9 @@
-//! The interior by period: which cycle the orbit of a point of the set is drawn to.
+//! The interior by period: colours each point of the set by the length of the cycle that its orbit is drawn
+//! to, so that the discs and cardioids which the set is made of stand out, each in the colour of its period.
 //!
-//! Source: B. Branner, "The Mandelbrot set", 1989: each hyperbolic component is the set of `c` whose orbits tend to a cycle of one length. The cardioid and
-//! the disc of period 2 are known by formula; elsewhere the multiplier shows when an orbit has come near its cycle (`crate::escape::orbit::cycle`).
+//! Source: B. Branner, "The Mandelbrot set", 1989: each hyperbolic component is the set of `c` whose orbits
+//! tend to a cycle of one length. The cardioid and the disc of period 2 are known by formula; elsewhere the
+//! multiplier shows when an orbit has come near its cycle (`crate::escape::orbit::cycle`).
 
 use core::ops::Range;
 

@@ -1,8 +1,12 @@
-//! Fractional dwell: `n + 1 - log2(log2 |z_n|)`, which has no steps between the bands of equal dwell.
+//! Fractional dwell, for pictures without steps between the bands of equal dwell.
 //!
-//! Source: H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.2.5 (the potential); the limit of
-//! `n - log2(log2 |z_n|)` exists and changes by 1 where the dwell does. The orbit is followed on to `|z| > 1024`, where
-//! the rest of the limit is below `2^-20`. The `n` is the dwell's own: both follow one orbit, rounding and all. Format: 20 fractional bits there, 11 in the result.
+//! `n + 1 - log2(log2 |z_n|)` for the `n`-th point of an orbit that has escaped. Source: H.-O. Peitgen, D.
+//! Saupe, "The Science of Fractal Images", 1988, section 4.2.5 (the potential); the limit of
+//! `n - log2(log2 |z_n|)` exists and changes by 1 where the dwell does. The orbit is followed on to
+//! `|z| > 1024`, where the rest of the limit is below `2^-20`. The `n` is the dwell's own: both follow one
+//! orbit, rounding and all.
+//!
+//! Format: 20 fractional bits there, 11 in the result.
 
 use core::ops::Range;
 
@@ -11,6 +15,7 @@ use fixed::types::U21F11;
 
 use crate::escape::orbit::ending::Ending;
 use crate::escape::set::escape_time::EscapeTime;
+use crate::num::formats::UQ24;
 use crate::num::log2;
 use crate::plane::{Field, along};
 
@@ -94,7 +99,7 @@ fn potential(ending: &Ending) -> U21F11 {
 fn limit(x: u64, y: u64, count: u32) -> U21F11 {
     // 10 fractional bits: squares below 2^60
     let (x, y) = (x >> 10, y >> 10);
-    let twice = log2(x * x + y * y).saturating_sub(20 << 24); // 2 log2 |z|, 24 fractional bits
+    let twice: UQ24 = log2(x * x + y * y).saturating_sub(20 << 24); // 2 log2 |z|
     // log2 of (2 log2 |z|) = log2(log2 |z|) + 1
     let loglog = i64::from(log2(u64::from(twice))) - (25 << 24);
     let limit = ((i64::from(count) + 1) << 24) - loglog;

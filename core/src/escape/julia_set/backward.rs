@@ -1,10 +1,15 @@
-//! Points of the Julia set `J_c` by backward iteration: `z <- ± sqrt(z - c)` (course unit V, section 5.5.4, eq. 6).
+//! Points of the Julia set `J_c` by backward iteration: `z <- ± sqrt(z - c)` (course unit V, section 5.5.4,
+//! eq. 6), a sign by coin toss.
 //!
-//! Every preimage of a point of `J_c` belongs to `J_c`, and all of them together are dense in it. The walk starts at the fixed point
-//! `1/2 + sqrt(1/4 - c)`, which belongs to `J_c`; nothing has to warm up. It flips a coin for the sign, without end, and rarely visits what is
-//! hard to reach: [`JuliaCover`](crate::escape::JuliaCover) finds all of the set.
+//! It is the quickest sketch of a Julia set, point by point without a buffer.
 //!
-//! Format: 29 fractional bits inside, 24 outside. A backward step divides errors by `|2 z|`: they do not add up.
+//! Every preimage of a point of `J_c` belongs to `J_c`, and all of them together are dense in it. The walk
+//! starts at the fixed point `1/2 + sqrt(1/4 - c)`, which belongs to `J_c`; nothing has to warm up. It goes
+//! on without end, and rarely visits what is hard to reach: [`JuliaCover`](crate::escape::JuliaCover) finds
+//! all of the set.
+//!
+//! Format: 29 fractional bits inside, 24 outside. A backward step divides errors by `|2 z|`: they do not add
+//! up.
 
 use fixed::types::I3F29;
 use rand_xoshiro::Xoshiro128PlusPlus;

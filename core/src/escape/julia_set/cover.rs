@@ -1,7 +1,13 @@
-//! Where the Julia set `J_c` is: which discs and squares it meets, by discs that are carried forward.
+//! Where the Julia set `J_c` is: decides of a disc or a square whether the set meets it, by a disc that is
+//! carried forward.
 //!
-//! `z -> z^2 + c` takes the disc of radius `r` round `z` into the disc of radius `r (2 |z| + r)` round `z^2 +
-//! c`; every rounding is added to the radius. The disc is carried on until it tells:
+//! A picture is made of such squares, one a pixel. Unlike backward iteration it also finds what a random walk
+//! rarely visits, and neither picture nor grid has to be stored: a square is decided by itself, and exactly
+//! as its negative is, since both have the same image.
+//!
+//! `z -> z^2 + c` takes the disc of radius `r` round `z` into the disc of radius `r (2 |z| + r)` round
+//! `z^2 + c`; every rounding is added to the radius. The disc is carried on until it tells:
+//!
 //! - it lies beyond `R = (1 + sqrt(1 + 4 |c|)) / 2`: all of it escapes, it does not meet `J_c`;
 //! - it lies within a disc that it has been before: its orbits stay bounded, it does not meet `J_c`. The
 //!   earlier disc is kept at doubling distances, as in R. P. Brent, "An improved Monte Carlo factorization
@@ -11,8 +17,7 @@
 //! Where `|f'|` is 1, at parabolic points and in Siegel discs, the radius grows by `r^2` alone although
 //! nothing is driven apart. Therefore a disc counts only when `r |(f^n)'|`, its size to first order, grows to
 //! `5 r` or 1/48 as well before its middle escapes or it shrinks to `r / 64`; by Schwarz and Pick it is then
-//! no farther from `J_c` than some radii. Neither picture nor grid has to be stored: a square is decided by
-//! itself, and exactly as its negative is, since both have the same image.
+//! no farther from `J_c` than some radii.
 //!
 //! Source: interval arithmetic in midpoints and radii (R. E. Moore, "Interval Analysis", 1966) on the level
 //! sets of H.-O. Peitgen, D. Saupe, "The Science of Fractal Images", 1988, section 4.2. Format: 27 fractional
@@ -26,23 +31,25 @@ use crate::Error;
 use crate::escape::julia_set::set::JuliaSet;
 use crate::escape::view::shallow::View;
 use crate::num::Complex;
+use crate::num::formats::{Q27, UQ27};
 use crate::num::{Wide, sqrt};
 use crate::plane::Field;
 
-const FRACTION: u32 = 27;
-const ONE: u32 = 1 << FRACTION;
+const FRACTION_Q27: u32 = 27;
+const ONE_UQ27: UQ27 = 1 << FRACTION_Q27;
 /// The radius from which on a disc tells nothing more.
-const LARGE: u32 = ONE / 2;
+const LARGE: UQ27 = ONE_UQ27 / 2;
 /// How many times its own size, and what size, a disc near `J_c` reaches to first order, whichever is less.
 const STRETCH: u32 = 5;
-const STRETCHED: u32 = ONE / 48;
+const STRETCHED: UQ27 = ONE_UQ27 / 48;
 /// A middle beyond this never returns, for all `|c| <= 2`; a step from here stays below 9.
-const FAR: u32 = ONE / 2 * 5;
+const FAR: UQ27 = ONE_UQ27 / 2 * 5;
 /// What a step adds to the radius: each part of the product is cut off by less than a unit, `c` was rounded
 /// by half of one, the modulus is low by less than one and so is the new radius: below 5 units in all.
 const ROUNDING: u64 = 5;
 
-type Point = (i32, i32);
+/// A point of the plane, as discs have it for their middles.
+type Point27 = (Q27, Q27);
 
 impl JuliaSet {
     /// The radius of a disc round 0 that contains `J_c`: `(1 + sqrt(1 + 4 |c|)) / 2`, beyond which every
@@ -91,23 +98,23 @@ impl JuliaSet {
 /// The widest square that is looked at.
 const WIDEST: Wide = Wide::lit("4");
 
-/// To 27 fractional bits; none beyond `-4 .. 4`, where squares as wide as 4 do not meet the set.
-fn point(z: Complex<Wide>) -> Option<Point> {
+/// A point, rounded to nearest; none beyond `-4 .. 4`, where squares as wide as 4 do not meet the set.
+fn point(z: Complex<Wide>) -> Option<Point27> {
     let part = |v: Wide| {
         let bits = (v.to_bits() >> 20).saturating_add(1) >> 1;
-        i32::try_from(bits).ok().filter(|bits| bits.unsigned_abs() < 4 * ONE)
+        i32::try_from(bits).ok().filter(|bits| bits.unsigned_abs() < 4 * ONE_UQ27)
     };
     Some((part(z.re)?, part(z.im)?))
 }
 
-/// To 27 fractional bits, rounded up, at most 16, which reaches from any point to all of the set; and 2 units
-/// for that of a middle.
-fn up(length: Wide) -> u32 {
-    ((length.to_bits() >> 21).clamp(0, 16 * i64::from(ONE) - 3) as u32) + 3
+/// A length, rounded up, at most 16, which reaches from any point to all of the set; and 2 units more, as a
+/// middle is rounded too.
+fn up(length: Wide) -> UQ27 {
+    ((length.to_bits() >> 21).clamp(0, 16 * i64::from(ONE_UQ27) - 3) as u32) + 3
 }
 
 /// Half the diagonal of a square, rounded up.
-const fn half_diagonal(side: u32) -> u32 {
+const fn half_diagonal(side: UQ27) -> UQ27 {
     // sqrt(1/2) < 182/256; the side is at most 2^29
     ((side as u64 * 182) >> 8) as u32 + 1
 }
@@ -115,8 +122,9 @@ const fn half_diagonal(side: u32) -> u32 {
 /// What is needed of a set to carry discs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Discs {
-    c: Point,
-    bound: u32,
+    c: Point27,
+    /// The radius of the disc round 0 that contains the set.
+    bound: UQ27,
 }
 
 impl Discs {
@@ -126,14 +134,14 @@ impl Discs {
         Self { c: (nearest(x), nearest(y)), bound: up(set.radius()) }
     }
 
-    fn may_meet(&self, middle: Point, radius: u32) -> bool {
+    fn may_meet(&self, middle: Point27, radius: UQ27) -> bool {
         let (mut z, mut r) = (middle, radius);
         let mut first_order = radius;
         let mut is_large = false;
         let mut saved = (z, r);
         let mut next_save = 2;
         let stretched = radius.saturating_mul(STRETCH).min(STRETCHED);
-        let limit = (64 + (2 * ONE).checked_div(radius).unwrap_or(0)).min(1 << 14);
+        let limit = (64 + (2 * ONE_UQ27).checked_div(radius).unwrap_or(0)).min(1 << 14);
         // what is large may take its time: at a parabolic point with two petals orbits part like 1 / sqrt(n)
         for step in 1..=4 * limit {
             if step > limit && !is_large {
@@ -159,15 +167,15 @@ impl Discs {
             let twice = 2 * u64::from(modulus);
             // round 0 a disc goes into one of its radius squared
             let size = u64::from(first_order);
-            first_order = ((size * twice.max(size)) >> FRACTION).min(u64::from(ONE)) as u32;
+            first_order = ((size * twice.max(size)) >> FRACTION_Q27).min(u64::from(ONE_UQ27)) as u32;
             z = (
-                (((x - y) * (x + y)) >> FRACTION) as i32 + self.c.0,
-                ((x * y) >> (FRACTION - 1)) as i32 + self.c.1,
+                (((x - y) * (x + y)) >> FRACTION_Q27) as i32 + self.c.0,
+                ((x * y) >> (FRACTION_Q27 - 1)) as i32 + self.c.1,
             );
             if is_large {
                 continue;
             }
-            r = ((u64::from(r) * (twice + 2 + u64::from(r))) >> FRACTION) as u32 + ROUNDING as u32;
+            r = ((u64::from(r) * (twice + 2 + u64::from(r))) >> FRACTION_Q27) as u32 + ROUNDING as u32;
             if is_within((z, r), saved) {
                 return false;
             }
@@ -179,7 +187,7 @@ impl Discs {
         false
     }
 
-    fn sixteenths(&self, middle: Point, side: u32) -> u8 {
+    fn sixteenths(&self, middle: Point27, side: UQ27) -> u8 {
         let mut count = 0;
         if !self.may_meet(middle, half_diagonal(side)) {
             return 0;
@@ -195,13 +203,13 @@ impl Discs {
     }
 }
 
-fn around((x, y): Point, d: u32) -> [Point; 4] {
+fn around((x, y): Point27, d: UQ27) -> [Point27; 4] {
     let d = d as i32; // at most 2^27; the parts of a point are below 2^29 each
     [(x - d, y - d), (x + d, y - d), (x - d, y + d), (x + d, y + d)]
 }
 
 /// Whether the first disc lies in the second.
-fn is_within((z, r): (Point, u32), (w, s): (Point, u32)) -> bool {
+fn is_within((z, r): (Point27, UQ27), (w, s): (Point27, UQ27)) -> bool {
     let Some(room) = s.checked_sub(r) else { return false };
     let square = |a: i32, b: i32| {
         let d = (i64::from(a) - i64::from(b)).unsigned_abs();
@@ -229,7 +237,7 @@ fn is_within((z, r): (Point, u32), (w, s): (Point, u32)) -> bool {
 pub struct JuliaCover {
     view: View,
     discs: Discs,
-    pitch: u32,
+    pitch: UQ27,
 }
 
 impl JuliaCover {
@@ -312,7 +320,9 @@ impl Iterator for JuliaCoverRow<'_> {
                 // half a diagonal of 9 by 1 pixels is 4.53 of them
                 let radius = u64::from(pitch) * 39 / 8 + 16;
                 let may_meet = match (i32::try_from(middle), u32::try_from(radius)) {
-                    (Ok(x), Ok(r)) if x.unsigned_abs() < 8 * ONE && r < LARGE => discs.may_meet((x, z.1), r),
+                    (Ok(x), Ok(r)) if x.unsigned_abs() < 8 * ONE_UQ27 && r < LARGE => {
+                        discs.may_meet((x, z.1), r)
+                    }
                     _ => true,
                 };
                 self.run = Some((run, may_meet));

@@ -1,7 +1,11 @@
-//! What is known of the Julia set `J_c`, the boundary of `K_c`, without drawing it: fixed points, connectedness, the two simple cases.
+//! What is known of the Julia set `J_c` before anything is drawn: its fixed points, whether it is connected,
+//! the two simple cases.
 //!
-//! Source: course unit V, sections 5.5.3 and 5.5.4. Fixed points of `z^2 + c`: `p = 1/2 ± sqrt(1/4 - c)` (eq. 4); `p` attracts when `|2 p| < 1` and
-//! repels when `|2 p| > 1`. `K_c` is connected exactly when the orbit of 0 is bounded, that is when `c` belongs to the Mandelbrot set.
+//! `J_c` is the boundary of `K_c`, the points whose orbits under `z^2 + c` stay bounded. Source: course unit
+//! V, sections 5.5.3 and 5.5.4. Fixed points of `z^2 + c`: `p = 1/2 ± sqrt(1/4 - c)` (eq. 4); `p` attracts
+//! when `|2 p| < 1` and repels when `|2 p| > 1`. `K_c` is connected exactly when the orbit of 0 is bounded,
+//! that is when `c` belongs to the Mandelbrot set.
+//!
 //! Format: 29 fractional bits.
 
 use fixed::types::I3F29;
@@ -9,10 +13,11 @@ use fixed::types::I3F29;
 use crate::Error;
 use crate::escape::julia_set::square_root::square_root;
 use crate::escape::orbit::cardioid;
-use crate::escape::orbit::dwell::{self, FRACTION, Fine, Point29};
+use crate::escape::orbit::dwell::{self, FRACTION_Q29, Fine, Point29};
 use crate::escape::orbit::narrow::narrow;
 use crate::escape::value::checked_max;
 use crate::num::Complex;
+use crate::num::formats::Q29;
 use crate::num::{Wide, sqrt};
 
 /// The Julia set of `z^2 + c`.
@@ -105,11 +110,11 @@ impl JuliaSet {
     ///
     /// Error: 2 units (`fixed_points_are_fixed`); the stability is exact.
     pub fn fixed_points(&self) -> [FixedPoint; 2] {
-        const HALF: i32 = 1 << (FRACTION - 1);
-        const QUARTER: i64 = 1 << (FRACTION - 2);
+        const HALF: Q29 = 1 << (FRACTION_Q29 - 1);
+        const QUARTER: i64 = 1 << (FRACTION_Q29 - 2);
         let (re, im) = square_root(QUARTER - i64::from(self.c.0), -i64::from(self.c.1));
         // the root has a real part of at most 3/2
-        let point = |x: i32, y: i32| Complex::new(I3F29::from_bits(HALF + x), I3F29::from_bits(y));
+        let point = |x: Q29, y: Q29| Complex::new(I3F29::from_bits(HALF + x), I3F29::from_bits(y));
         // |1 + 2 s| with re s >= 0 is 1 for s = 0 alone
         let at_cusp = i64::from(self.c.0) == QUARTER && self.c.1 == 0;
         let first = if at_cusp { Stability::Indifferent } else { Stability::Repelling };
@@ -123,10 +128,10 @@ impl JuliaSet {
     fn inner_stability(&self) -> Stability {
         let (x, y) = (i128::from(self.c.0), i128::from(self.c.1));
         // |p| < 2^31.2, q < 2^61.2: the left side stays below 2^126
-        let p = x - (1 << (FRACTION - 2));
+        let p = x - (1 << (FRACTION_Q29 - 2));
         let q = p * p + y * y;
-        let left = 4 * q * (q + (p << FRACTION));
-        let right = (y * y) << (2 * FRACTION);
+        let left = 4 * q * (q + (p << FRACTION_Q29));
+        let right = (y * y) << (2 * FRACTION_Q29);
         match left.cmp(&right) {
             core::cmp::Ordering::Less => Stability::Attracting,
             core::cmp::Ordering::Equal => Stability::Indifferent,
@@ -151,7 +156,7 @@ impl JuliaSet {
     pub const fn simple_case(&self) -> Option<SimpleCase> {
         match self.c {
             (0, 0) => Some(SimpleCase::UnitCircle),
-            (re, 0) if re == -(2 << FRACTION) => Some(SimpleCase::Segment),
+            (re, 0) if re == -(2 << FRACTION_Q29) => Some(SimpleCase::Segment),
             _ => None,
         }
     }

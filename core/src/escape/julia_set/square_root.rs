@@ -1,11 +1,14 @@
-//! The square root of a complex number.
+//! The square root of a complex number, the step of backward iteration.
 //!
-//! With `m = |x + i y|` the root in the right half plane is `u + i v`, `u = sqrt((m + x) / 2)`, `v = y / (2 u)`; for `x < 0` the larger part is the
-//! imaginary one and the two formulas change places, so that nothing cancels. Source: W. Kahan, "Branch cuts for complex elementary
-//! functions", 1987. Format: 29 fractional bits. The number is first scaled by a power of 4, so that small ones lose nothing.
+//! With `m = |x + i y|` the root in the right half plane is `u + i v`, `u = sqrt((m + x) / 2)`,
+//! `v = y / (2 u)`; for `x < 0` the larger part is the imaginary one and the two formulas change places, so
+//! that nothing cancels. Source: W. Kahan, "Branch cuts for complex elementary functions", 1987.
+//!
+//! Format: 29 fractional bits. The number is first scaled by a power of 4, so that small ones lose nothing.
 
 use fixed::types::I3F29;
 
+use crate::num::formats::Q29;
 use crate::num::{Complex, high, product_u, root_and_reciprocal, square_u};
 
 impl Complex<I3F29> {
@@ -26,12 +29,13 @@ impl Complex<I3F29> {
     }
 }
 
-/// The root of `x + i y`, both with 29 fractional bits. Error: below 2 units of `2^-29` in each part
-/// (`a_root_is_within_two_units`), none for the squares of real halves (`squares_of_halves_have_exact_roots`).
+/// The root of `x + i y`, whose parts have 29 fractional bits too. Error: below 2 units of `2^-29` in each
+/// part (`a_root_is_within_two_units`), none for the squares of real halves
+/// (`squares_of_halves_have_exact_roots`).
 ///
 /// Domain: `|x|, |y| <= 4` (a difference of two points of the disc, 4 included).
 #[inline]
-pub(crate) fn square_root(x: i64, y: i64) -> (i32, i32) {
+pub(crate) fn square_root(x: i64, y: i64) -> (Q29, Q29) {
     let (abs_x, abs_y) = (x.unsigned_abs() as u32, y.unsigned_abs() as u32);
     if abs_x | abs_y == 0 {
         return (0, 0);

@@ -1,4 +1,5 @@
-//! The arithmetics that orbits are computed in, and which of them a view needs.
+//! The arithmetics that orbits are computed in, and which of them a view needs: the deeper a view, the more
+//! bits tell its pixels apart, and the slower an iteration.
 
 use super::dwell::{self, Coarse, Fine, Point29, Rounding};
 use crate::num::Wide;

@@ -1,10 +1,13 @@
 //! Complex numbers of any size with a short mantissa: two parts that share an exponent.
 //!
-//! `(re + i im) 2^exponent`, the larger part between `2^29` and `2^30` in magnitude: block floating point, as in J. H. Wilkinson, "Rounding Errors
-//! in Algebraic Processes", 1963, section 1.26. A derivative and the distance of two neighbouring orbits have such numbers: 30
-//! bits are plenty, the range is not bounded. Each operation rounds to nearest, `2^-30` of the larger part; a sum
-//! that cancels is rounded as the larger term is. No exponent wraps: at its ends it stays (`no_exponent_wraps`).
-//! `BlockFloat<i64>` has 62 bits: for long products that are made once a picture.
+//! For values that no fixed point holds: a derivative that may grow to `2^1000`, the distance of two
+//! neighbouring orbits at a depth of `10^-100`. 30 bits of them are plenty, and their range is not bounded.
+//!
+//! The number is `(re + i im) 2^exponent`, the larger part between `2^29` and `2^30` in magnitude: block
+//! floating point, as in J. H. Wilkinson, "Rounding Errors in Algebraic Processes", 1963, section 1.26. Each
+//! operation rounds to nearest, `2^-30` of the larger part; a sum that cancels is rounded as the larger term
+//! is. No exponent wraps: at its ends it stays (`no_exponent_wraps`). `BlockFloat<i64>` has 62 bits: for long
+//! products that are made once a picture.
 
 /// `(re + i im) 2^exponent`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,8 +121,8 @@ macro_rules! arithmetic {
                 if magnitude == 0 {
                     return Self::ZERO;
                 }
-                // the modulus of a product is between 2^(2 BITS - 2) and 2^(2 BITS + 1): BITS - 2 to BITS + 1 places are too many, as many as
-                // a shift within two words takes
+                // the modulus of a product is between 2^(2 BITS - 2) and 2^(2 BITS + 1): it has BITS - 2 to
+                // BITS + 1 places too many, as many as a shift within two words takes
                 let places = (<$double>::BITS - <$word>::BITS - magnitude.leading_zeros() + <$word>::BITS
                     - $bits)
                     .clamp($bits - 2, $bits + 1);

@@ -1,19 +1,25 @@
-//! Two parts of the Mandelbrot set that a formula recognises, so that nobody iterates there.
+//! The two largest parts of the Mandelbrot set, recognised by a formula, so that nobody iterates there.
 //!
-//! - main cardioid: `q (q + p) <= y^2 / 4` with `p = x - 1/4`, `q = p^2 + y^2`: the orbit tends to a fixed point;
+//! Nine tenths of the set lie in them, and each of their pixels would take all of its `Num` iterations.
+//!
+//! - main cardioid: `q (q + p) <= y^2 / 4` with `p = x - 1/4`, `q = p^2 + y^2`: the orbit tends to a fixed
+//!   point;
 //! - disc of period 2: `(x + 1)^2 + y^2 <= 1/16`: it tends to a cycle of two points.
 //!
-//! Source: B. Branner, "The Mandelbrot set", Proc. Symp. Appl. Math. 39, 1989: `|2 z| < 1` at the fixed point `z = z^2 + c`, `|4 (c + 1)| < 1`
-//! at the cycle. Format: high words, 26 fractional bits, every rounding towards "not inside": a point of the outside is never
-//! called inside (`nothing_outside_is_called_inside`), and a rim, `2^-20` wide except near the cusp at
+//! Source: B. Branner, "The Mandelbrot set", Proc. Symp. Appl. Math. 39, 1989: `|2 z| < 1` at the fixed point
+//! `z = z^2 + c`, `|4 (c + 1)| < 1` at the cycle.
+//!
+//! Format: high words, 26 fractional bits, every rounding towards "not inside": a point of the outside is
+//! never called inside (`nothing_outside_is_called_inside`), and a rim, `2^-20` wide except near the cusp at
 //! 1/4 where it is wider, is left to the iteration (`the_rim_that_is_left_is_thin`).
 
-use crate::escape::orbit::dwell::{FRACTION, Point29};
+use crate::escape::orbit::dwell::{FRACTION_Q29, Point29};
+use crate::num::formats::Q26;
 use crate::num::{high, product};
 
-/// Kept free inside both borders, in units of `2^-26`: deeper inside, the orbit is drawn in faster than rounding drives it out
+/// Kept free inside both borders: deeper inside, the orbit is drawn in faster than rounding drives it out
 /// (`interior_and_cycles_change_no_pixel`, on the rims themselves).
-const MARGIN: i32 = 1 << 4;
+const MARGIN: Q26 = 1 << 4;
 
 /// Whether `c` lies in one of the two parts, apart from a thin rim.
 #[inline(always)]
@@ -28,15 +34,17 @@ pub(crate) fn contains(c: Point29) -> bool {
 pub(crate) fn period((x, y): Point29) -> Option<u32> {
     let yy = product(y, y); // at most 2^60
     let yy_high = (yy >> 32) as i32;
-    // p >= -9/4, p^2 + y^2 < 9.1 < 32: no word overflows. Both sums are low by less than 2 units before the margin is added.
-    let p = x - (1 << (FRACTION - 2));
+    // p >= -9/4, p^2 + y^2 < 9.1 < 32: no word overflows. Both sums are low by less than 2 units before the
+    // margin is added.
+    let p = x - (1 << (FRACTION_Q29 - 2));
     let q = high(p, p) + yy_high + MARGIN;
     let q_plus_p = q + (p >> 3) + 1;
-    // 52 fractional bits on both sides. If q + p is negative, so is the exact one, and the exact test holds as well.
+    // 52 fractional bits on both sides. If q + p is negative, so is the exact one, and the exact test holds
+    // as well.
     if product(q, q_plus_p) <= yy >> 8 {
         return Some(1);
     }
-    let r = x + (1 << FRACTION);
+    let r = x + (1 << FRACTION_Q29);
     (high(r, r) + yy_high + MARGIN <= 1 << 22).then_some(2)
 }
 

@@ -1,15 +1,19 @@
 //! The cycle that an orbit is drawn to, proven by a disc that comes back inside itself.
 //!
-//! If `p` steps of `z^2 + c` carry a disc into its own interior, that disc holds one point of a cycle of `p` points, or of a divisor, that
-//! attracts all of it (H. A. Schwarz's lemma; C. J. Earle and R. S. Hamilton, 1970). No other cycle of `z^2 + c` attracts, and this one
-//! draws in the orbit of 0 (P. Fatou, 1919): it never escapes. A disc of radius `r` around `z` comes to lie within `r (2 |z| + r)` of `z^2 + c`, and what
+//! It colours the inside of the set by periods, and ends the orbits of deep pictures that would never escape.
+//!
+//! If `p` steps of `z^2 + c` carry a disc into its own interior, that disc holds one point of a cycle of `p`
+//! points, or of a divisor, that attracts all of it (H. A. Schwarz's lemma; C. J. Earle and R. S. Hamilton,
+//! 1970). No other cycle of `z^2 + c` attracts, and this one draws in the orbit of 0 (P. Fatou, 1919): it
+//! never escapes. A disc of radius `r` around `z` comes to lie within `r (2 |z| + r)` of `z^2 + c`, and what
 //! rounding moved the point by is added.
 //!
-//! So a period that is found is right for the very `c` that the orbit was computed with, whatever its rounding: by which
-//! point the disc lies and how large it is are guesses, that it comes back is proven. That none is found proves nothing.
+//! So a period that is found is right for the very `c` that the orbit was computed with, whatever its
+//! rounding: by which point the disc lies and how large it is are guesses, that it comes back is proven. That
+//! none is found proves nothing.
 //!
-//! The disc lies around the point of the orbit that is nearest to 0: near a small copy of the set all cycles pass by the same
-//! places, and only there are they told apart.
+//! The disc lies around the point of the orbit that is nearest to 0: near a small copy of the set all cycles
+//! pass by the same places, and only there are they told apart.
 
 use crate::escape::orbit::block_float::{BlockFloat, Number};
 use crate::escape::orbit::upper::Upper;

@@ -1,35 +1,45 @@
-//! The dwell of an orbit: how many times `d <- d^2 + c` may be applied before `|d|` exceeds 2, at most `Num` times.
+//! The dwell of an orbit in 32-bit words: how many times `d <- d^2 + c` may be applied before `|d|` exceeds
+//! 2, at most `Num` times. This is the inner loop of every picture of the Mandelbrot set and of Julia sets
+//! that is not deep.
 //!
-//! Source: course unit V, "The Mandelbrot set", section 5.4.3, read as its own definition says: `dwell = min(iterations until |d_k| > 2, Num)`,
-//! so that a start beyond 2 has dwell 0. Format: I3F29 in 32-bit words, every product rounded once.
+//! Source: course unit V, "The Mandelbrot set", section 5.4.3, read as its own definition says:
+//! `dwell = min(iterations until |d_k| > 2, Num)`, so that a start beyond 2 has dwell 0. Format: I3F29 in
+//! 32-bit words, every product rounded once.
 //!
-//! # Why nothing that wrapped can be mistaken for a point of the disc
-//! An I3F29 holds `[-4, 4)`, and a step from `|d| <= 2` with `|c| <= 2` reaches 6. A component that leaves the format comes back 8 away:
-//! from `4 <= |v| < 6` it lands strictly beyond 2, so that the next test sees an escape, as it should. Only `|v| = 6` would land on 2, the
-//! edge of the disc (`c = 2`: `2 -> 6`, stored as -2; `c = -2`: `2i -> -6`, stored as 2). Hence:
-//! - the loop steps only from `high(x x) + high(y y) < NEAR`. The sum of the high words is low by less than 2 units of `2^-26`, so that
-//!   `|d|^2 < 4 - 2^-7`. Then `|d^2 + c| < 6 - 2^-7`, and rounding, below `2^-25`, does not reach 6;
-//! - every other point takes the slow path, [`careful`], with exact 64-bit products and sums that do not wrap.
+//! ### Why nothing that wrapped can be mistaken for a point of the disc
+//! An I3F29 holds `[-4, 4)`, and a step from `|d| <= 2` with `|c| <= 2` reaches 6. A component that leaves
+//! the format comes back 8 away: from `4 <= |v| < 6` it lands strictly beyond 2, so that the next test sees
+//! an escape, as it should. Only `|v| = 6` would land on 2, the edge of the disc (`c = 2`: `2 -> 6`, stored
+//! as -2; `c = -2`: `2i -> -6`, stored as 2). Hence:
 //!
-//! The sum itself does not wrap either: `high(x x) <= 2^30`, so that it is at most `2^31` in an unsigned word.
+//! - the loop steps only from `high(x x) + high(y y) < NEAR`. The sum of the high words is low by less than 2
+//!   units of `2^-26`, so that `|d|^2 < 4 - 2^-7`. Then `|d^2 + c| < 6 - 2^-7`, and rounding, below `2^-25`,
+//!   does not reach 6;
+//! - every other point takes the slow path, [`careful`], with exact 64-bit products and sums that do not
+//!   wrap.
 //!
-//! # Why stopping at a repeated point changes nothing
-//! The next stored point is a function of the stored point alone. When one comes back, the loop runs for ever through points that have all passed
-//! the test: the dwell is `Num`. The loop compares with a saved point once every 8 iterations and moves the saved point at doubling
-//! distances (R. P. Brent, "An improved Monte Carlo factorization algorithm", 1980).
+//! The sum itself does not wrap either: `high(x x) <= 2^30`, so that it is at most `2^31` in an unsigned
+//! word.
+//!
+//! ### Why stopping at a repeated point changes nothing
+//! The next stored point is a function of the stored point alone. When one comes back, the loop runs for ever
+//! through points that have all passed the test: the dwell is `Num`. The loop compares with a saved point
+//! once every 8 iterations and moves the saved point at doubling distances (R. P. Brent, "An improved Monte
+//! Carlo factorization algorithm", 1980).
 
+use crate::num::formats::{Q26, Q29, UQ26, UQ58};
 use crate::num::{high_of_double, high_of_square, product};
 
-/// A stored point: real and imaginary part with 29 fractional bits.
-pub(crate) type Point29 = (i32, i32);
+/// A stored point: real and imaginary part.
+pub(crate) type Point29 = (Q29, Q29);
 
-/// Fractional bits of a stored point.
-pub(crate) const FRACTION: u32 = 29;
-/// `|d|^2` from which on the slow path decides: `4 - 2^-6` with 26 fractional bits. (An immediate operand on Cortex-M; anything from 3 to
-/// `4 - 2^-24` would do.)
-const NEAR: u32 = 0x0ff0_0000;
-/// `2^2` with 58 fractional bits.
-pub(super) const FOUR: u64 = 1 << (2 + 2 * FRACTION);
+/// How many fractional bits the parts of a stored point have.
+pub(crate) const FRACTION_Q29: u32 = 29;
+/// `|d|^2` from which on the slow path decides: `4 - 2^-6`. (An immediate operand on Cortex-M; anything from
+/// 3 to `4 - 2^-24` would do.)
+const NEAR: UQ26 = 0x0ff0_0000;
+/// The square of 2.
+pub(super) const FOUR: UQ58 = 1 << (2 + 2 * FRACTION_Q29);
 
 /// How a step rounds its products.
 pub(crate) trait Rounding {
@@ -39,7 +49,8 @@ pub(crate) trait Rounding {
     /// The next point of the orbit that [`dwell`] follows, where both are within 2.
     #[inline(always)]
     fn next(z: Point29, c: Point29) -> Point29 {
-        // the step of `careful`, which leaves no format here
+        // near the edge the loop takes the step of `careful`: that of `Fine`, as nothing leaves the format
+        // here
         if is_near(z) { Fine::step(z, c) } else { Self::step(z, c) }
     }
 }
@@ -144,9 +155,9 @@ fn is_near(z: Point29) -> bool {
     norm(z) as u32 >= NEAR
 }
 
-/// `|z|^2` with 26 fractional bits, at most `2^30 + 2^30` if read as unsigned; low by less than 2 units.
+/// `|z|^2`, at most `2^30 + 2^30` units if read as unsigned; low by less than 2 of them.
 #[inline(always)]
-fn norm((x, y): Point29) -> i32 {
+fn norm((x, y): Point29) -> Q26 {
     high_of_square(x).wrapping_add(high_of_square(y))
 }
 
@@ -247,7 +258,7 @@ pub(crate) mod tests {
             let exact = [x * x - y * y, 2 * x * y];
             for (worst, (re, im)) in worst.iter_mut().zip([Fine::step(z, (0, 0)), Coarse::step(z, (0, 0))]) {
                 for (worst, (got, exact)) in worst.iter_mut().zip([re, im].into_iter().zip(exact)) {
-                    *worst = (*worst).max(((i128::from(got) << FRACTION) - exact).abs());
+                    *worst = (*worst).max(((i128::from(got) << FRACTION_Q29) - exact).abs());
                 }
             }
         }

@@ -1,17 +1,20 @@
-//! How an orbit ends: the last point within 2, from which the colourings go on.
+//! How an orbit ends: its last point within 2, from which the colourings go on.
+//!
+//! The dwell only counts. Smooth colours and distances also need to know where the orbit was when it escaped;
+//! an orbit in words is followed once more for that, with the derivative if it is asked for.
 
 use super::block_float::{BlockFloat, Number};
 
-/// The last point of an orbit that matters: near 2 or beyond, and what goes on from there.
+/// The last point of an orbit that matters, near 2 or beyond, and what is needed to go on from there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ending {
     /// How many steps the point is away from the first, `c` or a Julia set's start.
     pub(crate) steps: u32,
     pub(crate) z: BlockFloat,
     pub(crate) c: BlockFloat,
-    /// By the point; only where it was asked for.
+    /// Of `z` by the point that the orbit belongs to; only where it was asked for.
     pub(crate) derivative: BlockFloat,
-    /// What it gains at each step: 1 where the constant moves with the point.
+    /// What the derivative gains at each step: 1 where the constant moves with the point, else 0.
     pub(crate) gain: BlockFloat,
 }
 

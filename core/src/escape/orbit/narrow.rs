@@ -1,10 +1,14 @@
-//! The stored point nearest to a point of the plane, and whether there is one: the disc `|c| <= 2` is decided on all bits.
+//! From a point of the plane to the stored point nearest to it, the start of an orbit in 32-bit words.
+//!
+//! A point beyond the disc `|c| <= 2` has none, as its dwell is 0; which it is, is decided on all bits, so
+//! that rounding moves no pixel in or out.
 
-use super::dwell::{FRACTION, Point29, is_beyond};
+use super::dwell::{FRACTION_Q29, Point29, is_beyond};
+use crate::num::formats::{Q29, Q48, UQ26};
 use crate::num::{Complex, Wide, high_of_square, mul_high_u};
 
-/// Fractional bits that a point loses.
-pub(crate) const NARROWED: u32 = Wide::FRAC_NBITS - FRACTION;
+/// How many fractional bits a coordinate loses when it becomes a stored one.
+pub(crate) const NARROWED: u32 = Wide::FRAC_NBITS - FRACTION_Q29;
 
 /// The nearest stored point, none beyond the disc `|c| <= 2`.
 ///
@@ -30,12 +34,12 @@ pub(crate) fn narrow(c: Complex<Wide>) -> Option<Point29> {
 }
 
 #[inline(always)]
-fn high_square(v: i32) -> u32 {
+fn high_square(v: Q29) -> UQ26 {
     high_of_square(v) as u32
 }
 
 #[cold]
-fn narrow_at_the_circle(x: i64, y: i64, word: Point29) -> Option<Point29> {
+fn narrow_at_the_circle(x: Q48, y: Q48, word: Point29) -> Option<Point29> {
     // |v| < 2^49 + 2^33, times 2^13: below 2^63; the squares, 122 fractional bits, are added in two words
     let halves = |v: i64| {
         let v = v.unsigned_abs() << 13;

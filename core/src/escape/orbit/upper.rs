@@ -1,7 +1,10 @@
-//! Bounds of sizes from above: every operation rounds up.
+//! Bounds of sizes from above, for proofs: every operation rounds up.
 //!
-//! `mantissa 2^exponent`, the mantissa at least `2^31`; a result is too large by less than `2^-27` of itself, and never too small
-//! (`bounds_are_above_and_near`).
+//! The radius of a disc that is carried along an orbit is such a number: it may be too large, but never too
+//! small, or what it proves would be wrong.
+//!
+//! `mantissa 2^exponent`, the mantissa at least `2^31`; a result is too large by less than `2^-27` of itself,
+//! and never too small (`bounds_are_above_and_near`).
 
 use crate::escape::orbit::block_float::BlockFloat;
 use crate::num::{product_u, root_and_reciprocal};
@@ -28,7 +31,7 @@ impl Upper {
         if square == 0 {
             return Self::power(block.exponent);
         }
-        // a unit too low, and half a unit in each part
+        // the root may be a unit too low, and each part of the block was rounded by half a unit
         let (root, ..) = root_and_reciprocal(square);
         let up = root.saturating_add(2);
         let places = up.leading_zeros();

@@ -1,12 +1,15 @@
-//! Dwell in 64-bit and 128-bit words, for pixels that 32 bits do not tell apart.
+//! The dwell in 64-bit and 128-bit words, for views so deep that 32 bits do not tell two pixels apart.
 //!
-//! Source and meaning: [`crate::escape::orbit::dwell`]. Format: Q4.60 and Q4.124, `[-8, 8)`. A step from `|z| <= 2` with `|c| <= 2` stays below 6: nothing wraps.
+//! Source and meaning: [`crate::escape::orbit::dwell`]. Format: Q60 and Q124, `[-8, 8)`. A step from
+//! `|z| <= 2` with `|c| <= 2` stays below 6: nothing wraps.
 //!
-//! - 64 bits: `re = (x - y)(x + y) + c`, `im = 2 x y + c`, each product from four signed 32-bit ones. Rounded to nearest: half a unit a part.
-//! - 128 bits: squares need no signs and fewer products: `re = x^2 - y^2 + c`, `im = (x + y)^2 - (x^2 + y^2) + c`. Below 1 unit in the real, 2 in
-//!   the imaginary part.
+//! - 64 bits: `re = (x - y)(x + y) + c`, `im = 2 x y + c`, each product from four signed 32-bit ones. Rounded
+//!   to nearest: half a unit a part.
+//! - 128 bits: squares need no signs and fewer products: `re = x^2 - y^2 + c`,
+//!   `im = (x + y)^2 - (x^2 + y^2) + c`. Below 1 unit in the real, 2 in the imaginary part.
 //!
-//! Cost in Cortex-M4 instructions (`cargo xtask target`, what a pixel takes at its start included): 58.3 an iteration in 64 bits, 259.2 in 128.
+//! Cost in Cortex-M4 instructions (`cargo xtask target`, what a pixel takes at its start included): 58.3 an
+//! iteration in 64 bits, 259.2 in 128.
 
 use crate::escape::orbit::block_float::{BlockFloat, Number};
 use crate::escape::orbit::cardioid;
@@ -14,14 +17,15 @@ use crate::escape::orbit::cycle::{self, Path};
 use crate::escape::orbit::dwell::is_beyond;
 use crate::escape::orbit::ending::Steps;
 use crate::escape::orbit::upper::Upper;
+use crate::num::formats::{Q28, Q60, Q124, UQ24};
 use crate::num::{high_of_square, product, product_u};
 
 /// A real word of an orbit.
 pub(crate) trait WideWord: Copy + PartialEq {
     /// `z^2 + c` for `|z| <= 2`, `|c| <= 2`.
     fn step(z: (Self, Self), c: (Self, Self)) -> (Self, Self);
-    /// The highest 32 bits: 28 of them fractional.
-    fn top(self) -> i32;
+    /// The highest 32 bits.
+    fn top(self) -> Q28;
     /// Whether `x^2 + y^2 > 4`, exactly.
     fn is_beyond(x: Self, y: Self) -> bool;
     /// The nearest block.
@@ -93,8 +97,8 @@ impl<W: WideWord> Path for WideOrbit<W> {
     }
 }
 
-/// `|z|^2` from which on the exact test decides, with 24 fractional bits: `4 - 2^-6`. The tops lose less than `2^-24`.
-const NEAR: u32 = (4 << 24) - (1 << 18);
+/// `|z|^2` from which on the exact test decides: `4 - 2^-6`. The tops lose less than `2^-24`.
+const NEAR: UQ24 = (4 << 24) - (1 << 18);
 
 /// The dwell of the orbit that starts at `z`.
 ///
@@ -111,7 +115,7 @@ pub(crate) fn dwell<W: WideWord>(z: (W, W), c: (W, W), max: u32) -> u32 {
         while unfinished > 0 {
             let (tx, ty) = (x.top(), y.top());
             // |z| < 8 sqrt 2: below 2^31 as unsigned words
-            let norm = high(tx).wrapping_add(high(ty));
+            let norm = high_square(tx).wrapping_add(high_square(ty));
             if norm >= NEAR && W::is_beyond(x, y) {
                 return max - left + (block - unfinished);
             }
@@ -138,8 +142,9 @@ pub(crate) fn period<W: WideWord>(c: (W, W), max: u32) -> Option<u32> {
     cardioid::period(word).or_else(|| cycle::period(WideOrbit { z: c, c }, max))
 }
 
+/// The upper word of the square.
 #[inline(always)]
-fn high(v: i32) -> u32 {
+fn high_square(v: Q28) -> UQ24 {
     high_of_square(v) as u32
 }
 
@@ -150,7 +155,7 @@ fn multiply_add(a: u32, b: u32, c: u32, d: u32) -> (u32, u32) {
     (sum as u32, (sum >> 32) as u32)
 }
 
-/// Two signed halves, `high 2^32 + low`: four signed products make a product.
+/// Two signed halves, `high 2^32 + low`: four signed products of them make a product.
 #[inline(always)]
 fn halves(v: i64) -> (i32, i32) {
     let low = v as i32;
@@ -159,7 +164,7 @@ fn halves(v: i64) -> (i32, i32) {
 
 /// `a b / 2^(32 + DOWN)`, to nearest but for `2^-DOWN` units. Domain: `|a|, |b| < 4`, the product below 4.
 #[inline(always)]
-fn scaled_product<const DOWN: u32>(a: i64, b: i64) -> i64 {
+fn scaled_product<const DOWN: u32>(a: Q60, b: Q60) -> Q60 {
     let ((ah, al), (bh, bl)) = (halves(a), halves(b));
     // the words in the middle: below 2^63 for factors of at most 2 sqrt 2
     let middle = (product(al, bl) >> 32)
@@ -169,7 +174,7 @@ fn scaled_product<const DOWN: u32>(a: i64, b: i64) -> i64 {
     ((product(ah, bh)) << (32 - DOWN)).wrapping_add(middle >> DOWN)
 }
 
-impl WideWord for i64 {
+impl WideWord for Q60 {
     #[inline(always)]
     fn step((x, y): (Self, Self), c: (Self, Self)) -> (Self, Self) {
         let real = scaled_product::<28>(x.wrapping_sub(y), x.wrapping_add(y));
@@ -178,7 +183,7 @@ impl WideWord for i64 {
     }
 
     #[inline(always)]
-    fn top(self) -> i32 {
+    fn top(self) -> Q28 {
         (self >> 32) as i32
     }
 
@@ -201,9 +206,9 @@ impl WideWord for i64 {
     const ERROR: Upper = Upper::power(2 - 60);
 }
 
-/// The square of a Q4.124, modulo 16, rounded down. Domain: `|v| < 4`.
+/// The square, modulo 16, rounded down. Domain: `|v| < 4`.
 #[inline(always)]
-fn square(v: i128) -> i128 {
+fn square_q124(v: Q124) -> Q124 {
     let v = v.unsigned_abs();
     let [a, b, c, d] = [v as u32, (v >> 32) as u32, (v >> 64) as u32, (v >> 96) as u32];
     // products of different words, without the lowest (a b, which reaches the result by a carry only)
@@ -225,16 +230,16 @@ fn square(v: i128) -> i128 {
     (shifted(s3, s4) | (shifted(s4, s5) << 32) | (shifted(s5, s6) << 64) | (shifted(s6, s7) << 96)) as i128
 }
 
-impl WideWord for i128 {
+impl WideWord for Q124 {
     #[inline(always)]
     fn step((x, y): (Self, Self), c: (Self, Self)) -> (Self, Self) {
-        let (xx, yy, ss) = (square(x), square(y), square(x.wrapping_add(y)));
+        let (xx, yy, ss) = (square_q124(x), square_q124(y), square_q124(x.wrapping_add(y)));
         let cross = ss.wrapping_sub(xx.wrapping_add(yy));
         (xx.wrapping_sub(yy).wrapping_add(c.0), cross.wrapping_add(c.1))
     }
 
     #[inline(always)]
-    fn top(self) -> i32 {
+    fn top(self) -> Q28 {
         (self >> 96) as i32
     }
 
@@ -302,11 +307,11 @@ mod tests {
             // 128 bits: against limbs, which round a product towards 0 with a column less
             let wide = (i128::from(v) << 62) ^ (i128::from(word) << 20);
             let limbs = Limbs::<4>::from_limbs([0, 32, 64, 96].map(|s| (wide >> s) as u32));
-            let off = square(wide) - limbs.times(&limbs).top128();
+            let off = square_q124(wide) - limbs.times(&limbs).top128();
             assert!((-1..=1).contains(&off), "{wide}: {off}");
             // an exact square
             let half = i128::from(v) << 62;
-            assert_eq!(square(half), i128::from(v) * i128::from(v), "{v}");
+            assert_eq!(square_q124(half), i128::from(v) * i128::from(v), "{v}");
         }
     }
 

@@ -1,10 +1,14 @@
-//! The orbit of a point in 32-bit words, for who looks at more of it than its dwell.
+//! The orbit of a point in 32-bit words, point by point: for smooth colours, distances and periods, which
+//! look at more of it than its dwell.
+//!
+//! Step by step its points are those that the dwell was counted on, rounding and all; for periods it always
+//! has 29 bits.
 
 use crate::escape::orbit::arithmetic::Arithmetic;
 use crate::escape::orbit::block_float::BlockFloat;
 use crate::escape::orbit::cardioid;
 use crate::escape::orbit::cycle::{self, Path, Size};
-use crate::escape::orbit::dwell::{FOUR, FRACTION, Fine, Point29, Rounding, is_beyond};
+use crate::escape::orbit::dwell::{FOUR, FRACTION_Q29, Fine, Point29, Rounding, is_beyond};
 use crate::escape::orbit::ending::{Ending, Steps, follow};
 use crate::escape::orbit::upper::Upper;
 use crate::escape::value::Dwell;
@@ -44,7 +48,7 @@ impl Size for u64 {
 
     #[inline(always)]
     fn reached(self) -> (u32, i32) {
-        ((self >> 32) as u32, 32 - 2 * FRACTION as i32)
+        ((self >> 32) as u32, 32 - 2 * FRACTION_Q29 as i32)
     }
 }
 
@@ -105,12 +109,12 @@ impl Path for WordOrbit {
 
     fn step_error(&self) -> Upper {
         // below a unit in each part
-        Upper::power(1 - FRACTION as i32)
+        Upper::power(1 - FRACTION_Q29 as i32)
     }
 }
 
 fn block((x, y): Point29) -> BlockFloat {
-    BlockFloat::<i32>::new(i64::from(x), i64::from(y), -(FRACTION as i32))
+    BlockFloat::<i32>::new(i64::from(x), i64::from(y), -(FRACTION_Q29 as i32))
 }
 
 /// A point beyond 2 is no word: 20 fractional bits, as many of them as a block holds.

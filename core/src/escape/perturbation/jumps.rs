@@ -1,12 +1,21 @@
-//! Many iterations at once: along a reference a small distance is multiplied, and nothing else happens to it.
+//! Jumps: many iterations of a deep pixel at once. At a width of `10^-100` most iterations are jumped over.
 //!
-//! While `|d| << |2 Z|` the square in `d' = 2 Z d + d^2 + g` does not count, and `l` steps are one linear map: `d_l = A d_1 + B g` with
-//! `A' = 2 Z A`, `B' = 2 Z B + 1`. Source: Zhuoran, "Another solution to perturbation glitches", 2021 (bivariate linear approximation). Orbits are
-//! rebased to the start of the reference, so that all maps start at its first point `C`; a few of them, for the sizes that distances have there, are enough.
-//! The derivative by `g` takes the same map.
+//! In a deep view all orbits run close beside the reference for hundreds of steps (see [`super::reference`]).
+//! While the distance `d` of a pixel's orbit is small, `|d| << |2 Z|`, the square in its step
+//! `d' = 2 Z d + d^2 + g` does not count: all that happens to `d` is that it is multiplied, and `l` steps are
+//! one linear map,
 //!
-//! Format: products of 62 bits, rounded at the end to as many as distances have. Error of a map: each neglected square is below two units of its step, the
-//! last ones matter only, as distances grow; and three roundings.
+//! `d_l = A d_1 + B g`, with `A' = 2 Z A`, `B' = 2 Z B + 1` along the reference.
+//!
+//! `A` and `B` are the same for all pixels, so the maps are made once, while the reference is computed; a
+//! pixel takes the longest one that its distance is small enough for. Orbits are rebased to the start of the
+//! reference, so that all maps start at its first point `C`; a few of them, for the sizes that distances have
+//! there, are enough. The derivative by `g` takes the same map.
+//!
+//! Source: Zhuoran, "Another solution to perturbation glitches", 2021 (bivariate linear approximation).
+//! Format: products of 62 bits, rounded at the end to as many as distances have. Error of a map: each
+//! neglected square is below two units of its step, the last ones matter only, as distances grow; and three
+//! roundings.
 
 use crate::escape::orbit::block_float::{BlockFloat, Number};
 
@@ -14,9 +23,11 @@ use crate::escape::orbit::block_float::{BlockFloat, Number};
 const LEVELS: usize = 16;
 /// A factor below `2^FLOOR` is 0: along an orbit that is drawn in it shrinks for ever.
 const FLOOR: i32 = -(1 << 24);
-/// From the first point of the reference to another.
+
+/// The map from the first point of the reference to another.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Jump<N> {
+    /// `A` and `B`.
     a: N,
     b: N,
     /// The exponent of 2 that the distance at the first point must be below.
@@ -60,7 +71,8 @@ impl<N: Number> Jumps<N> {
     }
 }
 
-/// Follows a reference as it is computed.
+/// Follows a reference as it is computed, and keeps a map wherever the next smaller size of distances needs
+/// one.
 #[derive(Debug)]
 pub(crate) struct Builder<N> {
     jumps: Jumps<N>,
@@ -96,7 +108,8 @@ impl<N: Number> Builder<N> {
         if index == 0 || self.level >= LEVELS as i32 {
             return;
         }
-        // a step from here doubles and squares
+        // the exponent of 2 that a distance must be below at this point, for its square not to count beside
+        // `2 Z d`
         let room = z.reached().saturating_add(1 + Self::NEGLIGIBLE);
         let fits = self.b.above().saturating_add(self.jumps.reach) <= room;
         let next = if fits { self.below.min(room.saturating_sub(self.a.above())) } else { i32::MIN };

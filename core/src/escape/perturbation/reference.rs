@@ -1,16 +1,22 @@
-//! Dwell by perturbation: one orbit in wide numbers, and for each pixel its small distance from it.
+//! Dwell by perturbation, where 128 bits do not tell two pixels apart: one orbit in wide numbers, the
+//! reference, and for each pixel its small distance from it, for which 30 bits are enough.
 //!
-//! With `Z' = Z^2 + C` the reference, `z = Z + d` and `c = C + g`: `d' = (2 Z + d) d + g`. Source: K. I. Martin, "Superfractalthing maths", 2013. When `|z| <= |d|`, or at
-//! the end of the reference, the orbit is rebased: `d <- z`, and the reference starts again at `Z = 0` (Zhuoran, "Another solution to perturbation
-//! glitches", 2021). Nothing cancels then, and no pixel needs another reference. From its first point [`Jumps`] lead on.
+//! With `Z' = Z^2 + C` the reference, `z = Z + d` and `c = C + g`: `d' = (2 Z + d) d + g`. Source: K. I.
+//! Martin, "Superfractalthing maths", 2013. When `|z| <= |d|`, or at the end of the reference, the orbit is
+//! rebased: `d <- z`, and the reference starts again at `Z = 0` (Zhuoran, "Another solution to perturbation
+//! glitches", 2021). Nothing cancels then, and no pixel needs another reference. From its first point
+//! [`Jumps`] lead on.
 //!
-//! Format: reference points and distances are blocks, two 30-bit mantissas with one exponent. A step rounds the distance 3 times by `2^-30` of its
-//! size, and so does a jump, whatever its length: after `s` steps and jumps a pixel is shown as if it were moved by less than `4 s 2^-30` of its distance
-//! from the centre (`a_pixel_is_moved_by_less_than_the_bound`). Whether `|z| > 2` is decided on 30 bits: at `c = -2` alone, where an orbit follows the circle
-//! itself, a dwell is that of a circle wider by `2^-27`. Against arbitrary precision: tests/deep_zoom.rs.
+//! Format: reference points and distances are blocks, two 30-bit mantissas with one exponent. A step rounds
+//! the distance 3 times by `2^-30` of its size, and so does a jump, whatever its length: after `s` steps and
+//! jumps a pixel is shown as if it were moved by less than `4 s 2^-30` of its distance from the centre
+//! (`a_pixel_is_moved_by_less_than_the_bound`). Whether `|z| > 2` is decided on 30 bits: at `c = -2` alone,
+//! where an orbit follows the circle itself, a dwell is that of a circle wider by `2^-27`. Against arbitrary
+//! precision: tests/deep_zoom.rs.
 //!
-//! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P. Brent, 1980, as in [`crate::escape::orbit::dwell`]). So does one
-//! that has come near an attracting cycle ([`crate::escape::orbit::cycle`]): it is looked for after 2048, 4096, ... steps.
+//! An orbit that is rebased to the same distance as before goes round for ever: its dwell is `Num` (R. P.
+//! Brent, 1980, as in [`crate::escape::orbit::dwell`]). So does one that has come near an attracting cycle
+//! ([`crate::escape::orbit::cycle`]): it is looked for after 2048, 4096, ... steps.
 
 use core::slice::Iter;
 

@@ -1,4 +1,5 @@
-//! The Mandelbrot set as deep as the coordinates reach: 64 bits, 128 bits, or perturbation, by the distance of two pixels.
+//! The Mandelbrot set as deep as the coordinates reach. The distance of two pixels decides how orbits are
+//! computed: in 64 bits, in 128 bits, or by perturbation.
 
 use embedded_graphics_core::geometry::Size;
 
@@ -17,6 +18,7 @@ use crate::escape::value::checked_max;
 use crate::escape::view::deep::DeepView;
 use crate::num::Complex;
 use crate::num::Limbs;
+use crate::num::formats::{Q60, Q124};
 use crate::plane::{Field, Symmetric};
 
 /// The dwell at every pixel of a deep view.
@@ -73,20 +75,21 @@ pub struct DeepMandelbrot<'a, const LIMBS: usize> {
 }
 
 impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
-    /// The set as `view` shows it, with at most `max_dwell` iterations a pixel. `orbit` is used by perturbation only: `max_dwell` points;
-    /// where 128 bits are enough it may be empty ([`DeepMandelbrot::orbit_points`]).
+    /// The set as `view` shows it, with at most `max_dwell` iterations a pixel. `orbit` is used by
+    /// perturbation only: `max_dwell` points; where 128 bits are enough it may be empty
+    /// ([`DeepMandelbrot::orbit_points`]).
     ///
     /// # Errors
     /// [`Error::TooFew`] and [`Error::Capacity`] for the iterations as in [`Mandelbrot`](crate::escape::Mandelbrot); [`Error::BufferLength`] for a short `orbit`.
     pub fn new(view: DeepView<LIMBS>, max_dwell: u32, orbit: &'a mut [OrbitPoint]) -> Result<Self, Error> {
-        Self::with_arithmetic(view, max_dwell, Arithmetic::of(view.pitch_exponent(), max_dwell), orbit)
+        Self::new_in(view, max_dwell, Arithmetic::of(view.pitch_exponent(), max_dwell), orbit)
     }
 
-    /// The same with another arithmetic than the one that suits the view.
+    /// The set computed in an arithmetic of the caller's choice, whatever would suit the view.
     ///
     /// # Errors
     /// As [`DeepMandelbrot::new`].
-    pub fn with_arithmetic(
+    pub fn new_in(
         view: DeepView<LIMBS>,
         max_dwell: u32,
         arithmetic: Arithmetic,
@@ -256,8 +259,8 @@ enum PixelOrbit<'a> {
     /// It starts beyond 2.
     Beyond,
     Word32(WordOrbit),
-    Word64((i64, i64)),
-    Word128((i128, i128)),
+    Word64((Q60, Q60)),
+    Word128((Q124, Q124)),
     Perturbed(&'a Reference<'a, BlockFloat>, BlockFloat),
     PerturbedLong(&'a Reference<'a, BlockFloat<i64>>, BlockFloat<i64>),
 }
@@ -366,7 +369,7 @@ mod tests {
             Mandelbrot::new(narrow.unwrap(), 300).unwrap().with_arithmetic(Arithmetic::Word29).unwrap();
         let mut orbit = [OrbitPoint::default(); 600];
         for arithmetic in ALL {
-            let picture = DeepMandelbrot::with_arithmetic(view, 300, arithmetic, &mut orbit).unwrap();
+            let picture = DeepMandelbrot::new_in(view, 300, arithmetic, &mut orbit).unwrap();
             let differ = (0..30)
                 .map(|y| picture.row(y, 0..40).zip(narrow.row(y, 0..40)).filter(|(a, b)| a != b).count());
             assert!(differ.sum::<usize>() <= 4, "{arithmetic:?}");
@@ -394,7 +397,7 @@ mod tests {
         let narrow = Mandelbrot::new(narrow, max).unwrap().with_arithmetic(Arithmetic::Word29).unwrap();
         let mut orbit = std::vec![OrbitPoint::default(); 2 * max as usize];
         for arithmetic in ALL {
-            let picture = DeepMandelbrot::with_arithmetic(view, max, arithmetic, &mut orbit).unwrap();
+            let picture = DeepMandelbrot::new_in(view, max, arithmetic, &mut orbit).unwrap();
             for (column, row) in (0..36).flat_map(|row| (0..48).map(move |column| (column, row))) {
                 check(&narrow, &picture, (column, row), narrow.view().point(column, row));
             }
@@ -450,18 +453,18 @@ mod tests {
             let view =
                 DeepView::<4>::parse("-1.7548776662466927601", im, "1e-15", Size::new(20, 15)).unwrap();
             let mut orbit = [OrbitPoint::default(); 600];
-            let picture = DeepMandelbrot::with_arithmetic(view, 300, arithmetic, &mut orbit).unwrap();
+            let picture = DeepMandelbrot::new_in(view, 300, arithmetic, &mut orbit).unwrap();
             let mut counts = [0; 300];
-            let mut canvas = Buffered::new(picture, &mut counts).unwrap();
-            assert_eq!(canvas.computed(), if im == "0" { 20 * 8 } else { 300 });
+            let mut buffered = Buffered::new(picture, &mut counts).unwrap();
+            assert_eq!(buffered.computed(), if im == "0" { 20 * 8 } else { 300 });
             for (right, up) in [(0, 0), (3, 1), (-9, 4), (0, -15), (40, -2)] {
-                canvas.pan(right, up).unwrap();
-                let (moved, size) = (canvas.picture(), canvas.size());
+                buffered.pan(right, up).unwrap();
+                let (moved, size) = (buffered.picture(), buffered.size());
                 for y in 0..size.height {
-                    assert!(canvas.row(y, 0..20).eq(moved.row(y, 0..20)), "{arithmetic:?} {y}");
+                    assert!(buffered.row(y, 0..20).eq(moved.row(y, 0..20)), "{arithmetic:?} {y}");
                 }
             }
-            assert!(canvas.pan(40_000, 0).is_err());
+            assert!(buffered.pan(40_000, 0).is_err());
             // the same point, whichever way it came
             let (once, twice) = (view.pan(5, -3).unwrap(), view.pan(7, 0).unwrap().pan(-2, -3).unwrap());
             assert_eq!((once, once.point(2, 9)), (twice, view.point(7, 12)));
@@ -544,10 +547,9 @@ mod tests {
         let size = Size::new(40, 40);
         let view = DeepView::<4>::parse("0.4", "0.4", "1.5", size).unwrap();
         let mut orbit = [OrbitPoint::default(); 200];
-        let perturbed =
-            DeepMandelbrot::with_arithmetic(view, 200, Arithmetic::Perturbed, &mut orbit).unwrap();
+        let perturbed = DeepMandelbrot::new_in(view, 200, Arithmetic::Perturbed, &mut orbit).unwrap();
         assert!(perturbed.reference_len() < 20);
-        let plain = DeepMandelbrot::with_arithmetic(view, 200, Arithmetic::Word128, &mut []).unwrap();
+        let plain = DeepMandelbrot::new_in(view, 200, Arithmetic::Word128, &mut []).unwrap();
         let mut inside = 0;
         for y in 0..40 {
             for (a, b) in perturbed.row(y, 0..40).zip(plain.row(y, 0..40)) {

@@ -1,4 +1,5 @@
-//! What the escape-time pictures have in common, for the types that colour them in another way or draw them faster.
+//! What the escape-time pictures have in common: the trait by which other types colour them in another way or
+//! draw them faster.
 
 use core::iter::FusedIterator;
 use core::ops::Range;

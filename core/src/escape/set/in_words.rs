@@ -1,4 +1,5 @@
-//! What the escape-time pictures in 32-bit words have in common.
+//! [`EscapeTime`] for the pictures in 32-bit words, [`Mandelbrot`] and [`Julia`], which differ only in what
+//! the derivative of an orbit gains at each step.
 
 use core::iter::FusedIterator;
 use core::ops::Range;

@@ -1,6 +1,9 @@
-//! Filled-in Julia sets: for each `s` of a view, the dwell of the orbit `s, s^2 + c, (s^2 + c)^2 + c, ...` with one `c` for all.
+//! Filled-in Julia sets: for each `s` of a view, the dwell of the orbit `s, s^2 + c, (s^2 + c)^2 + c, ...`
+//! with one `c` for all.
 //!
-//! Source: course unit V, "Julia sets", sections 5.5.1 and 5.5.2. With `d_0 = s` the dwell is `min(iterations until |d_k| > 2, Num)`.
+//! The set itself, the boundary of the filled one, is [`JuliaSet`](crate::escape::JuliaSet). Source: course
+//! unit V, "Julia sets", sections 5.5.1 and 5.5.2. With `d_0 = s` the dwell is
+//! `min(iterations until |d_k| > 2, Num)`.
 
 use core::ops::Range;
 

@@ -1,7 +1,8 @@
 //! The Mandelbrot set: for each `c` of a view, the dwell of the orbit `0, c, c^2 + c, ...`.
 //!
-//! Source: course unit V, "The Mandelbrot set", sections 5.4.2 to 5.4.4. With `d_1 = c` the dwell is `min(iterations until |d_k| > 2, Num)`.
-//! The two largest parts of the set are recognised by formula; elsewhere cycles are.
+//! Source: course unit V, "The Mandelbrot set", sections 5.4.2 to 5.4.4. With `d_1 = c` the dwell is
+//! `min(iterations until |d_k| > 2, Num)`. Most of the inside costs nothing: the two largest parts of the set
+//! are recognised by formula; elsewhere an orbit ends when it repeats itself.
 
 use core::ops::Range;
 

@@ -1,7 +1,9 @@
-//! A grid of square pixels in the complex plane, as fine as its coordinates have limbs.
+//! A grid of square pixels in the complex plane, as fine as its coordinates have limbs: the view of a deep
+//! zoom.
 //!
-//! As [`View`](crate::escape::View), eq. 5 of course unit V around the centre: `M.x + (2 i + 1 - cols) W / (2 cols)`, `M.y + (rows - 1 - 2 j) W / (2 cols)`, with quotient and
-//! remainder of `W / (2 cols)` kept apart. The coordinates come as decimal strings.
+//! As [`View`](crate::escape::View), eq. 5 of course unit V around the centre:
+//! `M.x + (2 i + 1 - cols) W / (2 cols)`, `M.y + (rows - 1 - 2 j) W / (2 cols)`, with quotient and remainder
+//! of `W / (2 cols)` kept apart. The coordinates come as decimal strings.
 
 use embedded_graphics_core::geometry::Size;
 

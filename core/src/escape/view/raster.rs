@@ -1,4 +1,6 @@
-//! The square pixels of a view: how many half pitches each is from the centre, whatever a pitch is.
+//! The square pixels of a view, counted: how many half pitches each is from the centre, whatever a pitch is.
+//!
+//! Both views share it, the one of 64-bit coordinates and the deep one.
 
 use embedded_graphics_core::geometry::Size;
 

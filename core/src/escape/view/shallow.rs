@@ -1,10 +1,11 @@
-//! A grid of square pixels in the complex plane.
+//! A grid of square pixels in the complex plane: says which point each pixel of a picture shows.
 //!
-//! `c_ij = (P.x + (i + 1/2) W / cols) + i (P.y - (j + 1/2) W / cols)`, `P` the upper left corner: course unit V, "The Mandelbrot set", eq. 5. With the
-//! centre `M` in place of the corner that is `M.x + (2 i + 1 - cols) W / (2 cols)` and `M.y + (rows - 1 - 2 j) W / (2 cols)`.
+//! `c_ij = (P.x + (i + 1/2) W / cols) + i (P.y - (j + 1/2) W / cols)`, `P` the upper left corner: course unit
+//! V, "The Mandelbrot set", eq. 5. With the centre `M` in place of the corner that is
+//! `M.x + (2 i + 1 - cols) W / (2 cols)` and `M.y + (rows - 1 - 2 j) W / (2 cols)`.
 //!
-//! The quotient `W / (2 cols)` is kept whole: a 64-bit quotient and a remainder. A row steps by adding both, as Bresenham's line does, so
-//! that no error accumulates; a point that is dyadic comes out exact.
+//! The quotient `W / (2 cols)` is kept whole: a 64-bit quotient and a remainder. A row steps by adding both,
+//! as Bresenham's line does, so that no error accumulates; a point that is dyadic comes out exact.
 
 use core::iter::FusedIterator;
 use core::ops::Range;
@@ -16,6 +17,7 @@ use crate::escape::orbit::narrow::NARROWED;
 use crate::escape::view::raster::Raster;
 use crate::num::Complex;
 use crate::num::Wide;
+use crate::num::formats::Q48;
 
 /// A rectangle of the complex plane and the square pixels that show it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,8 +30,8 @@ pub struct View {
     centre: Complex<Wide>,
     width: Wide,
     raster: Raster,
-    /// Half a pitch, `W / (2 cols)`: quotient in units of `2^-48`, and remainder.
-    half_pitch: i64,
+    /// Half a pitch, `W / (2 cols)`: quotient and remainder.
+    half_pitch: Q48,
     rest: i32,
 }
 
@@ -114,10 +116,12 @@ impl View {
         self.raster.panned()
     }
 
-    /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
+    /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that
+    /// both show are the same points, bit for bit.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] when an edge leaves `-32768 .. 32768`, or after more than [`MAX_PAN`](crate::escape::MAX_PAN) pixels in one direction.
+    /// [`Error::OutOfRange`] when an edge leaves `-32768 .. 32768`, or after more than
+    /// [`MAX_PAN`](crate::escape::MAX_PAN) pixels in one direction.
     pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
         let raster = self.raster.pan(right, up)?;
         let [across, high] = raster.reach();
@@ -154,7 +158,7 @@ impl View {
     }
 
     /// `W / cols` as quotient and remainder over `2 cols`.
-    const fn whole_pitch(&self) -> (i64, i32) {
+    const fn whole_pitch(&self) -> (Q48, i32) {
         let (pitch, rest) = (self.half_pitch << 1, self.rest << 1);
         if rest >= self.divisor() { (pitch + 1, rest - self.divisor()) } else { (pitch, rest) }
     }
@@ -173,13 +177,13 @@ impl View {
         sticky(self.centre.im.to_bits().wrapping_add(im), rest)
     }
 
-    fn abscissa(&self, column: u32) -> (i64, i32) {
+    fn abscissa(&self, column: u32) -> (Q48, i32) {
         let (re, rest) = self.offset(self.raster.across(column.min(self.raster.size().width)));
         (self.centre.re.to_bits().wrapping_add(re), rest)
     }
 
     /// `n` half pitches as a quotient, rounded down, and a remainder over `2 cols`. |n| <= 2^22.
-    fn offset(&self, n: i32) -> (i64, i32) {
+    fn offset(&self, n: i32) -> (Q48, i32) {
         let divisor = i64::from(self.divisor());
         let rest = i64::from(n) * i64::from(self.rest); // below 2^37
         let whole = rest.checked_div_euclid(divisor).unwrap_or(0);
@@ -228,7 +232,7 @@ impl View {
 
 /// Round to odd: the last bit is set when something was cut off, so that a later rounding to fewer bits is as good as the only one.
 #[inline(always)]
-fn sticky(floor: i64, rest: i32) -> Wide {
+fn sticky(floor: Q48, rest: i32) -> Wide {
     Wide::from_bits(floor | i64::from(rest != 0))
 }
 
@@ -240,10 +244,10 @@ pub(crate) struct RowPoints {
     next: u32,
     end: u32,
     /// The abscissa of `next`: quotient and remainder.
-    re: i64,
+    re: Q48,
     rest: i32,
     /// What a pixel adds, and when the remainder carries.
-    pitch: i64,
+    pitch: Q48,
     pitch_rest: i32,
     divisor: i32,
 }

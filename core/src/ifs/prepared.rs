@@ -7,13 +7,13 @@
 
 use super::affine::Affine;
 #[cfg(any(test, not(no_long_product)))]
-use super::affine::{product, translated};
+use super::affine::{product_q54, translated};
 use crate::num::{Real, Unit};
 use crate::plane::Point2;
 
 /// A contraction of a system, prepared. Size: 32 bytes; 40 on a machine without a long product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Step {
+pub(super) struct PreparedMap {
     x: Row,
     y: Row,
 }
@@ -23,7 +23,7 @@ type Row = Whole;
 #[cfg(no_long_product)]
 type Row = Halves;
 
-impl Step {
+impl PreparedMap {
     /// The map, prepared: a contraction.
     pub(super) const fn new(map: &Affine) -> Self {
         Self { x: Row::new(map.a, map.b, map.e), y: Row::new(map.c, map.d, map.f) }
@@ -57,7 +57,7 @@ impl Whole {
     /// With `|x|, |y| <= 64` and coefficients of at most 1 the sum stays below `2^62`.
     #[inline(always)]
     fn apply(&self, p: Point2) -> Real {
-        let sum = self.t.wrapping_add(product(self.l, p.x)).wrapping_add(product(self.m, p.y));
+        let sum = self.t.wrapping_add(product_q54(self.l, p.x)).wrapping_add(product_q54(self.m, p.y));
         Real::from_bits((sum >> 30) as i32)
     }
 }
@@ -165,7 +165,7 @@ mod tests {
                 let p = Point2::new(Real::from_bits(word(30)), Real::from_bits(word(30)));
                 let image = map.apply(p);
                 if [image.x, image.y].iter().all(|v| v.abs() < Real::MAX) {
-                    assert_eq!(Step::new(&map).apply(p), image, "{map:?} {p:?}");
+                    assert_eq!(PreparedMap::new(&map).apply(p), image, "{map:?} {p:?}");
                 }
                 let rows = [
                     [map.a.to_bits(), map.b.to_bits(), map.e.to_bits()],

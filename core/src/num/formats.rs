@@ -1,0 +1,44 @@
+//! Names for the raw integers that kernels compute with: they say where the point of a word lies.
+//!
+//! A kernel works on plain words, since a shift or the upper word of a product then is one instruction. The
+//! word itself does not tell what it is worth. These names do, in signatures, fields, tables and constants,
+//! by one rule:
+//!
+//! - `Qn` is a two's complement number with `n` fractional bits, worth `word / 2^n`. Its word is the
+//!   narrowest that has room for the fraction and a sign: an `i32` up to `n` = 31, an `i64` up to 63, an
+//!   `i128` above.
+//! - `UQn` is the same without a sign: a `u32` up to `n` = 32, a `u64` above.
+//!
+//! They are aliases: the reader tells a `Q24` from a `Q30`, the compiler does not. A number in a wider word
+//! than the rule says, as a sum of many `Q24` in 64 bits, keeps its plain type and a comment. The public
+//! interface has the types of the crate [`fixed`] instead.
+
+pub(crate) type Q24 = i32;
+pub(crate) type Q26 = i32;
+pub(crate) type Q27 = i32;
+pub(crate) type Q28 = i32;
+pub(crate) type Q29 = i32;
+pub(crate) type Q30 = i32;
+pub(crate) type Q31 = i32;
+pub(crate) type Q32 = i64;
+pub(crate) type Q48 = i64;
+pub(crate) type Q52 = i64;
+pub(crate) type Q54 = i64;
+pub(crate) type Q56 = i64;
+pub(crate) type Q60 = i64;
+pub(crate) type Q124 = i128;
+
+pub(crate) type UQ16 = u32;
+pub(crate) type UQ24 = u32;
+pub(crate) type UQ26 = u32;
+pub(crate) type UQ27 = u32;
+pub(crate) type UQ28 = u32;
+pub(crate) type UQ30 = u32;
+pub(crate) type UQ31 = u32;
+pub(crate) type UQ32 = u32;
+pub(crate) type UQ48 = u64;
+pub(crate) type UQ58 = u64;
+pub(crate) type UQ60 = u64;
+pub(crate) type UQ62 = u64;
+pub(crate) type UQ63 = u64;
+pub(crate) type UQ64 = u64;
