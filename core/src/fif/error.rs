@@ -282,7 +282,7 @@ mod tests {
         let mut decided = [0_u32; 3];
         for _ in 0..3000 {
             // a map that hardly contracts adds up what is small; only so low a function keeps a range then
-            let steepest = (1 << 31) - (1 << 12) - (next() >> 34 << (next() % 6));
+            let steepest = (1 << 31) - (1 << 12) - ((next() >> 34) << (next() % 6));
             let [first, middle, last] = [(); 3].map(|()| Wide::from_bits((next() >> 13) as i64 - (1 << 34)));
             let knots = [(0, first), (1, last), (2, middle), (4, last)];
             let knots = knots.map(|(x, y)| Knot::new(Wide::from_num(x), y));
@@ -293,7 +293,7 @@ mod tests {
             let slope = f.maps.iter().map(|m| u128::from(m.q.powers[0].unsigned_abs())).max().unwrap();
             // a quarter, a quarter, a half: 1 + 1/2 + ... is below 3, so that the abscissa moves by less than 3 2^-60
             let shares = [largest << 8, 1 << 48, slope >> 18]
-                .map(|share| (share << 24) / u128::from((1 << 31) - steepest) << 7);
+                .map(|share| ((share << 24) / u128::from((1 << 31) - steepest)) << 7);
             let exact = shares.iter().sum::<u128>() + (1 << 70) + (1 << 65);
             let got = u128::from(f.error_bound().to_bits().unsigned_abs()) << 71;
             // divisions, and the slope's unit of 2^-47

@@ -436,8 +436,8 @@ mod tests {
     fn a_hypotenuse_is_the_root_rounded_up() {
         for k in 0..4000_i64 {
             let (x, y) = (
-                k.wrapping_mul(0x2545_f491_4f6c) % (1 << 31) >> (k % 30),
-                k.wrapping_mul(0x1f12_3bb5_159a) % (1 << 31) >> (k % 7),
+                (k.wrapping_mul(0x2545_f491_4f6c) % (1 << 31)) >> (k % 30),
+                (k.wrapping_mul(0x1f12_3bb5_159a) % (1 << 31)) >> (k % 7),
             );
             for (x, y) in [(x, y), (-x, y), (y, y), (3 * k, 4 * k), (1 << 31, -(1 << 31) + k)] {
                 let square = i128::from(x) * i128::from(x) + i128::from(y) * i128::from(y);

@@ -312,25 +312,4 @@ mod tests {
         }
         assert_eq!(reached, REACH);
     }
-
-    /// The least radius about the centre that was found: no other centre nearby does better by a sixteenth.
-    #[test]
-    fn an_invariant_disc_is_nearly_the_least() {
-        for attractor in catalogue::ALL {
-            let factors: heapless::Vec<_, 8> =
-                attractor.maps.iter().map(Affine::contraction_factor).collect();
-            let maps = Contractions { maps: attractor.maps, factors: &factors };
-            let disc = maps.invariant_disc().unwrap();
-            let radius = i64::from(disc.radius.to_bits());
-            let [x, y] = [disc.centre.x, disc.centre.y].map(Real::to_bits);
-            assert_eq!(maps.radius_about([x, y]).0, radius, "{}", attractor.name);
-            for k in 1..40 {
-                let step = (radius >> 6) as i32 * (k / 8 + 1);
-                let [dx, dy] =
-                    [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]][k as usize % 8];
-                let (other, _) = maps.radius_about([x + dx * step, y + dy * step]);
-                assert!(other > radius - radius / 16, "{}: {other} below {radius}", attractor.name);
-            }
-        }
-    }
 }

@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn a_mean_in_the_plane_is_the_nearest_number() {
         for k in 1..400_i64 {
-            let word = |n: i64, bits: u32| (k.wrapping_mul(n) >> 7 & ((1 << bits) - 1)) - (1 << (bits - 1));
+            let word = |n: i64, bits: u32| ((k.wrapping_mul(n) >> 7) & ((1 << bits) - 1)) - (1 << (bits - 1));
             let [a, b, c, d] = [7_919_777, 15_485_863, 32_452_843, 49_979_687].map(|n| word(n, 29));
             let [e, f] = [67_867_967, 86_028_121].map(|n| word(n, 28));
             let linear = [a, b, c, d].map(|l| Unit::from_bits(l as i32));
@@ -282,7 +282,7 @@ mod tests {
         let mut most = 0.0_f64;
         for k in 1..600_i64 {
             let [a, d] = [7_919_777, 15_485_863].map(|n: i64| (k * n % (1 << 31) - (1 << 30)) * 127 / 128);
-            let [e, f] = [1_299_709, 2_750_159].map(|n: i64| (k * n % (1 << 24)) << (k % 3) >> 2);
+            let [e, f] = [1_299_709, 2_750_159].map(|n: i64| ((k * n % (1 << 24)) << (k % 3)) >> 2);
             let map = |sign: i64| {
                 let translation = [e, f].map(|t| Real::from_bits((sign * t) as i32));
                 Affine::new(
@@ -297,7 +297,7 @@ mod tests {
             for (got, (a, b, e, f)) in moments.covariance.into_iter().zip(pairs) {
                 let gap = (1 << 60) - i128::from(a) * i128::from(b);
                 // 48 fractional bits times 60 over 48 and 60
-                let off = i128::from(got.to_bits()) * gap - (i128::from(e) * i128::from(f) << 60);
+                let off = i128::from(got.to_bits()) * gap - ((i128::from(e) * i128::from(f)) << 60);
                 most = most.max(off.abs() as f64 / gap as f64);
             }
         }
