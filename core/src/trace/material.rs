@@ -80,7 +80,7 @@ impl Material {
 
     /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points away is turned round.
     ///
-    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`. Error: below `2^-24` for
+    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`. Error: below `2^-27` for
     /// diffuse light, `2^-22` for Phong's with an exponent up to 64 (rows `Material::tone (diffuse)` and
     /// `Material::tone (Phong, exponent 64)`).
     #[inline]
