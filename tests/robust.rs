@@ -1,7 +1,10 @@
-//! Whatever the description: core refuses it or computes with it, and neither panics nor overflows, nor goes on for ever.
+//! Whatever the description: core refuses it or computes with it, and neither panics nor overflows, nor goes
+//! on for ever.
 //!
-//! The tests run with overflow checks (the profile `test`, which is optimised). Each generator mixes numbers from all bits, the ends of the format and
-//! ordinary ones; each test asserts how much was accepted, so that it has evaluated something. `PROPTEST_CASES` sets how many descriptions are tried.
+//! The tests run with overflow checks (the profile `test`, which is optimised). Each generator mixes numbers
+//! from all bits, the ends of the format and
+//! ordinary ones; each test asserts how much was accepted, so that it has evaluated something.
+//! `PROPTEST_CASES` sets how many descriptions are tried.
 //! What takes time is counted where it can be: items, evaluations, words drawn, pixels; never seconds.
 //! That no public name of core is left out says `every_name`.
 

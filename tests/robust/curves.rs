@@ -25,7 +25,8 @@ fn polyline() -> impl Strategy<Value = Vec<[Wide; 2]>> {
     prop_oneof![3 => tame, 1 => vec((wide(), wide()).prop_map(|(x, y)| [x, y]), 0..8)]
 }
 
-/// How many steps a path has at most, and that it is one: the pen is put down first, and nothing is drawn with the pen up.
+/// How many steps a path has at most, and that it is one: the pen is put down first, and nothing is drawn
+/// with the pen up.
 fn walk(path: impl Iterator<Item = Step>, most: usize) -> usize {
     let mut count = 0;
     for (i, step) in path.enumerate() {

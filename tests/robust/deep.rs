@@ -92,7 +92,8 @@ fn deep_pictures_of_any_view() {
     });
 }
 
-/// Iterations without end: what perturbation and words are asked for at most, and buffers that are too short for it.
+/// Iterations without end: what perturbation and words are asked for at most, and buffers that are too short
+/// for it.
 #[test]
 fn iterations_of_any_number() {
     let size = Size::new(3, 2);

@@ -1,4 +1,5 @@
-//! From values to pixels: any palette, ink and packing; images, strips, points and paths anywhere on targets anywhere.
+//! From values to pixels: any palette, ink and packing; images, strips, points and paths anywhere on targets
+//! anywhere.
 
 use std::cell::Cell as Counter;
 use std::fmt::Debug;
@@ -158,7 +159,8 @@ fn closures_as_fields_of_any_size() {
     });
 }
 
-/// A value by all palettes: what is inside is black, and the same colour comes by reference and through `dyn`.
+/// A value by all palettes: what is inside is black, and the same colour comes by reference and through
+/// `dyn`.
 fn paint<V: Leveled + Copy + Debug>(
     value: V,
     gradient: &Gradient<3>,
@@ -356,7 +358,8 @@ fn images_of_any_size_anywhere() {
             assert_eq!(target.drawn, steps * length(&visible.0));
             assert_eq!(RowCursor::starting_at(u32::MAX).draw_next(&picture, &mut target), Ok(false));
             assert!(RowCursor::new() == RowCursor::default() && steps == 0 || cursor.row() > 0);
-            (evaluated.take(), painted.take());
+            evaluated.take();
+            painted.take();
 
             // single pixels, and rows with a hole
             for p in [
@@ -406,7 +409,8 @@ where
     let expected = K::length(at[2].min(size.width).saturating_sub(at[1]));
     assert_eq!(packed.ok(), (at[0] < size.height && expected <= given).then_some(expected));
     assert_eq!(Strips::<_, _, _, K>::new(&picture, buffer).is_ok(), K::length(size.width) <= given);
-    (evaluated.take(), painted.take());
+    evaluated.take();
+    painted.take();
     let Ok(mut strips) = Strips::<_, _, _, K>::of_part(&picture, area, buffer) else {
         assert!(K::length(length(&columns)) > given);
         return false;

@@ -135,7 +135,8 @@ fn buffers_and_colourings_of_any_view() {
         assert_eq!(filled.picture(), &set);
         for i in 0..pixels as u32 {
             let (x, y) = (i.wrapping_mul(at[1] | 1) % size.width, i % size.height);
-            // filling changes what has no edge of its own, never the outside into something else than the inside
+            // filling changes what has no edge of its own, never the outside into something else than the
+            // inside
             let (got, exact) = (filled.dwell_at(x, y), plain[(y * size.width + x) as usize]);
             assert!(got == exact || got.is_inside(), "{got:?} for {exact:?} at {x}, {y}");
         }
@@ -149,7 +150,8 @@ fn buffers_and_colourings_of_any_view() {
     });
 }
 
-/// Filling looks at a pixel once, in whatever order it is asked, and nowhere else: pictures of dots, lines, rings and noise.
+/// Filling looks at a pixel once, in whatever order it is asked, and nowhere else: pictures of dots, lines,
+/// rings and noise.
 #[test]
 fn filling_looks_at_each_pixel_once() {
     let size = (1..=24_u32, 1..=24_u32).prop_map(|(w, h)| Size::new(w, h));
@@ -160,8 +162,8 @@ fn filling_looks_at_each_pixel_once() {
         let looked = vec![Counter::new(0_u32); (width * height) as usize];
         let is_inside = |x: u32, y: u32| match kind {
             0 => true,
-            1 => x % (period + 1) != 0,
-            2 => x.min(y).min(width - 1 - x).min(height - 1 - y) % (period + 1) == 0,
+            1 => !x.is_multiple_of(period + 1),
+            2 => x.min(y).min(width - 1 - x).min(height - 1 - y).is_multiple_of(period + 1),
             3 => (x ^ y) & period != 0,
             _ => (noise.rotate_left(x * 7 + y * 13) ^ noise >> (x + y)) & 3 != 0,
         };
@@ -171,7 +173,7 @@ fn filling_looks_at_each_pixel_once() {
             assert!(x < width && y < height, "asked for {x}, {y} of {size:?}");
             let looked = &looked[(y * width + x) as usize];
             looked.set(looked.get() + 1);
-            let is_inside = is_inside(x, y) != (is_fickle && looked.get() % 2 == 0);
+            let is_inside = is_inside(x, y) != (is_fickle && looked.get().is_multiple_of(2));
             Dwell { count: if is_inside { 9 } else { 3 }, max: 9 }
         });
         let mut bits = vec![0; Filled::<Mandelbrot>::bytes(size)];

@@ -1,7 +1,9 @@
-//! Every public function of core, and every type that is a picture, a palette or the like, is named by a test of this room: a new one
+//! Every public function of core, and every type that is a picture, a palette or the like, is named by a test
+//! of this room: a new one
 //! cannot be forgotten.
 //!
-//! A method counts as named where it is called, `.name(`, any other function of a type where both stand together, `Type::name`; a
+//! A method counts as named where it is called, `.name(`, any other function of a type where both stand
+//! together, `Type::name`; a
 //! type by its name.
 
 use std::fs;

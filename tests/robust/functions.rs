@@ -27,7 +27,8 @@ fn wild_function() -> impl Strategy<Value = (Vec<Knot>, Vec<Scaling>)> {
     )
 }
 
-/// Mostly acceptable: increasing knots up to ±`reach`, values up to ±`height`, scalings up to 0.9; partly with equal intervals.
+/// Mostly acceptable: increasing knots up to ±`reach`, values up to ±`height`, scalings up to 0.9; partly
+/// with equal intervals.
 pub(super) fn function(reach: i64, height: i64) -> impl Strategy<Value = (Vec<Knot>, Vec<Scaling>)> {
     let maps = prop_oneof![1..=6_usize, Just(2), Just(4)];
     (maps, 0..10_u8, 0..46_u32).prop_flat_map(move |(n, kind, fine)| {

@@ -121,8 +121,9 @@ fn tones_of_any_direction() {
     let direction = || (unit(), unit(), unit()).prop_map(|(x, y, z)| Vec3::new(x, y, z));
     let light = prop_oneof![9 => vector(real()), 1 => Just(Vec3::default())];
     fuzz((shading(), direction(), direction(), light), 80, |((material, environment, _, _), n, d, light)| {
-        let within =
-            |tone: Unit| assert!(tone >= 0 && tone <= 1, "{tone} of {material:?} under {environment:?}");
+        let within = |tone: Unit| {
+            assert!((Unit::ZERO..=Unit::ONE).contains(&tone), "{tone} of {material:?} under {environment:?}")
+        };
         let Ok(light) = Light::new(light) else { return false };
         within(environment.tone(d));
         within(material.tone(n, d, &light, &environment));

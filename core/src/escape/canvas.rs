@@ -35,7 +35,8 @@ impl<'a, P: EscapeTime + Copy> Canvas<'a, P> {
     /// Computes the whole picture.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] unless there is one count a pixel, [`Error::Capacity`] for more than 65535 iterations,
+    /// [`Error::BufferLength`] unless there is one count a pixel, [`Error::Capacity`] for more than 65535
+    /// iterations,
     /// [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
     pub fn new(picture: P, counts: &'a mut [u16]) -> Result<Self, Error> {
         let size = checked_size(picture.size())?;

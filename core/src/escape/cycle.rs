@@ -22,7 +22,8 @@ const FIRST: u32 = 16;
 const LEAST: u32 = 1 << 12;
 /// Steps before the last look: an orbit that is not drawn in by then is left without a period.
 const LAST: u32 = 1 << 16;
-/// The periods that a look tries add up to no more. Points that come ever nearer are few: each is a best approximation.
+/// The periods that a look tries add up to no more. Points that come ever nearer are few: each is a best
+/// approximation.
 const TRIED: u32 = 1 << 11;
 
 /// An orbit that can be followed twice.
@@ -42,7 +43,8 @@ pub(super) trait Path: Clone {
 
 /// The period of the cycle that an orbit is drawn to; none if it escapes, or none of at most [`LONGEST`] points shows within about `limit` steps.
 ///
-/// Looks after 16, 32, 64, ... steps. Cost: `limit` steps, at least [`LEAST`] and at most [`LAST`], and what [`look`] takes each of
+/// Looks after 16, 32, 64, ... steps. Cost: `limit` steps, at least [`LEAST`] and at most [`LAST`], and what
+/// [`look`] takes each of
 /// at most 13 times: below 2 [`LAST`], whatever the orbit (`a_period_takes_a_bounded_number_of_steps`).
 pub(super) fn period<P: Path>(mut path: P, limit: u32) -> Option<u32> {
     let limit = limit.clamp(LEAST, LAST);
@@ -63,7 +65,8 @@ pub(super) fn period<P: Path>(mut path: P, limit: u32) -> Option<u32> {
 
 /// The period of the attracting cycle of at most `longest` points that an orbit has come near to.
 ///
-/// Cost: `2 longest` steps, and twice the period for each point that comes nearer than all before it: at most `2 longest + 2 TRIED`.
+/// Cost: `2 longest` steps, and twice the period for each point that comes nearer than all before it: at most
+/// `2 longest + 2 TRIED`.
 pub(super) fn look<P: Path>(path: &P, longest: u32) -> Option<u32> {
     let (mut nearest, mut on) = (path.clone(), path.clone());
     for _ in 0..longest {

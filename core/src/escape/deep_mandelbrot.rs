@@ -187,7 +187,8 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
 
     /// The dwell at the middle of a pixel.
     ///
-    /// Domain: inside the view; others count as the nearest pixel. Cost: at most the greatest dwell in steps, and by perturbation, where orbits are
+    /// Domain: inside the view; others count as the nearest pixel. Cost: at most the greatest dwell in steps,
+    /// and by perturbation, where orbits are
     /// looked at for a cycle, fewer than 42,000 more (`perturbation_takes_a_bounded_number_of_steps`).
     pub fn dwell_at(&self, column: u32, row: u32) -> Dwell {
         if self.starts_beyond(column, row) {

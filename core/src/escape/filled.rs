@@ -88,7 +88,8 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     /// Nothing is known yet.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] unless `bits` has [`Filled::bytes`] elements, [`Error::OutOfRange`] for a size that
+    /// [`Error::BufferLength`] unless `bits` has [`Filled::bytes`] elements, [`Error::OutOfRange`] for a size
+    /// that
     /// [`checked_size`] refuses.
     pub fn new(picture: P, bits: &'a mut [u8]) -> Result<Self, Error> {
         let needed = Self::bytes(checked_size(picture.size())?);

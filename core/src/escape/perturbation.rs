@@ -460,7 +460,8 @@ mod tests {
         }
     }
 
-    /// The most steps beyond `max` that a dwell took, and the most that a period took; how many orbits came to `max` without an end.
+    /// The most steps beyond `max` that a dwell took, and the most that a period took; how many orbits came
+    /// to `max` without an end.
     fn most_steps<N: Stored>(view: &DeepView<8>, max: u32, orbit: &mut [OrbitPoint]) -> (u32, u32, u32) {
         let reference = Reference::<'_, Counted<N>>::new(view.centre(), max, view.reach(), orbit).unwrap();
         let (mut beyond, mut period, mut endless) = (0, 0, 0);
@@ -476,7 +477,8 @@ mod tests {
         (beyond, period, endless)
     }
 
-    /// Where orbits neither escape nor come near a cycle, or late: roots and centres of components, preperiodic points; near and deep.
+    /// Where orbits neither escape nor come near a cycle, or late: roots and centres of components,
+    /// preperiodic points; near and deep.
     #[test]
     fn perturbation_takes_a_bounded_number_of_steps() {
         let mut orbit = std::vec![OrbitPoint::default(); 2 << 17];

@@ -71,7 +71,8 @@ impl Environment {
 
     /// The tone in direction `e`, a unit vector.
     ///
-    /// Domain: any parts; `RayCaster::with_environment` takes only those in their ranges. Result: in `[0, 1]`. Error: below `2^-26`
+    /// Domain: any parts; `RayCaster::with_environment` takes only those in their ranges. Result: in
+    /// `[0, 1]`. Error: below `2^-26`
     /// (row `Environment::tone (gradient)`), and a square's edge is off by less than `2^-15 (scale + d)` of a square at
     /// the distance `d = max(|e_x|, |e_y|) / |e_z|` (`an_edge_is_where_it_should_be`).
     #[inline]
