@@ -50,7 +50,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             // as many as those of the function: never full
             let _ = maps.push(map);
         }
-        Fif::from_maps(maps, self.x0, self.width)
+        Fif::from_maps(maps, self.x0, self.width, self.per_width)
     }
 
     /// The derivative, a function of its own kind where every map is less steep than narrow.
@@ -81,7 +81,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let map = Map { scaling, q, start: map.start, width: map.width, per_width: map.per_width };
             let _ = maps.push(map); // as in the integral
         }
-        Fif::from_maps(maps, self.x0, self.width)?.joined()
+        Fif::from_maps(maps, self.x0, self.width, self.per_width)?.joined()
     }
 
     /// The mean value over the domain, `sum of a_n mean(q_n) / (1 - sum of a_n alpha_n)`, 55 fractional bits.

@@ -192,11 +192,16 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             // count - 1 <= N: never full
             let _ = maps.push(map);
         }
-        Self::from_maps(maps, x0, width)
+        Self::from_maps(maps, x0, width, Reciprocal::of(width))
     }
 
     /// From maps in the unit abscissa: finds end values, range and levels.
-    pub(crate) fn from_maps(mut maps: Vec<Map<D>, N>, x0: i64, width: u64) -> Result<Self, Error> {
+    pub(crate) fn from_maps(
+        mut maps: Vec<Map<D>, N>,
+        x0: i64,
+        width: u64,
+        per_width: Reciprocal,
+    ) -> Result<Self, Error> {
         if let [only] = maps.as_mut_slice() {
             // N = 1: f = alpha f + q at the same abscissa, so f = q / (1 - alpha)
             let rest = ONE.wrapping_sub(only.scaling as u64);
@@ -213,7 +218,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let _ = starts.push((map.start >> 32) as u32);
         }
         let Bounds { first, last, range, levels } = Bounds::of(&images)?;
-        Ok(Self { maps, starts, x0, width, per_width: Reciprocal::of(width), first, last, range, levels })
+        Ok(Self { maps, starts, x0, width, per_width, first, last, range, levels })
     }
 
     /// Checks that neighbouring maps agree at their knot.
