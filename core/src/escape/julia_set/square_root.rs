@@ -92,6 +92,8 @@ mod tests {
             let part = |bits: u64, down: u32| ((bits as u32 as i32) as i64) >> (down.min(31));
             let (x, y) = (part(word >> 32, down), part(word >> 13, (k / 34) % 34));
             worst = worst.max(error(x, y));
+            let root = Complex::new(I3F29::from_bits(x as i32), I3F29::from_bits(y as i32)).sqrt();
+            assert_eq!((root.re.to_bits(), root.im.to_bits()), square_root(x, y));
         }
         for (x, y) in
             [(1 << 31, 0), (-1 << 31, 1 << 31), (1, 0), (0, 1), (-1, 0), (0, -1), (1 << 31, 1), (-1, 1)]
