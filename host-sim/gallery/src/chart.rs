@@ -7,38 +7,22 @@ use attractor::draw::{Level, Stroke, hex};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Wide};
 use attractor::picture::{Bounds2, Field, Point2, Step, Window};
-use embedded_graphics::Pixel;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::Drawable;
 
+use crate::depth::depth_for;
 use crate::ink::{ground, solid};
 use crate::named::Named;
 use crate::nested::Nested;
 use crate::page::{Display, PAPER, Watch, draw_field};
+use crate::plot::Plot;
 
 /// A pyramid for the range of a function has about as many cells at its finest level: halves of halves, seven times.
 pub const CELLS_ACROSS: u32 = 128;
 
-/// The depth at which a pyramid has at least `cells` cells at its finest level, and no more than about a million in all.
-pub const fn depth_for(maps: usize, cells: u32) -> u32 {
-    let mut depth = 0;
-    let mut finest = 1_usize;
-    while finest < cells as usize
-        && depth < Pyramid::MAX_DEPTH
-        && maps > 1
-        && Pyramid::cells(maps, depth + 1) <= 1 << 20
-    {
-        depth += 1;
-        finest *= maps;
-    }
-    depth
-}
-
 /// Axes and the lines through the knots.
 const RULE: Rgb888 = hex(0x3a4260);
-/// Knots and other marks.
-pub(crate) const MARK: Rgb888 = hex(0xffb454);
 /// More knots than this are not marked.
 const MARKED: usize = 16;
 /// No address of a cell is followed further.
@@ -49,10 +33,7 @@ const LONGEST: u32 = 64;
 pub struct Chart<'a, const N: usize, const D: usize> {
     fif: &'a Fif<N, D>,
     nested: Nested,
-    size: Size,
-    /// Left and top of the plot.
-    pub(crate) corner: Point,
-    pub(crate) window: Window,
+    plot: Plot,
     /// Row of the axis in the plot.
     axis: i64,
     palette: Named,
@@ -85,7 +66,7 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
         let window = Window::stretch(bounds, inner)?;
         let axis = window.raster(Point2::new(Real::ZERO, Real::ZERO.clamp(min, max))).1;
         let corner = Point::new(margin as i32, margin as i32);
-        Ok(Self { fif, nested, size, corner, window, axis, palette, extremes })
+        Ok(Self { fif, nested, plot: Plot { size, corner, window }, axis, palette, extremes })
     }
 
     /// Draws it. `columns` has room for a number for each column of the display.
@@ -109,18 +90,22 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
         if !draw_field(field, palette, target, watch) {
             return Ok(());
         }
-        let inner = self.window.size();
+        let inner = self.plot.window.size();
         let line = solid::<T::Color>(self.palette.at(Level(56_000)));
-        let Ok(_) = Stroke::new(self.graph(inner.width), self.window, line).at(self.corner).draw(target);
+        let Ok(_) =
+            Stroke::new(self.graph(inner.width), self.plot.window, line).at(self.plot.corner).draw(target);
         if self.fif.maps() <= MARKED {
             let (from, to) = self.fif.domain();
             for knot in self.fif.knots() {
                 let at = Point2::new(fraction(from, to, knot.x), Real::saturating_from_num(knot.y));
-                self.mark(at, target);
+                self.plot.mark(at, target);
             }
         }
-        self.nested.draw(self, target);
-        watch(target, self.size.height, self.size.height);
+        self.nested.draw(&self.plot, target);
+        if let Some(point) = self.nested.point() {
+            self.plot.mark(Point2::new(point, self.value(point)), target);
+        }
+        watch(target, self.plot.size.height, self.plot.size.height);
         Ok(())
     }
 
@@ -146,27 +131,8 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
         })
     }
 
-    /// The pixel that shows a point with a unit abscissa.
-    pub(crate) fn pixel(&self, at: Point2) -> Point {
-        let (column, row) = self.window.raster(at);
-        let size = self.window.size();
-        let inside = |v: i64, side: u32| v.clamp(0, i64::from(side) - 1) as i32;
-        self.corner + Point::new(inside(column, size.width), inside(row, size.height))
-    }
-
-    /// A dot of 3 x 3 pixels, of 5 x 5 on a large display.
-    pub(crate) fn mark<T: Display>(&self, at: Point2, target: &mut T) {
-        let centre = self.pixel(at);
-        let reach = if self.size.width.min(self.size.height) < 200 { 1 } else { 2 };
-        let color = solid::<T::Color>(MARK);
-        let dots = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| Point::new(x, y)));
-        // without its corners, so that it looks round
-        let dots = dots.filter(|p| reach == 1 || p.x.abs() + p.y.abs() <= 3);
-        let Ok(()) = target.draw_iter(dots.map(|p| Pixel(centre + p, color)));
-    }
-
     /// The curve at a unit abscissa.
-    pub(crate) fn value(&self, u: Real) -> Real {
+    fn value(&self, u: Real) -> Real {
         let (from, to) = self.fif.domain();
         let width = i128::from(to.to_bits()) - i128::from(from.to_bits());
         let offset = (width * i128::from(u.to_bits())) >> 24;
@@ -179,7 +145,7 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
         if self.fif.maps() <= MARKED {
             let (from, to) = self.fif.domain();
             for (column, knot) in columns.iter_mut().zip(self.fif.knots()) {
-                *column = self.pixel(Point2::new(fraction(from, to, knot.x), Real::ZERO)).x;
+                *column = self.plot.pixel(Point2::new(fraction(from, to, knot.x), Real::ZERO)).x;
             }
         }
         columns
@@ -251,25 +217,25 @@ struct Ground<'a, const N: usize, const D: usize> {
 
 impl<'a, const N: usize, const D: usize> Ground<'a, N, D> {
     fn of(chart: &'a Chart<'_, N, D>, rows: &'a mut [i32]) -> Result<Self, Error> {
-        let columns = chart.window.size().width;
+        let columns = chart.plot.window.size().width;
         let (given, needed) = (rows.len(), columns as usize);
         let curve =
             rows.get_mut(..needed).ok_or(Error::BufferLength { what: "rows of the curve", given, needed })?;
         for (column, row) in (0..columns).zip(curve.iter_mut()) {
             let u = Real::from_bits(((u64::from(2 * column + 1) << 24) / u64::from(2 * columns)) as i32);
-            *row = chart.pixel(Point2::new(u, chart.value(u))).y;
+            *row = chart.plot.pixel(Point2::new(u, chart.value(u))).y;
         }
         Ok(Self {
             chart,
             curve,
             knots: chart.knot_columns(),
-            bottom: chart.corner.y + chart.window.size().height as i32 - 1,
-            focus: chart.nested.focus(chart),
+            bottom: chart.plot.corner.y + chart.plot.window.size().height as i32 - 1,
+            focus: chart.nested.focus(&chart.plot),
         })
     }
 
     fn at(&self, x: i32, y: i32) -> Place {
-        let corner = self.chart.corner;
+        let corner = self.chart.plot.corner;
         let Some(&curve) = usize::try_from(x - corner.x).ok().and_then(|column| self.curve.get(column))
         else {
             return Place::Paper;
@@ -301,7 +267,7 @@ impl<const N: usize, const D: usize> Field for Ground<'_, N, D> {
         Self: 'r;
 
     fn size(&self) -> Size {
-        self.chart.size
+        self.chart.plot.size
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> Self::Row<'_> {

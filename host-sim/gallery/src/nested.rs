@@ -9,10 +9,10 @@ use attractor::picture::Point2;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::primitives::Rectangle;
 
-use crate::chart::{Chart, MARK};
 use crate::ink::{ground, solid};
 use crate::named::Named;
 use crate::page::Display;
+use crate::plot::{MARK, Plot};
 
 /// The longest address that is shown.
 const LONGEST: usize = 16;
@@ -54,30 +54,28 @@ impl Nested {
         self.intervals.get(..self.count).unwrap_or_default()
     }
 
+    /// The evaluation point, to be marked on the curve.
+    pub(crate) fn point(&self) -> Option<Real> {
+        (self.count > 0).then_some(self.point)
+    }
+
     /// How many rows the bars take, the gap above them included.
     pub(crate) fn height(&self) -> u32 {
         (self.bar + self.gap) * self.count as u32
     }
 
     /// The columns of the last interval, one at least.
-    pub(crate) fn focus<const N: usize, const D: usize>(
-        &self,
-        chart: &Chart<'_, N, D>,
-    ) -> Option<Range<i32>> {
+    pub(crate) fn focus(&self, plot: &Plot) -> Option<Range<i32>> {
         let (from, to) = self.intervals().last()?;
-        let column = |u: Real| chart.pixel(Point2::new(u, Real::ZERO)).x;
+        let column = |u: Real| plot.pixel(Point2::new(u, Real::ZERO)).x;
         Some(column(*from)..column(*to).max(column(*from) + 1))
     }
 
-    /// Draws the bars and marks the evaluation point on the curve.
-    pub(crate) fn draw<T: Display, const N: usize, const D: usize>(
-        &self,
-        chart: &Chart<'_, N, D>,
-        target: &mut T,
-    ) {
+    /// Draws the bars.
+    pub(crate) fn draw<T: Display>(&self, plot: &Plot, target: &mut T) {
         let Some(last) = self.count.checked_sub(1) else { return };
-        let column = |u: Real| chart.pixel(Point2::new(u, Real::ZERO)).x;
-        let top = chart.corner.y + chart.window.size().height as i32 + self.gap as i32;
+        let column = |u: Real| plot.pixel(Point2::new(u, Real::ZERO)).x;
+        let top = plot.corner.y + plot.window.size().height as i32 + self.gap as i32;
         let full = (column(Real::ZERO), column(Real::ONE) + 1);
         for (level, (from, to)) in self.intervals().iter().enumerate() {
             let y = top + (level as u32 * (self.bar + self.gap)) as i32;
@@ -92,6 +90,5 @@ impl Nested {
             let rgb = if level == last { MARK } else { Named::Ocean.at(share) };
             fill(column(*from), right, solid(rgb), target);
         }
-        chart.mark(Point2::new(self.point, chart.value(self.point)), target);
     }
 }

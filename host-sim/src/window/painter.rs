@@ -2,14 +2,16 @@
 
 use std::sync::mpsc::{Receiver, TrySendError, sync_channel};
 use std::thread::{self, JoinHandle};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use embedded_graphics_simulator::SimulatorDisplay;
 
-use super::show::FRAME;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::scene::{Request, Scene};
+
+/// Time between two frames of a picture that is being drawn.
+pub(super) const FRAME: Duration = Duration::from_millis(40);
 
 /// At work on a scene, which is lent to it.
 pub(super) struct Painter<C: Depth> {

@@ -23,8 +23,6 @@ use crate::fail::{Fail, say};
 use crate::output;
 use crate::scene::{self, Request, Scene};
 
-/// Time between two frames of a picture that is being drawn.
-pub(super) const FRAME: Duration = Duration::from_millis(40);
 /// Time between two looks at the keys.
 const LISTEN: Duration = Duration::from_millis(8);
 /// Time after which a picture is shown again: another window may have lain over it.
