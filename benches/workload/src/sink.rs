@@ -18,7 +18,8 @@ use embedded_graphics::geometry::{Dimensions, OriginDimensions, Point, Size};
 use embedded_graphics::pixelcolor::{BinaryColor, IntoStorage, PixelColor};
 use embedded_graphics::primitives::{PointsIter, Rectangle};
 
-use crate::{Crc32, Machine};
+use crate::crc::Crc32;
+use crate::machine::Machine;
 
 /// Pixels between two stops of the clock.
 const BUFFER: usize = 320;
@@ -348,7 +349,7 @@ impl<C: Colour> DrawTarget for Sink<'_, C> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Blind;
+    use crate::machine::Blind;
     use embedded_graphics::prelude::*;
     use embedded_graphics::primitives::{Line, PrimitiveStyle};
 

@@ -2,8 +2,7 @@
 
 use core::hint::black_box;
 
-use attractor::Error;
-use attractor::escape::{Complex, JuliaCover, JuliaSet, View};
+use attractor::escape::{Complex, JuliaCover, View};
 use attractor::fixed::types::I3F29;
 use attractor::num::Wide;
 use attractor::picture::Field as _;
@@ -11,8 +10,9 @@ use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 use embedded_graphics::geometry::Size;
 
-use super::{Tally, Watch, fold};
-use crate::float::{mul_add, sqrt};
+use super::watch::{Tally, Watch};
+use crate::exported::rabbit_outline;
+use crate::float::{fold, mul_add, sqrt};
 use crate::inputs::{mixed, table};
 
 const POINTS: u32 = 2048;
@@ -20,15 +20,9 @@ const SEED: u64 = 7;
 /// Pixels a side of the picture that is covered.
 const SIDE: u32 = 64;
 
-/// Douady's rabbit.
-fn rabbit() -> Result<JuliaSet, Error> {
-    const C: Complex<Wide> = Complex::new(Wide::lit("-0.123"), Wide::lit("0.745"));
-    JuliaSet::new(C)
-}
-
 #[inline(never)]
 pub(super) fn plain(watch: &mut Watch<'_>) -> Tally {
-    let Ok(set) = rabbit() else { return Tally::default() };
+    let Ok(set) = rabbit_outline::set() else { return Tally::default() };
     let start = set.seeded_backward_iteration(SEED);
     watch.time(|| {
         let mut checksum = 0_u32;
@@ -42,7 +36,7 @@ pub(super) fn plain(watch: &mut Watch<'_>) -> Tally {
 #[inline(never)]
 pub(super) fn cover(watch: &mut Watch<'_>) -> Tally {
     let view = View::new(Complex::default(), const { Wide::lit("4") }, Size::new(SIDE, SIDE));
-    let (Ok(set), Ok(view)) = (rabbit(), view) else { return Tally::default() };
+    let (Ok(set), Ok(view)) = (rabbit_outline::set(), view) else { return Tally::default() };
     let Ok(cover) = JuliaCover::new(view, set) else { return Tally::default() };
     watch.time(|| {
         let mut tally = Tally::default();
