@@ -8,7 +8,7 @@ use attractor_gallery::{Method, PAPER};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::{IntoStorage as _, Rgb888};
 
-use super::module::{Module, lit};
+use super::module::{Module, lit, lits};
 use super::palette;
 use crate::palette::Colors;
 use crate::scene::coloring::Coloring;
@@ -66,7 +66,7 @@ pub(super) fn julia_set(scene: &JuliaSetScene, module: &mut Module, gallery: boo
 }
 
 fn complex(z: Complex<Wide>) -> String {
-    format!("Complex::new({}, {})", lit("Wide", z.re), lit("Wide", z.im))
+    lits("Complex", [z.re, z.im])
 }
 
 /// What a display of any size shows, for as many bits as 32-bit orbits have.

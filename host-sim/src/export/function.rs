@@ -3,7 +3,7 @@
 use attractor::fif::Knot;
 use attractor::num::Wide;
 
-use super::module::{Module, decimal, lit};
+use super::module::{Module, lit, lits};
 use super::palette;
 use crate::scene::fif_curve::FifCurve;
 use crate::scene::function::Function;
@@ -28,7 +28,7 @@ pub(super) fn function(function: &Function, name: &str, prefix: &str, module: &m
     let wide = |v: &Wide| lit("Wide", *v);
     let build = match &parts.polynomials {
         None => {
-            let knot = |k: &Knot| format!("Knot::lit({:?}, {:?})", decimal(k.x), decimal(k.y));
+            let knot = |k: &Knot| lits("Knot", [k.x, k.y]);
             let name = format!("{prefix}KNOTS");
             module.array("Where the graph passes.", &name, "Knot", parts.knots.iter().map(knot));
             format!("Fif::<N, D>::interpolating(&{name}, &{prefix}VERTICAL_SCALINGS)")

@@ -33,19 +33,16 @@ const WIDTH: usize = 110;
 /// What is written so far.
 #[derive(Debug, Default)]
 pub(crate) struct Module {
-    /// Helpers, which come first.
-    helpers: BTreeSet<&'static str>,
     items: Vec<String>,
 }
 
 impl Module {
     /// A constant of one value.
     pub(crate) fn constant(&mut self, doc: &str, name: &str, kind: &str, value: impl Display) {
-        let value = value.to_string();
         let line = format!("pub const {name}: {kind} = {value};\n");
-        let is_long = line.len() > WIDTH + 1 && !value.contains('\n');
-        let broken = || format!("pub const {name}: {kind} =\n    {value};\n");
-        self.item(doc, &if is_long { broken() } else { line });
+        // what has several lines is broken already
+        let is_long = line.len() > WIDTH + 1 && line.lines().count() == 1;
+        self.item(doc, &if is_long { format!("pub const {name}: {kind} =\n    {value};\n") } else { line });
     }
 
     /// An array with a line for each element.
@@ -63,44 +60,29 @@ impl Module {
 
     /// An array of points of the plane.
     pub(crate) fn points(&mut self, doc: &str, name: &str, all: &[Point2]) {
-        self.helper(
-            "const fn point(x: &str, y: &str) -> Point2 {\n    Point2::new(Real::lit(x), Real::lit(y))\n}\n",
-        );
-        let point = |p: &Point2| format!("point({:?}, {:?})", decimal(p.x), decimal(p.y));
-        self.array(doc, name, "Point2", all.iter().map(point));
+        self.array(doc, name, "Point2", all.iter().map(|p| lits("Point2", [p.x, p.y])));
     }
 
     /// A function: its head without the brace, and its lines. `errors` is what it may fail with, as a part of its documentation.
     pub(crate) fn function(&mut self, doc: &str, errors: &str, head: &str, lines: &[String]) {
         let doc = if errors.is_empty() { doc.to_owned() } else { format!("{doc}\n\n# Errors\n{errors}") };
         let body: String = lines.iter().map(|line| format!("    {line}\n")).collect();
-        let head =
-            match head.split_once('(').and_then(|(name, rest)| Some((name, rest.rsplit_once(") -> ")?))) {
-                Some((name, (parameters, result))) if head.len() + "pub  {".len() > WIDTH => {
-                    let parameters = parameters.replace(", ", ",\n    ");
-                    format!("{name}(\n    {parameters},\n) -> {result}")
-                }
-                _ => head.to_owned(),
-            };
-        self.item(&doc, &format!("pub {head} {{\n{body}}}\n"));
+        let is_long = head.len() + "pub  {".len() > WIDTH;
+        self.item(
+            &doc,
+            &format!("pub {} {{\n{body}}}\n", if is_long { broken(head) } else { head.to_owned() }),
+        );
     }
 
-    /// Any item.
+    /// Any item; without a comment one of the module's own.
     pub(crate) fn item(&mut self, doc: &str, code: &str) {
         let line = |line: &str| if line.is_empty() { "///\n".to_owned() } else { format!("/// {line}\n") };
         self.items.push(doc.lines().map(line).collect::<String>() + code);
     }
 
-    /// A function of the module's own, once however often it is asked for.
-    pub(crate) fn helper(&mut self, code: &'static str) {
-        self.helpers.insert(code);
-    }
-
     /// The text under its first comment.
     pub(crate) fn finished(&self, head: &str) -> String {
-        let items: Vec<&str> =
-            self.helpers.iter().copied().chain(self.items.iter().map(String::as_str)).collect();
-        let items = items.join("\n");
+        let items = self.items.join("\n");
         let used = words(&items);
         let mut imports: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
         for (path, names) in NAMES {
@@ -115,6 +97,13 @@ impl Module {
         }
         format!("{text}\n{items}")
     }
+}
+
+/// A function's head with a line for each parameter.
+fn broken(head: &str) -> String {
+    let parts = head.split_once('(').and_then(|(name, rest)| Some((name, rest.rsplit_once(") -> ")?)));
+    let Some((name, (parameters, result))) = parts else { return head.to_owned() };
+    format!("{name}(\n    {},\n) -> {result}", parameters.replace(", ", ",\n    "))
 }
 
 /// A line, or as many as the names take.
@@ -157,6 +146,12 @@ pub(crate) fn variant(name: &str, fields: &[(&str, String)]) -> String {
 /// A constant expression of a number: the format's `lit`.
 pub(crate) fn lit<F: Fixed + FromStr>(format: &str, value: F) -> String {
     format!("{format}::lit({:?})", decimal(value))
+}
+
+/// The same of a type of several numbers.
+pub(crate) fn lits<F: Fixed + FromStr, const N: usize>(kind: &str, values: [F; N]) -> String {
+    let numbers = values.map(|value| format!("{:?}", decimal(value)));
+    format!("{kind}::lit({})", numbers.join(", "))
 }
 
 /// The shortest decimal number that the format rounds to this one.

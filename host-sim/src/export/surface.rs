@@ -6,7 +6,7 @@ use attractor::trace::{Environment, Material};
 use attractor_gallery::surface_depth;
 
 use super::function::function;
-use super::module::{Module, lit, variant};
+use super::module::{Module, lit, lits, variant};
 use super::palette;
 use crate::scene::fif_surface::FifSurface;
 
@@ -60,7 +60,7 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
 }
 
 fn vector(v: Vec3) -> String {
-    format!("Vec3::new({}, {}, {})", lit("Real", v.x), lit("Real", v.y), lit("Real", v.z))
+    lits("Vec3", [v.x, v.y, v.z])
 }
 
 /// Where the camera stands.

@@ -42,7 +42,8 @@ pub(super) fn copies(scene: &CopierScene, module: &mut Module, gallery: bool) {
 }
 
 fn system(ifs: &Ifs<MAX_MAPS>, module: &mut Module) {
-    module.helper(
+    module.item(
+        "",
         "const fn map([a, b, c, d]: [&str; 4], [e, f]: [&str; 2]) -> Affine {\n    \
          let linear = [Unit::lit(a), Unit::lit(b), Unit::lit(c), Unit::lit(d)];\n    \
          Affine::new(linear, [Real::lit(e), Real::lit(f)])\n}\n",

@@ -5,13 +5,9 @@
 use attractor::Error;
 use attractor::curve::{Stop, TwoVariable};
 use attractor::draw::{Gradient, gradients};
-use attractor::num::{Real, Unit};
+use attractor::num::Unit;
 use attractor::picture::Point2;
 use attractor_gallery::{Named, Pencil};
-
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
 
 /// The offset.
 pub const OFFSET: Unit = Unit::lit("0.3");
@@ -30,8 +26,8 @@ pub fn law() -> Result<TwoVariable, Error> {
 /// What it goes through.
 #[rustfmt::skip]
 pub static KNOTS: [Point2; 2] = [
-    point("0", "0"),
-    point("1", "0"),
+    Point2::lit("0", "0"),
+    Point2::lit("1", "0"),
 ];
 
 /// Where it stops; none: at the length of a pixel.

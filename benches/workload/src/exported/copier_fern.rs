@@ -14,10 +14,6 @@ const fn map([a, b, c, d]: [&str; 4], [e, f]: [&str; 2]) -> Affine {
     Affine::new(linear, [Real::lit(e), Real::lit(f)])
 }
 
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
-
 /// `x' = a x + b y + e`, `y' = c x + d y + f`.
 #[rustfmt::skip]
 pub static MAPS: [Affine; 4] = [
@@ -47,11 +43,11 @@ pub fn system<const N: usize>() -> Result<Ifs<N>, Error> {
 /// What is copied.
 #[rustfmt::skip]
 pub static POLYLINE: [Point2; 5] = [
-    point("-2.2", "0"),
-    point("2.7", "0"),
-    point("2.7", "10"),
-    point("-2.2", "10"),
-    point("-2.2", "0"),
+    Point2::lit("-2.2", "0"),
+    Point2::lit("2.7", "0"),
+    Point2::lit("2.7", "10"),
+    Point2::lit("-2.2", "10"),
+    Point2::lit("-2.2", "0"),
 ];
 
 /// How often, a picture each.

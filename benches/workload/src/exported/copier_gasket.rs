@@ -14,10 +14,6 @@ const fn map([a, b, c, d]: [&str; 4], [e, f]: [&str; 2]) -> Affine {
     Affine::new(linear, [Real::lit(e), Real::lit(f)])
 }
 
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
-
 /// `x' = a x + b y + e`, `y' = c x + d y + f`.
 #[rustfmt::skip]
 pub static MAPS: [Affine; 3] = [
@@ -45,17 +41,17 @@ pub fn system<const N: usize>() -> Result<Ifs<N>, Error> {
 /// What is copied.
 #[rustfmt::skip]
 pub static POLYLINE: [Point2; 11] = [
-    point("0.2", "0"),
-    point("0.2", "1"),
-    point("0.8", "1"),
-    point("0.8", "0.8"),
-    point("0.4", "0.8"),
-    point("0.4", "0.6"),
-    point("0.65", "0.6"),
-    point("0.65", "0.4"),
-    point("0.4", "0.4"),
-    point("0.4", "0"),
-    point("0.2", "0"),
+    Point2::lit("0.2", "0"),
+    Point2::lit("0.2", "1"),
+    Point2::lit("0.8", "1"),
+    Point2::lit("0.8", "0.8"),
+    Point2::lit("0.4", "0.8"),
+    Point2::lit("0.4", "0.6"),
+    Point2::lit("0.65", "0.6"),
+    Point2::lit("0.65", "0.4"),
+    Point2::lit("0.4", "0.4"),
+    Point2::lit("0.4", "0"),
+    Point2::lit("0.2", "0"),
 ];
 
 /// How often, a picture each.

@@ -9,10 +9,6 @@ use attractor::num::{Real, Unit};
 use attractor::picture::Point2;
 use attractor_gallery::{Named, Pencil};
 
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
-
 /// The spectral exponent.
 pub const BETA: Real = Real::lit("2");
 
@@ -33,8 +29,8 @@ pub fn law() -> Result<Elbow, Error> {
 /// What it goes through.
 #[rustfmt::skip]
 pub static KNOTS: [Point2; 2] = [
-    point("0", "0"),
-    point("1", "0"),
+    Point2::lit("0", "0"),
+    Point2::lit("1", "0"),
 ];
 
 /// Where it stops; none: at the length of a pixel.

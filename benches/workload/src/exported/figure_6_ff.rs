@@ -45,13 +45,13 @@ pub fn factor<const N: usize, const D: usize>() -> Result<Fif<N, D>, Error> {
 pub const DEPTH: Option<u32> = None;
 
 /// Where the camera stands.
-pub const EYE: Vec3 = Vec3::new(Real::lit("-6"), Real::lit("-4.9"), Real::lit("4.4"));
+pub const EYE: Vec3 = Vec3::lit("-6", "-4.9", "4.4");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::new(Real::lit("1.15"), Real::lit("1.15"), Real::lit("1.7"));
+pub const LOOK_AT: Vec3 = Vec3::lit("1.15", "1.15", "1.7");
 
 /// Which way is up.
-pub const UP: Vec3 = Vec3::new(Real::lit("0"), Real::lit("0"), Real::lit("1"));
+pub const UP: Vec3 = Vec3::lit("0", "0", "1");
 
 /// Vertical, in degrees.
 pub const FIELD_OF_VIEW: Real = Real::lit("28.5");

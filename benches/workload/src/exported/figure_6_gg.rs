@@ -45,13 +45,13 @@ pub fn factor<const N: usize, const D: usize>() -> Result<Fif<N, D>, Error> {
 pub const DEPTH: Option<u32> = None;
 
 /// Where the camera stands.
-pub const EYE: Vec3 = Vec3::new(Real::lit("-4.4"), Real::lit("-3.7"), Real::lit("2.8"));
+pub const EYE: Vec3 = Vec3::lit("-4.4", "-3.7", "2.8");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::new(Real::lit("1"), Real::lit("1"), Real::lit("0.35"));
+pub const LOOK_AT: Vec3 = Vec3::lit("1", "1", "0.35");
 
 /// Which way is up.
-pub const UP: Vec3 = Vec3::new(Real::lit("0"), Real::lit("0"), Real::lit("1"));
+pub const UP: Vec3 = Vec3::lit("0", "0", "1");
 
 /// Vertical, in degrees.
 pub const FIELD_OF_VIEW: Real = Real::lit("22");

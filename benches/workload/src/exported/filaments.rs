@@ -9,7 +9,7 @@ use attractor::num::Wide;
 use embedded_graphics::geometry::Size;
 
 /// The middle of the picture.
-pub const CENTRE: Complex<Wide> = Complex::new(Wide::lit("-0.16"), Wide::lit("0.98"));
+pub const CENTRE: Complex<Wide> = Complex::lit("-0.16", "0.98");
 
 /// Its width.
 pub const WIDTH: Wide = Wide::lit("0.36");

@@ -5,13 +5,8 @@
 use attractor::Error;
 use attractor::curve::{Generator, catalogue};
 use attractor::draw::{Gradient, gradients};
-use attractor::num::Real;
 use attractor::picture::Point2;
 use attractor_gallery::{Named, Pencil};
-
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
 
 /// Segments of the generator: the least `S`.
 pub const SEGMENTS: usize = 4;
@@ -27,8 +22,8 @@ pub fn generator<const S: usize>() -> Result<Generator<S>, Error> {
 /// What is refined.
 #[rustfmt::skip]
 pub static BASE: [Point2; 2] = [
-    point("0", "0"),
-    point("1", "0"),
+    Point2::lit("0", "0"),
+    Point2::lit("1", "0"),
 ];
 
 /// How often; none: down to the length of a pixel.

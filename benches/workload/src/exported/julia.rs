@@ -9,10 +9,10 @@ use attractor::num::Wide;
 use embedded_graphics::geometry::Size;
 
 /// The constant of the set.
-pub const C: Complex<Wide> = Complex::new(Wide::lit("-0.12256116687665"), Wide::lit("0.74486176661974"));
+pub const C: Complex<Wide> = Complex::lit("-0.12256116687665", "0.74486176661974");
 
 /// The middle of the picture.
-pub const CENTRE: Complex<Wide> = Complex::new(Wide::lit("0"), Wide::lit("0"));
+pub const CENTRE: Complex<Wide> = Complex::lit("0", "0");
 
 /// Its width at least.
 pub const WIDTH: Wide = Wide::lit("3.004871737211943");

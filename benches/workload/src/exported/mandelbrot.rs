@@ -9,7 +9,7 @@ use attractor::num::Wide;
 use embedded_graphics::geometry::Size;
 
 /// The middle of the picture.
-pub const CENTRE: Complex<Wide> = Complex::new(Wide::lit("-0.75"), Wide::lit("0"));
+pub const CENTRE: Complex<Wide> = Complex::lit("-0.75", "0");
 
 /// Its width at least.
 pub const WIDTH: Wide = Wide::lit("3");

@@ -10,7 +10,7 @@ use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
 
 /// The middle of the picture.
-pub const CENTRE: Complex<Wide> = Complex::new(Wide::lit("-0.3"), Wide::lit("0.75"));
+pub const CENTRE: Complex<Wide> = Complex::lit("-0.3", "0.75");
 
 /// Its width.
 pub const WIDTH: Wide = Wide::lit("1");

@@ -9,10 +9,6 @@ use attractor::num::{Real, Unit};
 use attractor::picture::Point2;
 use attractor_gallery::{Named, Pencil};
 
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
-
 /// The spectral exponent.
 pub const BETA: Real = Real::lit("2.2");
 
@@ -33,10 +29,10 @@ pub fn law() -> Result<LineToLine, Error> {
 /// What it goes through.
 #[rustfmt::skip]
 pub static KNOTS: [Point2; 4] = [
-    point("0", "0"),
-    point("0.9", "0.5"),
-    point("1.6", "0.1"),
-    point("2", "0.35"),
+    Point2::lit("0", "0"),
+    Point2::lit("0.9", "0.5"),
+    Point2::lit("1.6", "0.1"),
+    Point2::lit("2", "0.35"),
 ];
 
 /// Where it stops; none: at the length of a pixel.

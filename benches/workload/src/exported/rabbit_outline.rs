@@ -9,7 +9,7 @@ use attractor::num::Wide;
 use attractor_gallery::{Method, Named};
 
 /// The constant of the set.
-pub const C: Complex<Wide> = Complex::new(Wide::lit("-0.123"), Wide::lit("0.745"));
+pub const C: Complex<Wide> = Complex::lit("-0.123", "0.745");
 
 /// The set.
 ///

@@ -9,7 +9,7 @@ use attractor::num::Wide;
 use attractor_gallery::{Method, Named};
 
 /// The constant of the set.
-pub const C: Complex<Wide> = Complex::new(Wide::lit("-0.75"), Wide::lit("0"));
+pub const C: Complex<Wide> = Complex::lit("-0.75", "0");
 
 /// The set.
 ///

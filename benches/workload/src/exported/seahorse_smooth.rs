@@ -10,7 +10,7 @@ use attractor::picture::Field;
 use embedded_graphics::geometry::Size;
 
 /// The middle of the picture.
-pub const CENTRE: Complex<Wide> = Complex::new(Wide::lit("-0.7453"), Wide::lit("0.1127"));
+pub const CENTRE: Complex<Wide> = Complex::lit("-0.7453", "0.1127");
 
 /// Its width.
 pub const WIDTH: Wide = Wide::lit("0.0065");
