@@ -12,8 +12,7 @@ use attractor::picture::Field;
 use embedded_graphics::geometry::Size;
 
 /// The middle of the picture.
-pub const CENTRE: Complex<Wide> =
-    Complex::new(Wide::lit("-0.743643887037152"), Wide::lit("0.13182590420533"));
+pub const CENTRE: Complex<Wide> = Complex::lit("-0.743643887037152", "0.13182590420533");
 
 /// Its width.
 pub const WIDTH: Wide = Wide::lit("0.00000003");

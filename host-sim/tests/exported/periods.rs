@@ -10,10 +10,10 @@ use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
 
 /// The constant of the set.
-pub const C: Complex<Wide> = Complex::new(Wide::lit("-0.12"), Wide::lit("0.74"));
+pub const C: Complex<Wide> = Complex::lit("-0.12", "0.74");
 
 /// The middle of the picture.
-pub const CENTRE: Complex<Wide> = Complex::new(Wide::lit("0"), Wide::lit("0"));
+pub const CENTRE: Complex<Wide> = Complex::lit("0", "0");
 
 /// Its width at least.
 pub const WIDTH: Wide = Wide::lit("2.999666567891836");

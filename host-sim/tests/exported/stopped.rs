@@ -8,10 +8,6 @@ use attractor::draw::{Gradient, gradients};
 use attractor::num::Real;
 use attractor::picture::Point2;
 
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
-
 /// The spectral exponent.
 pub const BETA: Real = Real::lit("2.5");
 
@@ -29,9 +25,9 @@ pub fn law() -> Result<Elbow, Error> {
 /// What it goes through.
 #[rustfmt::skip]
 pub static KNOTS: [Point2; 3] = [
-    point("0", "0"),
-    point("1", "0.5"),
-    point("2", "-0.25"),
+    Point2::lit("0", "0"),
+    Point2::lit("1", "0.5"),
+    Point2::lit("2", "-0.25"),
 ];
 
 /// Where it stops; none: at the length of a pixel.

@@ -5,12 +5,8 @@
 use attractor::Error;
 use attractor::curve::Generator;
 use attractor::draw::{Gradient, gradients};
-use attractor::num::{Angle, Real};
+use attractor::num::Angle;
 use attractor::picture::Point2;
-
-const fn point(x: &str, y: &str) -> Point2 {
-    Point2::new(Real::lit(x), Real::lit(y))
-}
 
 /// What stands in place of a segment.
 pub const WORD: &str = "F+F--F+F";
@@ -32,11 +28,11 @@ pub fn generator<const S: usize>() -> Result<Generator<S>, Error> {
 /// What is refined.
 #[rustfmt::skip]
 pub static BASE: [Point2; 5] = [
-    point("0", "0"),
-    point("0", "1"),
-    point("1", "1"),
-    point("1", "0"),
-    point("0", "0"),
+    Point2::lit("0", "0"),
+    Point2::lit("0", "1"),
+    Point2::lit("1", "1"),
+    Point2::lit("1", "0"),
+    Point2::lit("0", "0"),
 ];
 
 /// How often; none: down to the length of a pixel.

@@ -75,13 +75,13 @@ pub fn g<const N: usize, const D: usize>() -> Result<Fif<N, D>, Error> {
 pub const DEPTH: Option<u32> = Some(5);
 
 /// Where the camera stands.
-pub const EYE: Vec3 = Vec3::new(Real::lit("-4"), Real::lit("-3"), Real::lit("5"));
+pub const EYE: Vec3 = Vec3::lit("-4", "-3", "5");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::new(Real::lit("1"), Real::lit("1"), Real::lit("0.5"));
+pub const LOOK_AT: Vec3 = Vec3::lit("1", "1", "0.5");
 
 /// Which way is up.
-pub const UP: Vec3 = Vec3::new(Real::lit("0.1"), Real::lit("0"), Real::lit("1"));
+pub const UP: Vec3 = Vec3::lit("0.1", "0", "1");
 
 /// Vertical, in degrees.
 pub const FIELD_OF_VIEW: Real = Real::lit("40");

@@ -5,10 +5,9 @@
 use core::hint::black_box as bb;
 
 use attractor::draw::{Picture, gradients};
-use attractor::fif::{Cell, Fif, Pyramid};
-use attractor::num::{Real, Vec3, Wide};
+use attractor::fif::{Cell, Fif, Knot, Pyramid};
+use attractor::num::{Real, Scaling, Vec3, Wide};
 use attractor::trace::{Camera, HeightField, Material, RayCaster};
-use attractor_cortex_m::workload::exported::figure_3_f::{KNOTS, VERTICAL_SCALINGS};
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::Rgb565;
@@ -22,7 +21,8 @@ fn main() -> ! {
 }
 
 fn draw() -> Result<(), attractor::Error> {
-    let g = Fif::<2, 1>::interpolating(&bb(KNOTS), &bb(VERTICAL_SCALINGS))?;
+    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+    let g = Fif::<2, 1>::interpolating(&bb(knots), &bb([Scaling::from_bits(1 << 30); 2]))?;
     let g = g.integral::<2>(Wide::ZERO)?;
     let mut memory = const { [Cell::ZERO; Pyramid::cells(2, 6)] };
     let pyramid = Pyramid::new(&g, bb(6), &mut memory)?;
