@@ -6,10 +6,11 @@
 use std::time::Duration;
 
 use attractor::Error;
-use attractor::fif::{Cell, Fif, Knot, Pyramid};
-use attractor::num::{Real, Scaling, Vec3, Wide};
+use attractor::fif::{Cell, Fif, Pyramid};
+use attractor::num::{Real, Vec3};
 use attractor::trace::{Camera, HeightField, Material, RayCaster};
 use attractor_reference as reference;
+use attractor_workload::exported::{figure_1_g, figure_3_g};
 use embedded_graphics_core::geometry::Size;
 
 /// How long a bench runs before it is measured.
@@ -27,9 +28,7 @@ pub const DEPTH: u32 = 8;
 /// # Errors
 /// None: the function is valid.
 pub fn g() -> Result<Fif<2, 1>, Error> {
-    const STEEP: Scaling = Scaling::lit("0.85");
-    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
-    Fif::interpolating(&knots, &[STEEP, -STEEP])
+    figure_1_g::function()
 }
 
 /// Its integral `G`, 0 at 0.
@@ -37,7 +36,7 @@ pub fn g() -> Result<Fif<2, 1>, Error> {
 /// # Errors
 /// None: the function is valid.
 pub fn g_integral() -> Result<Fif<2, 2>, Error> {
-    g()?.integral(Wide::ZERO)
+    figure_3_g::function()
 }
 
 /// `g` for the reference.

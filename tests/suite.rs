@@ -5,6 +5,7 @@ mod curves;
 mod curves_at_the_edge;
 mod deep_zoom;
 mod ifs;
+mod imports;
 mod julia_sets;
 mod l_systems;
 mod laws;

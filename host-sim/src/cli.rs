@@ -54,7 +54,7 @@ pub(crate) enum Command {
     Dump(Dump),
     /// Write the numbers of a scene as CSV, with the f64 reference beside the fixed-point values
     Sample(Sample),
-    /// Write the numbers of a scene as constants of a Rust module, for firmware
+    /// Write a scene of any kind as a Rust module of constants, for firmware
     Export(Export),
     /// Measure the kernels against the f64 reference, beside the bounds that they promise
     Accuracy(Accuracy),
@@ -136,18 +136,28 @@ pub(crate) struct Sample {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Kinds: fif-curve through knots (data with its fitted scalings, too), ifs, copier. Other scenes are a few numbers.
+    after_help = "The numbers are the bits that the command itself draws with; functions make core's objects of them, and say how much memory they borrow.
 
 Examples:
   attractor export sunspots > src/sunspots.rs
   attractor export my-fern.toml > src/my_fern.rs
+  attractor export --all -o src/scenes        a module for each built-in scene, and mod.rs
 
-The numbers are the bits that the command itself draws with: firmware shows the same picture."
+What is not in `attractor` itself, margins, paper and lines that change their colour, is in the crate `attractor-gallery`: --gallery."
 )]
 pub(crate) struct Export {
     /// Name of a built-in scene, or path of a TOML file
-    #[arg(value_name = "SCENE")]
-    pub(crate) scene: String,
+    #[arg(value_name = "SCENE", required_unless_present = "all", conflicts_with = "all")]
+    pub(crate) scene: Option<String>,
+    /// All built-in scenes, into the directory --output
+    #[arg(long, requires = "output")]
+    pub(crate) all: bool,
+    /// The directory of --all; it is made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// Also what the crate attractor-gallery draws the scene with, as the command shows it
+    #[arg(long)]
+    pub(crate) gallery: bool,
 }
 
 #[derive(Debug, Args)]

@@ -35,7 +35,7 @@ const COMMANDS: &str = "\
 Commands
   attractor dump [SCENE...] [-o FILE.png|DIR|-] [--size WxH] [--color rgb565|rgb888|gray8|gray4|gray2|mono] [--scale N]
   attractor sample SCENE --points N       the numbers as CSV, fixed point beside the f64 reference
-  attractor export SCENE                  the numbers as constants of a Rust module, for firmware
+  attractor export SCENE [--gallery]      the scene as a Rust module of constants, for firmware
   attractor accuracy [--csv]              errors measured beside the bounds promised
   attractor dimension SCENE [--boundary]  the dimension of attractors, curves and graphs, theory beside it
   attractor spectrum SCENE                the spectral exponent of graphs and random curves, theory beside it

@@ -2,7 +2,7 @@
 
 use attractor::draw::{Brightened, Cycled, Level, Leveled, Palette, hex};
 pub(crate) use attractor_gallery::Named;
-use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
+use embedded_graphics::pixelcolor::Rgb888;
 use toml::Spanned;
 
 use crate::fail::Fail;
@@ -18,13 +18,6 @@ pub(crate) struct Colors {
     pub(crate) cycle: Option<u32>,
     /// The inside of the set.
     pub(crate) inside: Rgb888,
-}
-
-impl Colors {
-    /// A palette as it is, black inside.
-    pub(crate) const fn plain(named: Named) -> Self {
-        Self { named, lift: false, cycle: None, inside: Rgb888::BLACK }
-    }
 }
 
 impl<V: Leveled> Palette<V> for Colors {

@@ -5,6 +5,7 @@ mod bad_curves;
 mod bad_input;
 mod common;
 mod export;
+mod exported;
 mod measure;
 mod pictures;
 mod rooms;

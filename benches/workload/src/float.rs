@@ -94,8 +94,15 @@ impl Float for f64 {
 
     #[inline(always)]
     fn fold(self) -> u32 {
-        crate::kernels::fold(self)
+        fold(self)
     }
+}
+
+/// A result in double precision, for a checksum.
+#[inline(always)]
+pub(crate) fn fold(v: f64) -> u32 {
+    let bits = v.to_bits();
+    bits as u32 ^ (bits >> 32) as u32
 }
 
 /// `a * b + c`, fused where the target does it in one instruction.

@@ -1,5 +1,6 @@
 //! What the target runs and the host runs again: a table of scenes, a table of kernels, and the sink that both draw into.
 //!
+//! - [`exported`]: the built-in scenes of the command by their numbers, as `attractor export` writes them;
 //! - [`scenes::ALL`]: pictures of core, drawn row by row into a [`Sink`](sink::Sink) that keeps a CRC-32 and no pixel;
 //! - [`kernels::ALL`]: inner loops, each in fixed point and, beside it, in f32 and in f64 as a competent C programmer would write them.
 //!
@@ -12,23 +13,18 @@
 extern crate std;
 
 mod built_in;
-mod escape_scenes;
+mod checksum;
+pub mod exported;
 mod float;
 mod inputs;
 pub mod kernels;
 mod machine;
+mod own;
 mod rivals;
+mod scene;
 pub mod scenes;
 pub mod sink;
 mod surface;
 
-use crc::{CRC_32_ISO_HDLC, Crc};
-
+pub use checksum::CRC_32;
 pub use machine::{Blind, Machine};
-
-/// The checksum of what is drawn: that of zlib and PNG.
-pub static CRC_32: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
-
-/// Whether this is an image for Armv6-M, which alone lacks atomic exchange: it has only the rows that a machine with 16 KiB of RAM runs, since all of
-/// them would not fit its flash.
-const SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));

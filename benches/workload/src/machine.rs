@@ -35,3 +35,7 @@ impl Machine for Blind {
         0
     }
 }
+
+/// Whether this is an image for Armv6-M, which alone lacks atomic exchange: it has only the rows that a machine with 16 KiB of RAM runs, since all of
+/// them would not fit its flash.
+pub(crate) const SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));

@@ -19,7 +19,8 @@ use embedded_graphics::geometry::{Dimensions, OriginDimensions, Point, Size};
 use embedded_graphics::pixelcolor::{BinaryColor, IntoStorage, PixelColor};
 use embedded_graphics::primitives::{PointsIter, Rectangle};
 
-use crate::{CRC_32, Machine};
+use crate::checksum::CRC_32;
+use crate::machine::Machine;
 
 /// Pixels between two stops of the clock.
 const BUFFER: usize = 320;
@@ -345,7 +346,7 @@ impl<C: Colour> DrawTarget for Sink<'_, C> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Blind;
+    use crate::machine::Blind;
     use embedded_graphics::prelude::*;
     use embedded_graphics::primitives::{Line, PrimitiveStyle};
 

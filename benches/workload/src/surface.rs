@@ -1,22 +1,10 @@
-//! The surface `G x G` of the paper: `G` is the integral of the function `g` of figure 1 (scalings 0.85 and -0.85), mirrored under a sky.
+//! The surface `G x G` of the paper, `G` the function of figure 3 on the right, mirrored under a sky.
 
 use attractor::Error;
-use attractor::fif::{Fif, Knot, Pyramid};
-use attractor::num::{Real, Scaling, Vec3, Wide};
+use attractor::fif::Pyramid;
+use attractor::num::{Real, Vec3};
 use attractor::trace::{Camera, HeightField, Material, RayCaster};
 use embedded_graphics::geometry::Size;
-
-/// The paper's `g`.
-pub(crate) fn g() -> Result<Fif<2, 1>, Error> {
-    const STEEP: Scaling = Scaling::lit("0.85");
-    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
-    Fif::interpolating(&knots, &[STEEP, -STEEP])
-}
-
-/// The paper's `G`.
-pub(crate) fn g_integral() -> Result<Fif<2, 2>, Error> {
-    g()?.integral::<2>(Wide::ZERO)
-}
 
 /// From the upper left front; the surface fills a third of a square picture.
 pub(crate) fn mirror<'a>(pyramid: &Pyramid<'a>, size: Size) -> Result<RayCaster<'a>, Error> {
@@ -28,12 +16,13 @@ pub(crate) fn mirror<'a>(pyramid: &Pyramid<'a>, size: Size) -> Result<RayCaster<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exported::figure_3_g;
     use attractor::fif::Cell;
 
     #[test]
     fn the_surface_fills_a_third_of_a_square_picture() {
         let mut memory = [Cell::ZERO; Pyramid::cells(2, 8)];
-        let g = g_integral().unwrap();
+        let g = figure_3_g::function::<2, 2>().unwrap();
         let pyramid = Pyramid::new(&g, 8, &mut memory).unwrap();
         let caster = mirror(&pyramid, Size::new(240, 240)).unwrap();
         let hits = (0..240 * 240).filter(|i| caster.hit(i % 240, i / 240).is_some()).count();

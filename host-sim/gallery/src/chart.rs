@@ -11,6 +11,7 @@ use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::Drawable;
 
+use crate::depth::depth_for;
 use crate::ink::{ground, solid};
 use crate::named::Named;
 use crate::nested::Nested;
@@ -19,21 +20,6 @@ use crate::plot::{Plot, value};
 
 /// A pyramid for the range of a function has about as many cells at its finest level: halves of halves, seven times.
 pub const CELLS_ACROSS: u32 = 128;
-
-/// The depth at which a pyramid has at least `cells` cells at its finest level, and no more than about a million in all.
-pub const fn depth_for(maps: usize, cells: u32) -> u32 {
-    let mut depth = 0;
-    let mut finest = 1_usize;
-    while finest < cells as usize
-        && depth < Pyramid::MAX_DEPTH
-        && maps > 1
-        && Pyramid::cells(maps, depth + 1) <= 1 << 20
-    {
-        depth += 1;
-        finest *= maps;
-    }
-    depth
-}
 
 /// Axes and the lines through the knots.
 const RULE: Rgb888 = hex(0x3a4260);

@@ -1,6 +1,6 @@
 //! Palettes by name.
 
-use attractor::draw::{CourseUnit, Gradient, Grey, Level, Palette, gradients};
+use attractor::draw::{CourseUnit, Gradient, Grey, Level, Leveled, Palette, gradients};
 use embedded_graphics::pixelcolor::Rgb888;
 
 /// The palettes that have a name.
@@ -34,5 +34,12 @@ impl Named {
             Self::Even => on(&gradients::EVEN, level),
             Self::Porcelain => on(&gradients::PORCELAIN, level),
         }
+    }
+}
+
+impl<V: Leveled> Palette<V> for Named {
+    #[inline]
+    fn rgb(&self, value: V) -> Rgb888 {
+        self.at(value.level())
     }
 }

@@ -5,19 +5,19 @@ use std::convert::Infallible;
 use attractor::draw::{Inside, Leveled, Ramp};
 use attractor::escape::{Distance, EscapeTime, FractionalDwell, Interior, Smooth};
 use attractor::plane::Field;
+use attractor_gallery::{PAPER, Watch, draw_field};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 
-use super::{Watch, draw_field, equalised};
+use super::equalised;
 use crate::color::{Depth, ground};
 use crate::fail::Fail;
 use crate::palette::Colors;
-use attractor_gallery::PAPER;
 
 /// The key `coloring`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Coloring {
+pub(crate) enum Coloring {
     /// Whole counts, in bands.
     #[default]
     Dwell,

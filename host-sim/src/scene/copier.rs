@@ -6,15 +6,15 @@ use std::io::Write;
 use attractor::curve::koch;
 use attractor::ifs::{Ifs, MAX_MAPS, catalogue};
 use attractor::plane::Point2;
-use attractor_gallery::Copies;
+use attractor_gallery::{Copies, Watch};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::curve::vertices;
 use super::polyline::{self, Points};
+use super::request::Request;
 use super::system::{Maps, system};
-use super::{Request, Watch};
 use crate::cli::MAX_POINTS;
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -42,11 +42,12 @@ struct File {
 
 /// A row of copies ready to be drawn.
 #[derive(Debug)]
-pub(super) struct CopierScene {
-    ifs: Box<Ifs<MAX_MAPS>>,
-    shape: Vec<Point2>,
-    orders: Vec<u32>,
-    palette: Named,
+pub(crate) struct CopierScene {
+    /// The system, whose attractor the copies tend to.
+    pub(crate) ifs: Box<Ifs<MAX_MAPS>>,
+    pub(crate) shape: Vec<Point2>,
+    pub(crate) orders: Vec<u32>,
+    pub(crate) palette: Named,
     /// What is copied, or by which maps.
     place: Place,
 }
@@ -72,11 +73,6 @@ impl CopierScene {
         let scene = Self { ifs, shape, orders, palette: file.palette.unwrap_or(Named::Even), place };
         scene.copies()?;
         Ok(scene)
-    }
-
-    /// The system, whose attractor the copies tend to.
-    pub(super) fn ifs(&self) -> &Ifs<MAX_MAPS> {
-        &self.ifs
     }
 
     fn copies(&self) -> Result<Copies<'_, MAX_MAPS, DEPTH>, Fail> {

@@ -4,17 +4,18 @@ use std::convert::Infallible;
 use std::io::Write;
 
 use attractor::Error;
-use attractor::curve::{Generator, Refined, catalogue, koch};
+use attractor::curve::catalogue::{self, Curve};
+use attractor::curve::{Generator, Refined, koch};
 use attractor::num::{Angle, Real, Wide};
 use attractor::plane::{PathElement, Point2};
-use attractor_gallery::{CurvePicture, Pencil, ground_words};
+use attractor_gallery::{CurvePicture, Pencil, Watch, ground_words};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::polyline::{self, Points};
+use super::request::Request;
 use super::trail::Trail;
-use super::{Request, Watch};
 use crate::cli::MAX_POINTS;
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -47,21 +48,31 @@ struct File {
 
 /// A curve ready to be drawn.
 #[derive(Debug)]
-pub(super) struct CurveScene {
-    generator: Box<Generator<SEGMENTS>>,
-    base: Vec<Point2>,
+pub(crate) struct CurveScene {
+    pub(crate) generator: Box<Generator<SEGMENTS>>,
+    pub(crate) origin: Origin,
+    pub(crate) base: Vec<Point2>,
     /// None: down to the length of a pixel.
-    order: Option<u32>,
-    filled: bool,
-    pencil: Pencil,
+    pub(crate) order: Option<u32>,
+    pub(crate) filled: bool,
+    pub(crate) pencil: Pencil,
     /// What decides how far it is refined.
     place: Place,
+}
+
+/// What a generator is made of.
+#[derive(Debug)]
+pub(crate) enum Origin {
+    Named(&'static Curve),
+    Polyline(Vec<[Wide; 2]>),
+    Turtle(String, Angle),
 }
 
 impl CurveScene {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
         let file: File = source.parse()?;
-        let (generator, closed) = generator(source, &file)?;
+        let (generator, origin) = generator(source, &file)?;
+        let closed = matches!(origin, Origin::Named(curve) if curve.closed);
         let base = match &file.base {
             Some(list) => polyline::points(source, "base", list)?,
             None if closed => koch::triangle(Point2::default(), Real::ONE).to_vec(),
@@ -83,6 +94,7 @@ impl CurveScene {
         let closed = base.first() == base.last();
         let scene = Self {
             generator: Box::new(generator),
+            origin,
             base,
             order,
             filled: file.fill.unwrap_or(closed),
@@ -151,8 +163,8 @@ pub(super) fn vertices(
     Ok(())
 }
 
-/// The generator, by name, word or polyline, and whether its picture is drawn on a triangle.
-fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, bool), Fail> {
+/// The generator, by name, word or polyline, and what it is made of.
+fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, Origin), Fail> {
     if let Some(angle) = file.angle.as_ref().filter(|_| file.turtle.is_none()) {
         return Err(source.fail(angle.span(), "angle", "it belongs to a turtle word"));
     }
@@ -164,7 +176,7 @@ fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, bool)
                 return Err(source.fail(name.span(), "curve", reason));
             };
             let generator = curve.generator().map_err(|error| source.fail(name.span(), "curve", error))?;
-            Ok((generator, curve.closed))
+            Ok((generator, Origin::Named(curve)))
         }
         (None, Some(list), None) => {
             let mut vertices = Vec::new();
@@ -186,7 +198,7 @@ fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, bool)
                 }
                 _ => source.fail(list.span(), "generator", error),
             })?;
-            Ok((generator, false))
+            Ok((generator, Origin::Polyline(vertices)))
         }
         (None, None, Some(word)) => {
             let Some(angle) = &file.angle else {
@@ -195,8 +207,10 @@ fn generator(source: &Source, file: &File) -> Result<(Generator<SEGMENTS>, bool)
             let degrees = source.fixed::<Wide>(angle, "angle")?;
             // 48 fractional bits, to 32 of a turn, rounded
             let turns = ((i128::from(degrees.to_bits()) << 32) / 180 + (1 << 48)) >> 49;
-            let generator = Generator::turtle(word.get_ref(), Angle::from_bits(turns as u32));
-            Ok((generator.map_err(|error| source.fail(word.span(), "turtle", error))?, false))
+            let angle = Angle::from_bits(turns as u32);
+            let generator = Generator::turtle(word.get_ref(), angle)
+                .map_err(|error| source.fail(word.span(), "turtle", error))?;
+            Ok((generator, Origin::Turtle(word.get_ref().clone(), angle)))
         }
         _ => Err(source.fail_all("curve", "one of curve, generator and turtle is needed")),
     }

@@ -9,16 +9,16 @@ use attractor::num::Limbs;
 use attractor::plane::Field as _;
 use embedded_graphics::geometry::Size;
 
-use super::escape::Keys;
+use super::keys::Keys;
 use super::motion::Sight;
 use crate::fail::Fail;
 use crate::number;
 use crate::source::{Num, Source};
 
 /// 380 fractional bits: 114 decimal places.
-pub(super) const LIMBS: usize = 12;
+pub(crate) const LIMBS: usize = 12;
 /// A unit of the 32-bit format: no display shows a view as narrow as this in it.
-pub(super) const UNIT: f64 = 1.0 / (1 << 29) as f64;
+pub(crate) const UNIT: f64 = 1.0 / (1 << 29) as f64;
 /// A coordinate rounded to 114 decimal places is within a 256th of a pixel of the largest display in views as
 /// wide as this.
 const ROUNDED: f64 = 1e-114 * (1 << 22) as f64;
@@ -30,7 +30,7 @@ pub(super) type Picture<'a> = DeepMandelbrot<'a, LIMBS>;
 
 /// Centre and width of a view, all digits kept.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Deep(pub(super) Sight<LIMBS>);
+pub(crate) struct Deep(pub(crate) Sight<LIMBS>);
 
 impl Deep {
     /// None for a view that 32 bits show on every display.
@@ -82,7 +82,7 @@ impl Deep {
     }
 
     /// The view on a display of this size.
-    pub(super) fn view(&self, size: Size) -> Result<View, Error> {
+    pub(crate) fn view(&self, size: Size) -> Result<View, Error> {
         DeepView::new(self.0.centre, self.0.width, size)
     }
 }

@@ -8,11 +8,11 @@ use std::convert::Infallible;
 
 use attractor::draw::{Equalised, Level, Leveled, Palette, Picture};
 use attractor::plane::Field;
+use attractor_gallery::Watch;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
 
-use super::Watch;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Colors;
@@ -94,6 +94,10 @@ mod tests {
 
     const SIZE: Size = Size::new(31, 23);
 
+    fn plain(named: Named) -> Colors {
+        Colors { named, lift: false, cycle: None, inside: Rgb888::BLACK }
+    }
+
     /// Counts how often a pixel is computed.
     struct Slow {
         computed: Cell<u32>,
@@ -115,7 +119,7 @@ mod tests {
     #[test]
     fn each_pixel_is_computed_once_and_coloured_by_the_whole_picture() {
         let slow = Slow { computed: Cell::new(0) };
-        let colors = Colors::plain(Named::Dusk);
+        let colors = plain(Named::Dusk);
         let mut display = SimulatorDisplay::<Rgb888>::new(SIZE);
         let mut portions = Vec::new();
         draw(&slow, colors, &mut display, &mut |_, done, all| {
@@ -138,7 +142,7 @@ mod tests {
         let slow = Slow { computed: Cell::new(0) };
         let mut display = SimulatorDisplay::<Rgb888>::new(SIZE);
         let watch = &mut |_: &mut SimulatorDisplay<Rgb888>, done, _| done < 5;
-        draw(&slow, Colors::plain(Named::Fire), &mut display, watch).unwrap();
+        draw(&slow, plain(Named::Fire), &mut display, watch).unwrap();
         assert_eq!(slow.computed.get(), 5 * SIZE.width);
     }
 }

@@ -9,63 +9,36 @@ use attractor::num::{Limbs, Wide};
 use attractor::plane::MAX_SIDE;
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use serde::Deserialize;
-use toml::Spanned;
 
 use super::coloring::Coloring;
 use super::deep::{self, Deep};
+use super::keys::{Keys, count};
 use super::motion::{Motion, Sight};
 use crate::color::Depth;
 use crate::fail::{Fail, shortened};
 use crate::number::{self, exact};
 use crate::palette::{Colors, Named, color};
-use crate::source::{Num, Source};
-
-/// Keys of both kinds, as their files give them.
-#[derive(Debug)]
-pub(super) struct Keys<'a> {
-    pub(super) centre: Option<&'a Spanned<[Num; 2]>>,
-    pub(super) width: Option<&'a Num>,
-    pub(super) max_dwell: Option<&'a Spanned<i64>>,
-    pub(super) palette: Option<Named>,
-    pub(super) lift: bool,
-    pub(super) cycle: Option<&'a Spanned<i64>>,
-    pub(super) inside: Option<&'a Spanned<String>>,
-    pub(super) grey: Option<&'a Grey>,
-    pub(super) coloring: Option<&'a Spanned<Coloring>>,
-    pub(super) equalised: bool,
-    /// Whether there are pictures beyond 32 bits.
-    pub(super) goes_deep: bool,
-}
-
-/// The table `[grey]`: the colours on displays without colour.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Grey {
-    palette: Option<Named>,
-    #[serde(default)]
-    lift: bool,
-    cycle: Option<Spanned<i64>>,
-    inside: Option<Spanned<String>>,
-}
+use crate::source::Source;
 
 /// What is seen, and how.
 #[derive(Debug)]
-pub(super) struct Escape {
+pub(crate) struct Escape {
     /// What messages call the scene.
     file: String,
-    centre: Complex<Wide>,
-    /// None: as wide as the height given here needs, at least.
-    width: Option<Wide>,
-    home: (Wide, Wide),
-    deep: Option<Deep>,
+    pub(crate) centre: Complex<Wide>,
+    /// None: as much as shows the home rectangle.
+    pub(crate) width: Option<Wide>,
+    /// Width and height that are shown at least.
+    pub(crate) home: (Wide, Wide),
+    /// The view with all its digits, if it may be too fine for 32 bits.
+    pub(crate) deep: Option<Deep>,
     goes_deep: bool,
-    pub(super) max_dwell: u32,
-    pub(super) coloring: Coloring,
-    pub(super) equalised: bool,
-    colors: Colors,
+    pub(crate) max_dwell: u32,
+    pub(crate) coloring: Coloring,
+    pub(crate) equalised: bool,
+    pub(crate) colors: Colors,
     /// On displays without colour.
-    grey: Colors,
+    pub(crate) grey: Colors,
 }
 
 impl Escape {
@@ -223,14 +196,6 @@ impl Escape {
     fn refused(&self, width: &str, size: Size, error: Error) -> Fail {
         let (file, width) = (&self.file, shortened(width));
         Fail::new(format_args!("{file}: width = {width} on {} x {} pixels: {error}", size.width, size.height))
-    }
-}
-
-fn count(source: &Source, key: &str, given: Option<&Spanned<i64>>, most: u32) -> Result<Option<u32>, Fail> {
-    let Some(given) = given else { return Ok(None) };
-    match u32::try_from(*given.get_ref()) {
-        Ok(n) if (1..=most).contains(&n) => Ok(Some(n)),
-        _ => Err(source.fail(given.span(), key, format!("allowed is 1 to {most}"))),
     }
 }
 

@@ -5,17 +5,16 @@ use std::io::Write;
 
 use attractor::fif::{Cell, Pyramid};
 use attractor::num::Wide;
-use attractor_gallery::{CELLS_ACROSS, Chart, depth_for};
+use attractor_gallery::{CELLS_ACROSS, Chart, Watch, depth_for};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::data::{self, Table};
-use super::function::{Affine, Description, Fixed, Function};
+use super::function::{Description, Fixed, Function, Parts};
 use super::graph::Graph;
-use super::{Request, Watch};
+use super::request::Request;
 use crate::color::Depth;
-use crate::export::Constants;
 use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
@@ -39,11 +38,11 @@ struct File {
 
 /// A curve ready to be drawn.
 #[derive(Debug)]
-pub(super) struct FifCurve {
-    function: Function,
+pub(crate) struct FifCurve {
+    pub(crate) function: Function,
     /// Maps by index from 0, the outermost first.
-    contractions: Vec<usize>,
-    palette: Named,
+    pub(crate) contractions: Vec<usize>,
+    pub(crate) palette: Named,
     /// What it passes through.
     place: Place,
 }
@@ -95,14 +94,6 @@ impl FifCurve {
         Graph::of_function(&self.function)
     }
 
-    /// What firmware needs of it.
-    pub(super) fn constants(&self) -> Result<Constants<'_>, &'static str> {
-        let Some(Affine { knots, scalings, integrate }) = &self.function.affine else {
-            return Err("polynomials are not exported, only functions through knots");
-        };
-        Ok(Constants::Function { knots, scalings, integrate: *integrate })
-    }
-
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
@@ -138,11 +129,11 @@ fn from_data(source: &Source, table: &Spanned<Table>) -> Result<Function, Fail> 
     let knots: Vec<_> = points.iter().map(|(x, y)| attractor::fif::Knot::new(*x, *y)).collect();
     let fixed =
         Fixed::interpolating(&knots, &scalings).map_err(|error| source.fail(table.span(), "data", error))?;
-    let affine = Some(Affine { knots, scalings: scalings.clone(), integrate: 0 });
+    let parts = Parts { knots, scalings: scalings.clone(), polynomials: None, integrate: 0 };
     let knots: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.to_num(), y.to_num())).collect();
     let scalings: Vec<f64> = scalings.iter().map(|s| s.to_num()).collect();
     let reference = attractor_reference::Fif::interpolating(&knots, &scalings);
-    Ok(Function { fixed: Box::new(fixed), reference, affine })
+    Ok(Function { fixed: Box::new(fixed), reference, parts })
 }
 
 /// `from + i (to - from) / (points - 1)`, rounded to a multiple of `2^-48` and, beyond 32, to the 53 bits of the `f64` that the reference takes.

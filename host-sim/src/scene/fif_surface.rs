@@ -4,9 +4,9 @@ use std::convert::Infallible;
 use std::io::Write;
 
 use attractor::fif::{Cell, Factor, Pyramid, Surface};
-use attractor::num::{Real, Vec3};
+use attractor::num::Vec3;
 use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
-use attractor_gallery::depth_for;
+use attractor_gallery::{Watch, depth_for, draw_field, surface_depth};
 use attractor_reference as reference;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -18,11 +18,12 @@ use super::fif_curve::abscissa;
 use super::function::{DEGREE, Description, Function, MAPS};
 use super::motion::Motion;
 use super::orbit::Orbit;
-use super::{Request, Watch, draw_field};
+use super::request::Request;
+use super::standpoint::{Eye, Standpoint, camera, vector};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
-use crate::palette::{Colors, Named};
+use crate::palette::Named;
 use crate::source::{Num, Place, Source};
 
 #[derive(Debug, Deserialize)]
@@ -47,15 +48,6 @@ struct File {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Eye {
-    eye: Spanned<[Num; 3]>,
-    look_at: Spanned<[Num; 3]>,
-    up: Option<Spanned<[Num; 3]>>,
-    field_of_view: Option<Num>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Lamp {
     direction: Spanned<[Num; 3]>,
 }
@@ -70,8 +62,8 @@ enum Surfaced {
 
 /// A factor of the height, and where its file says how rough it is.
 #[derive(Debug)]
-struct Profile {
-    function: Function,
+pub(crate) struct Profile {
+    pub(crate) function: Function,
     scalings: Place,
 }
 
@@ -84,19 +76,22 @@ impl Profile {
 
 /// A surface ready to be drawn.
 #[derive(Debug)]
-pub(super) struct FifSurface {
-    f: Profile,
-    g: Profile,
+pub(crate) struct FifSurface {
+    pub(crate) f: Profile,
+    pub(crate) g: Profile,
     camera: Camera,
+    pub(crate) standpoint: Standpoint,
     /// Where the camera stands.
     eye: Place,
     orbit: Option<Orbit>,
-    light: Option<Light>,
-    material: Material,
-    environment: Environment,
-    samples: u8,
-    depth: Option<u32>,
-    palette: Named,
+    /// Towards it.
+    pub(crate) light: Option<Vec3>,
+    pub(crate) material: Material,
+    pub(crate) environment: Environment,
+    /// A side.
+    pub(crate) samples: u8,
+    pub(crate) depth: Option<u32>,
+    pub(crate) palette: Named,
 }
 
 impl FifSurface {
@@ -107,7 +102,10 @@ impl FifSurface {
         let light = file.light.map(|light| {
             let direction = &light.get_ref().direction;
             let towards = vector(source, direction, "light.direction")?;
-            Light::new(towards).map_err(|error| source.fail(direction.span(), "light.direction", error))
+            // the kernel says which directions it takes
+            Light::new(towards)
+                .map(|_| towards)
+                .map_err(|error| source.fail(direction.span(), "light.direction", error))
         });
         for (key, function) in [("f.knots", &file.f), ("g.knots", &file.g)] {
             let knots = &function.get_ref().knots;
@@ -122,11 +120,12 @@ impl FifSurface {
             }
             samples => samples.map_or(1, Spanned::into_inner),
         };
-        let (camera, orbit) = camera(source, &file.camera)?;
+        let (camera, standpoint, orbit) = camera(source, &file.camera)?;
         let scene = Self {
             f: Profile::load(source, file.f.get_ref(), "f.")?,
             g: Profile::load(source, file.g.get_ref(), "g.")?,
             camera,
+            standpoint,
             eye: source.place(file.camera.get_ref().eye.span(), "camera.eye"),
             orbit,
             light: light.transpose()?,
@@ -162,9 +161,7 @@ impl FifSurface {
         use_it: impl FnOnce(HeightField<'_>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
         let (f, g) = (&self.f.function.fixed, &self.g.function.fixed);
-        let fewest = f.maps().min(g.maps());
-        let wanted = self.depth.unwrap_or_else(|| depth_for(fewest, side));
-        let depth = wanted.min(depth_for(self.maps(), u32::MAX));
+        let depth = surface_depth([f.maps(), g.maps()], self.depth, side);
         let cells = |maps: usize| vec![Cell::ZERO; Pyramid::cells(maps, depth)];
         let (mut a, mut b) = (cells(f.maps()), cells(g.maps()));
         let x = Pyramid::new(f, depth, &mut a).map_err(|error| self.f.scalings.fail(error))?;
@@ -187,7 +184,7 @@ impl FifSurface {
             .with_environment(self.environment)?
             .with_sampling(sampling, Filter::Box)?;
         if let Some(light) = self.light {
-            caster = caster.with_light(light);
+            caster = caster.with_light(Light::new(light)?);
         }
         Ok(caster)
     }
@@ -217,7 +214,7 @@ impl FifSurface {
             let caster = self
                 .caster(surface, request.size, request.seed)
                 .map_err(|error| self.eye.fail_at(request.size, error))?;
-            draw_field(&caster, Colors::plain(self.palette), target, watch);
+            draw_field(&caster, self.palette, target, watch);
             Ok(())
         })
     }
@@ -255,37 +252,4 @@ impl FifSurface {
         }
         Ok(())
     }
-}
-
-fn vector(source: &Source, value: &Spanned<[Num; 3]>, key: &str) -> Result<Vec3, Fail> {
-    let [x, y, z] = source.triple::<Real>(value.get_ref(), key)?;
-    Ok(Vec3::new(x, y, z))
-}
-
-/// The camera, and its orbit unless the scene says which way is up.
-fn camera(source: &Source, given: &Spanned<Eye>) -> Result<(Camera, Option<Orbit>), Fail> {
-    let eye = given.get_ref();
-    let up = match &eye.up {
-        Some(up) => vector(source, up, "camera.up")?,
-        None => Vec3::new(Real::ZERO, Real::ZERO, Real::ONE),
-    };
-    let field_of_view = match &eye.field_of_view {
-        Some(angle) => source.fixed(angle, "camera.field_of_view")?,
-        None => Real::from_num(40),
-    };
-    let (from, to) =
-        (vector(source, &eye.eye, "camera.eye")?, vector(source, &eye.look_at, "camera.look_at")?);
-    let camera =
-        Camera::new(from, to, up, field_of_view).map_err(|error| match (&error, &eye.field_of_view) {
-            (attractor::Error::OutOfRange { what: "field of view", .. }, Some(angle)) => {
-                source.fail(angle.span(), "camera.field_of_view", error)
-            }
-            (attractor::Error::Degenerate { what: "up" | "angle between view and up" }, _)
-                if eye.up.is_some() =>
-            {
-                source.fail(eye.up.as_ref().map_or(0..0, Spanned::span), "camera.up", error)
-            }
-            _ => source.fail(eye.eye.span(), "camera.eye", error),
-        })?;
-    Ok((camera, eye.up.is_none().then(|| Orbit::new(from, to, field_of_view))))
 }

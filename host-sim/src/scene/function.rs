@@ -14,7 +14,7 @@ use crate::source::{Num, Source};
 /// Room for maps and for the degree of their polynomials.
 pub(super) const MAPS: usize = 512;
 pub(super) const DEGREE: usize = 8;
-pub(super) type Fixed = Fif<MAPS, DEGREE>;
+pub(crate) type Fixed = Fif<MAPS, DEGREE>;
 
 /// The keys of a function.
 #[derive(Debug, Deserialize)]
@@ -28,20 +28,22 @@ pub(super) struct Description {
 
 /// A function twice: as the kernel has it, and as the reference has it.
 #[derive(Debug)]
-pub(super) struct Function {
-    pub(super) fixed: Box<Fixed>,
+pub(crate) struct Function {
+    pub(crate) fixed: Box<Fixed>,
     pub(super) reference: reference::Fif,
-    /// What it was made of, where its maps are affine.
-    pub(super) affine: Option<Affine>,
+    /// What it was made of.
+    pub(crate) parts: Parts,
 }
 
-/// A function through knots: what firmware needs of it.
-#[derive(Debug)]
-pub(super) struct Affine {
-    pub(super) knots: Vec<Knot>,
-    pub(super) scalings: Vec<Scaling>,
-    /// How often the function is integrated afterwards.
-    pub(super) integrate: u32,
+/// What a function is made of: all that firmware needs to make it again.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Parts {
+    pub(crate) knots: Vec<Knot>,
+    pub(crate) scalings: Vec<Scaling>,
+    /// Coefficients in x, constant first; none: the maps are affine.
+    pub(crate) polynomials: Option<Vec<Vec<Wide>>>,
+    /// How often it is integrated afterwards.
+    pub(crate) integrate: u32,
 }
 
 impl Description {
@@ -85,8 +87,8 @@ impl Description {
             })?;
             reference = reference.integral(0.0);
         }
-        let affine = self.polynomials.is_none().then_some(Affine { knots, scalings, integrate: times });
-        Ok(Function { fixed: Box::new(fixed), reference, affine })
+        let parts = Parts { knots, scalings, polynomials: rows, integrate: times };
+        Ok(Function { fixed: Box::new(fixed), reference, parts })
     }
 
     fn coefficients(

@@ -4,13 +4,13 @@ use std::convert::Infallible;
 use std::io::Write;
 
 use attractor::ifs::{Ifs, MAX_MAPS};
-use attractor_gallery::{IfsPicture, Shading};
+use attractor_gallery::{IfsPicture, Shading, Watch};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::request::Request;
 use super::system::{Maps, system};
-use super::{Request, Watch};
 use crate::cli::MAX_POINTS;
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -33,11 +33,11 @@ struct File {
 
 /// An attractor ready to be drawn.
 #[derive(Debug)]
-pub(super) struct IfsScene {
-    ifs: Box<Ifs<MAX_MAPS>>,
-    points: Option<u32>,
-    shading: Shading,
-    palette: Named,
+pub(crate) struct IfsScene {
+    pub(crate) ifs: Box<Ifs<MAX_MAPS>>,
+    pub(crate) points: Option<u32>,
+    pub(crate) shading: Shading,
+    pub(crate) palette: Named,
     /// Its maps.
     place: Place,
 }
@@ -57,11 +57,6 @@ impl IfsScene {
             palette: file.palette.unwrap_or(Named::Even),
             place: source.place(file.maps.span(), "maps"),
         })
-    }
-
-    /// The system.
-    pub(super) fn ifs(&self) -> &Ifs<MAX_MAPS> {
-        &self.ifs
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

@@ -6,15 +6,17 @@ use std::io::Write;
 use attractor::escape::{Julia, JuliaSet};
 use attractor::num::Complex;
 use attractor::num::Wide;
+use attractor_gallery::Watch;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::coloring::{self, Coloring};
-use super::escape::{self, Escape, Grey, Keys};
+use super::escape::{self, Escape};
+use super::keys::{Grey, Keys};
 use super::motion::Motion;
-use super::{Request, Watch};
+use super::request::Request;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
@@ -44,9 +46,9 @@ struct File {
 
 /// A view of a filled-in Julia set ready to be drawn.
 #[derive(Debug)]
-pub(super) struct JuliaScene {
-    escape: Escape,
-    c: Complex<Wide>,
+pub(crate) struct JuliaScene {
+    pub(crate) escape: Escape,
+    pub(crate) c: Complex<Wide>,
     /// The same in `f64`, for the reference.
     float: (f64, f64),
 }

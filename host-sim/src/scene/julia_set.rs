@@ -7,13 +7,13 @@ use attractor::escape::JuliaSet;
 use attractor::num::Complex;
 use attractor::num::Wide;
 use attractor::plane::Field as _;
-use attractor_gallery::{JuliaSetPicture, Method};
+use attractor_gallery::{JuliaSetPicture, Method, Watch};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Request, Watch};
+use super::request::Request;
 use crate::cli::MAX_POINTS;
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -36,8 +36,9 @@ struct File {
 
 /// A Julia set ready to be drawn.
 #[derive(Debug)]
-pub(super) struct JuliaSetScene {
-    picture: JuliaSetPicture,
+pub(crate) struct JuliaSetScene {
+    pub(crate) c: Complex<Wide>,
+    pub(crate) picture: JuliaSetPicture,
     /// Its constant.
     place: Place,
 }
@@ -46,7 +47,8 @@ impl JuliaSetScene {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
         let file: File = source.parse()?;
         let [re, im] = source.pair::<Wide>(file.c.get_ref(), "c")?;
-        let set = JuliaSet::new(Complex::new(re, im)).map_err(|e| source.fail(file.c.span(), "c", e))?;
+        let c = Complex::new(re, im);
+        let set = JuliaSet::new(c).map_err(|error| source.fail(file.c.span(), "c", error))?;
         let method = file.method.unwrap_or(Method::Cover);
         let points = file.points.map(|points| match (method, *points.get_ref()) {
             (Method::Cover, _) => {
@@ -58,7 +60,7 @@ impl JuliaSetScene {
         });
         let palette = file.palette.unwrap_or(Named::Fire);
         let picture = JuliaSetPicture { set, method, points: points.transpose()?, palette };
-        Ok(Self { picture, place: source.place(file.c.span(), "c") })
+        Ok(Self { c, picture, place: source.place(file.c.span(), "c") })
     }
 
     /// What measurements need of it.

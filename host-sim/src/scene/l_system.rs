@@ -7,13 +7,13 @@ use std::io::Write;
 use attractor::Error;
 use attractor::curve::LSystem;
 use attractor::num::Wide;
-use attractor_gallery::{LSystemPicture, Pencil};
+use attractor_gallery::{LSystemPicture, Pencil, Watch};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::curve::vertices;
-use super::{Request, Watch};
+use super::request::Request;
 use crate::cli::MAX_POINTS;
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -41,13 +41,13 @@ struct File {
 
 /// An L-system ready to be drawn.
 #[derive(Debug)]
-pub(super) struct LSystemScene {
-    axiom: String,
-    rules: Vec<(char, String)>,
-    angle: Wide,
-    heading: Wide,
-    order: u32,
-    pencil: Pencil,
+pub(crate) struct LSystemScene {
+    pub(crate) axiom: String,
+    pub(crate) rules: Vec<(char, String)>,
+    pub(crate) angle: Wide,
+    pub(crate) heading: Wide,
+    pub(crate) order: u32,
+    pub(crate) pencil: Pencil,
 }
 
 impl LSystemScene {
@@ -105,6 +105,15 @@ impl LSystemScene {
             self.rules.iter().map(|(letter, word)| (*letter, word.as_str())).collect();
         let system = LSystem::new(&self.axiom, &rules, self.angle)?.with_heading(self.heading);
         show(LSystemPicture { system, order: self.order, pencil: self.pencil })
+    }
+
+    /// How many brackets are open at once.
+    pub(crate) fn branches(&self) -> usize {
+        let walk = self.with(|picture| picture.system.path::<ORDERS, 0>(self.order).map(|_| ()));
+        match walk {
+            Err(Error::Capacity { needed, .. }) => needed,
+            _ => 0,
+        }
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

@@ -63,8 +63,53 @@ impl Displacement for Law {
     }
 }
 
+/// A law by its numbers: all that firmware needs to make it again.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Recipe {
+    /// The deviation; none: self-similar.
+    Elbow {
+        deviation: Option<Unit>,
+        beta: Real,
+    },
+    LineToLine {
+        offset: Unit,
+        beta: Real,
+    },
+    OneVariable {
+        offset: Unit,
+    },
+    /// The one-variable law of this similarity ratio.
+    OfRatio {
+        ratio: Real,
+    },
+    TwoVariable {
+        offset: Unit,
+    },
+}
+
+impl Recipe {
+    fn law(self, seed: u64) -> Result<Law, Error> {
+        match self {
+            Self::Elbow { deviation: None, beta } => {
+                Elbow::self_similar(beta, seed).map(|law| Law::Elbow(law, beta.to_num()))
+            }
+            Self::Elbow { deviation: Some(deviation), beta } => {
+                Elbow::new(deviation, beta, seed).map(|law| Law::Elbow(law, beta.to_num()))
+            }
+            Self::LineToLine { offset, beta } => {
+                LineToLine::from_spectrum(offset, beta, seed).map(|law| Law::LineToLine(law, beta.to_num()))
+            }
+            Self::OneVariable { offset } => OneVariable::new(offset, seed).map(Law::OneVariable),
+            Self::OfRatio { ratio } => OneVariable::from_ratio(ratio, seed).map(Law::OneVariable),
+            Self::TwoVariable { offset } => {
+                TwoVariable::new(offset, seed).map(|law| Law::TwoVariable(law, offset.to_num()))
+            }
+        }
+    }
+}
+
 /// The law with its parameters; those of other laws are refused.
-pub(super) fn law(source: &Source, file: &Parameters) -> Result<Law, Fail> {
+pub(super) fn law(source: &Source, file: &Parameters) -> Result<(Law, Recipe), Fail> {
     let (name, allowed) = match file.law {
         Name::Elbow => ("elbow", &["beta", "deviation"][..]),
         Name::LineToLine => ("line-to-line", &["beta", "offset"][..]),
@@ -103,27 +148,19 @@ pub(super) fn law(source: &Source, file: &Parameters) -> Result<Law, Fail> {
         let number = given.iter().find(|(k, _)| *k == key).and_then(|(_, number)| number.as_ref());
         source.fail(number.map_or(0..0, Spanned::span), key, error)
     };
-    let (seed, two, three) = (file.seed, Real::lit("2"), Real::lit("3"));
     let offset = unit(&file.offset, "offset", Unit::lit("0.3"))?;
-    match file.law {
+    let recipe = match file.law {
         Name::Elbow => {
-            let beta = real(&file.beta, "beta", two)?;
-            match &file.deviation {
-                None => Elbow::self_similar(beta, seed),
-                Some(deviation) => Elbow::new(source.fixed::<Unit>(deviation, "deviation")?, beta, seed),
-            }
-            .map(|law| Law::Elbow(law, beta.to_num()))
+            let deviation = &file.deviation;
+            let deviation = deviation.as_ref().map(|n| source.fixed::<Unit>(n, "deviation")).transpose()?;
+            Recipe::Elbow { deviation, beta: real(&file.beta, "beta", Real::lit("2"))? }
         }
-        Name::LineToLine => {
-            let beta = real(&file.beta, "beta", three)?;
-            LineToLine::from_spectrum(offset, beta, seed).map(|law| Law::LineToLine(law, beta.to_num()))
-        }
+        Name::LineToLine => Recipe::LineToLine { offset, beta: real(&file.beta, "beta", Real::lit("3"))? },
         Name::OneVariable => match &file.ratio {
-            None => OneVariable::new(offset, seed),
-            Some(ratio) => OneVariable::from_ratio(source.fixed::<Real>(ratio, "ratio")?, seed),
-        }
-        .map(Law::OneVariable),
-        Name::TwoVariable => TwoVariable::new(offset, seed).map(|law| Law::TwoVariable(law, offset.to_num())),
-    }
-    .map_err(refused)
+            None => Recipe::OneVariable { offset },
+            Some(ratio) => Recipe::OfRatio { ratio: source.fixed::<Real>(ratio, "ratio")? },
+        },
+        Name::TwoVariable => Recipe::TwoVariable { offset },
+    };
+    Ok((recipe.law(file.seed).map_err(refused)?, recipe))
 }

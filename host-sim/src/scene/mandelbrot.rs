@@ -5,6 +5,7 @@ use std::io::Write;
 
 use attractor::escape::Mandelbrot;
 use attractor::num::Wide;
+use attractor_gallery::Watch;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use serde::Deserialize;
@@ -12,9 +13,10 @@ use toml::Spanned;
 
 use super::coloring::{self, Coloring};
 use super::deep::{self, Picture};
-use super::escape::{self, Escape, Grey, Keys};
+use super::escape::{self, Escape};
+use super::keys::{Grey, Keys};
 use super::motion::Motion;
-use super::{Request, Watch};
+use super::request::Request;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
@@ -43,7 +45,7 @@ struct File {
 
 /// A view of the set ready to be drawn.
 #[derive(Debug)]
-pub(super) struct MandelbrotScene(Escape);
+pub(crate) struct MandelbrotScene(pub(crate) Escape);
 
 impl MandelbrotScene {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {

@@ -1,28 +1,31 @@
 //! Scenes: what a name or a TOML file describes, compiled and ready to be drawn or sampled.
 
-mod coloring;
-mod copier;
-mod curve;
+pub(crate) mod coloring;
+pub(crate) mod copier;
+pub(crate) mod curve;
 mod data;
-mod deep;
+pub(crate) mod deep;
 mod environment;
 mod equalised;
-mod escape;
-mod fif_curve;
-mod fif_surface;
-mod function;
+pub(crate) mod escape;
+pub(crate) mod fif_curve;
+pub(crate) mod fif_surface;
+pub(crate) mod function;
 mod graph;
 mod halving;
-mod ifs;
-mod julia;
-mod julia_set;
-mod l_system;
-mod law;
-mod mandelbrot;
+pub(crate) mod ifs;
+pub(crate) mod julia;
+pub(crate) mod julia_set;
+mod keys;
+pub(crate) mod l_system;
+pub(crate) mod law;
+pub(crate) mod mandelbrot;
 mod motion;
 mod orbit;
 mod polyline;
-mod random_curve;
+pub(crate) mod random_curve;
+mod request;
+mod standpoint;
 mod system;
 mod trail;
 
@@ -31,7 +34,7 @@ use std::io::Write;
 use std::path::Path;
 
 use attractor::escape::JuliaSet;
-use attractor_gallery::{Watch, draw_field};
+use attractor_gallery::Watch;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use serde::Deserialize;
@@ -41,7 +44,6 @@ use toml::Spanned;
 
 use crate::builtin;
 use crate::color::Depth;
-use crate::export::Constants;
 use crate::fail::{Fail, shortened};
 use crate::source::Source;
 
@@ -49,6 +51,7 @@ pub(crate) use graph::Graph;
 pub(crate) use halving::Chords;
 pub(crate) use law::Law;
 pub(crate) use motion::Motion;
+pub(crate) use request::Request;
 pub(crate) use trail::Trail;
 
 /// What can be measured of a scene.
@@ -63,13 +66,6 @@ pub(crate) enum Subject<'a> {
     Graph(Graph<'a>),
 }
 
-/// What a picture or a sample is asked for.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Request {
-    pub(crate) size: Size,
-    pub(crate) seed: u64,
-}
-
 /// A scene of any kind.
 #[derive(Debug)]
 pub(crate) struct Scene {
@@ -77,11 +73,12 @@ pub(crate) struct Scene {
     pub(crate) name: String,
     /// One line for people.
     pub(crate) title: String,
-    kind: Kind,
+    pub(crate) kind: Kind,
 }
 
+/// A scene of one kind.
 #[derive(Debug)]
-enum Kind {
+pub(crate) enum Kind {
     FifCurve(fif_curve::FifCurve),
     FifSurface(Box<fif_surface::FifSurface>),
     Curve(curve::CurveScene),
@@ -181,8 +178,8 @@ impl Scene {
     /// What can be measured of it.
     pub(crate) fn subject(&self) -> Result<Subject<'_>, Fail> {
         Ok(match &self.kind {
-            Kind::Ifs(scene) => Subject::Set(scene.ifs()),
-            Kind::Copier(scene) => Subject::Set(scene.ifs()),
+            Kind::Ifs(scene) => Subject::Set(&scene.ifs),
+            Kind::Copier(scene) => Subject::Set(&scene.ifs),
             Kind::Curve(scene) => Subject::Trail(scene.trail()),
             Kind::RandomCurve(scene) => match scene.law() {
                 law @ Law::LineToLine(..) => Subject::Graph(Graph::of_law(law)?),
@@ -203,16 +200,6 @@ impl Scene {
                 return Err(Fail::new(reason));
             }
         })
-    }
-
-    /// What firmware needs of it, if it is more than a few numbers.
-    pub(crate) fn constants(&self) -> Result<Constants<'_>, &'static str> {
-        match &self.kind {
-            Kind::FifCurve(scene) => scene.constants(),
-            Kind::Ifs(scene) => Ok(Constants::System(scene.ifs())),
-            Kind::Copier(scene) => Ok(Constants::System(scene.ifs())),
-            _ => Err("it is a few numbers, nothing is exported; only of fif-curve, ifs and copier"),
-        }
     }
 
     /// Moves about on a display of this size; the message says why not.

@@ -18,9 +18,9 @@ pub(crate) enum Motion {
 
 /// A square-pixel view of the plane: its middle and its width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Sight<const LIMBS: usize> {
-    pub(super) centre: Complex<Limbs<LIMBS>>,
-    pub(super) width: Limbs<LIMBS>,
+pub(crate) struct Sight<const LIMBS: usize> {
+    pub(crate) centre: Complex<Limbs<LIMBS>>,
+    pub(crate) width: Limbs<LIMBS>,
 }
 
 impl<const LIMBS: usize> Sight<LIMBS> {

@@ -7,16 +7,16 @@ use attractor::Error;
 use attractor::curve::{Stop, Subdivision, coast, koch};
 use attractor::num::Real;
 use attractor::plane::{PathElement, Point2};
-use attractor_gallery::{Pencil, RandomCurvePicture, ground_words};
+use attractor_gallery::{Pencil, RandomCurvePicture, Watch, ground_words};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::curve::vertices;
-use super::law::{Law, Name, Parameters, law};
+use super::law::{Law, Name, Parameters, Recipe, law};
 use super::polyline::{self, Points};
+use super::request::Request;
 use super::trail::Trail;
-use super::{Request, Watch};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
@@ -51,13 +51,15 @@ struct File {
 
 /// A curve ready to be drawn.
 #[derive(Debug)]
-pub(super) struct RandomCurve {
+pub(crate) struct RandomCurve {
     law: Law,
-    knots: Vec<Point2>,
+    pub(crate) recipe: Recipe,
+    pub(crate) seed: u64,
+    pub(crate) knots: Vec<Point2>,
     /// None: down to the length of a pixel.
-    stop: Option<Stop>,
-    filled: bool,
-    pencil: Pencil,
+    pub(crate) stop: Option<Stop>,
+    pub(crate) filled: bool,
+    pub(crate) pencil: Pencil,
     /// Where it stops, or its law.
     place: Place,
 }
@@ -65,7 +67,7 @@ pub(super) struct RandomCurve {
 impl RandomCurve {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
         let file: File = source.parse()?;
-        let law = law(
+        let (law, recipe) = law(
             source,
             &Parameters {
                 law: *file.law.get_ref(),
@@ -95,7 +97,8 @@ impl RandomCurve {
             };
             let palette = file.palette.unwrap_or(Named::Ocean);
             let filled = file.fill.unwrap_or(closed || is_graph);
-            Self { law, knots, stop, filled, pencil: Pencil { palette, closed }, place }
+            let pencil = Pencil { palette, closed };
+            Self { law, recipe, seed: file.seed, knots, stop, filled, pencil, place }
         };
         scene.curve(stop.unwrap_or(Stop::Length(Real::ONE))).map_err(|error| match (error, limit) {
             (Error::OutOfRange { .. } | Error::Capacity { .. }, Some((key, number))) => {
@@ -133,10 +136,21 @@ impl RandomCurve {
         Trail { finer_than: Box::new(finer_than), theory, boundary: None, law: Some(&self.law) }
     }
 
+    /// Whether it is the graph of a function.
+    pub(crate) fn is_graph(&self) -> bool {
+        matches!(self.law, Law::LineToLine(..))
+    }
+
     fn picture(&self) -> RandomCurvePicture<'_, Law, LEVELS> {
         let Self { law, knots, stop, filled, pencil, .. } = self;
-        let graph = matches!(law, Law::LineToLine(..));
-        RandomCurvePicture { law, graph, knots, stop: *stop, filled: *filled, pencil: *pencil }
+        RandomCurvePicture {
+            law,
+            graph: self.is_graph(),
+            knots,
+            stop: *stop,
+            filled: *filled,
+            pencil: *pencil,
+        }
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

@@ -2,8 +2,7 @@
 
 use core::hint::black_box;
 
-use attractor::Error;
-use attractor::escape::{JuliaCover, JuliaSet, View};
+use attractor::escape::{JuliaCover, View};
 use attractor::fixed::types::I3F29;
 use attractor::num::Complex;
 use attractor::num::Wide;
@@ -12,8 +11,9 @@ use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 use embedded_graphics::geometry::Size;
 
-use super::{Tally, Watch, fold};
-use crate::float::{mul_add, sqrt};
+use super::watch::{Tally, Watch};
+use crate::exported::rabbit_outline;
+use crate::float::{fold, mul_add, sqrt};
 use crate::inputs::{mixed, table};
 
 const POINTS: u32 = 2048;
@@ -21,15 +21,9 @@ const SEED: u64 = 7;
 /// Pixels a side of the picture that is covered.
 const SIDE: u32 = 64;
 
-/// Douady's rabbit.
-fn rabbit() -> Result<JuliaSet, Error> {
-    const C: Complex<Wide> = Complex::new(Wide::lit("-0.123"), Wide::lit("0.745"));
-    JuliaSet::new(C)
-}
-
 #[inline(never)]
 pub(super) fn plain(watch: &mut Watch<'_>) -> Tally {
-    let Ok(set) = rabbit() else { return Tally::default() };
+    let Ok(set) = rabbit_outline::set() else { return Tally::default() };
     let start = set.seeded_backward_iteration(SEED);
     watch.time(|| {
         let mut checksum = 0_u32;
@@ -43,7 +37,7 @@ pub(super) fn plain(watch: &mut Watch<'_>) -> Tally {
 #[inline(never)]
 pub(super) fn cover(watch: &mut Watch<'_>) -> Tally {
     let view = View::new(Complex::default(), const { Wide::lit("4") }, Size::new(SIDE, SIDE));
-    let (Ok(set), Ok(view)) = (rabbit(), view) else { return Tally::default() };
+    let (Ok(set), Ok(view)) = (rabbit_outline::set(), view) else { return Tally::default() };
     let Ok(cover) = JuliaCover::new(view, set) else { return Tally::default() };
     watch.time(|| {
         let mut tally = Tally::default();

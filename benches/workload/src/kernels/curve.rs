@@ -4,14 +4,15 @@ use core::hint::black_box;
 
 use attractor::curve::catalogue::{GOSPER, HEIGHWAY_DRAGON, LARGEST};
 use attractor::curve::{
-    Displacement, Elbow, Generator, LSystem, LineToLine, OneVariable, Stop, Subdivision, TwoVariable, koch,
+    Displacement, Elbow, Generator, LineToLine, OneVariable, Stop, Subdivision, TwoVariable, koch,
 };
 use attractor::num::{Parameter, RandomFunction};
-use attractor::num::{Real, Unit, Wide};
+use attractor::num::{Real, Unit};
 use attractor::plane::PathElement;
 
-use super::{Tally, Watch, fold};
-use crate::float::mul_add;
+use super::watch::{Tally, Watch};
+use crate::exported::plant;
+use crate::float::{fold, mul_add};
 use crate::inputs::{mixed, table};
 
 /// The orders of the Koch curve whose vertices are counted.
@@ -53,9 +54,9 @@ pub(super) fn dragon(watch: &mut Watch<'_>) -> Tally {
 
 #[inline(never)]
 pub(super) fn turtle(watch: &mut Watch<'_>) -> Tally {
-    const ANGLE: Wide = Wide::lit("22.5");
-    let plant = LSystem::new("X", &[('X', "F-[[X]+X]+F[+FX]-X"), ('F', "FF")], ANGLE);
-    plant.and_then(|plant| plant.path::<6, 12>(4)).map_or(Tally::default(), |path| walk(watch, &path))
+    plant::system()
+        .and_then(|plant| plant.path::<6, 12>(4))
+        .map_or(Tally::default(), |path| walk(watch, &path))
 }
 
 /// The same walk with the same stack: a copy at `p` along `d` consists of those at `p + d v_i` along `d w_i`.
@@ -249,7 +250,8 @@ mod tests {
 
     #[test]
     fn floating_point_walks_as_many_points() {
-        let units = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::Blind, 1)).units;
+        let units =
+            |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::machine::Blind, 1)).units;
         assert_eq!(units(koch_fixed), 4_u32.pow(6) + 1);
         assert_eq!((units(koch_f32), units(koch_f64)), (units(koch_fixed), units(koch_fixed)));
         assert_eq!(units(elbow), (1 << LEVELS) + 1);

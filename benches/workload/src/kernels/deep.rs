@@ -11,24 +11,27 @@ use attractor::escape::{
 use attractor::plane::Field;
 use embedded_graphics::geometry::Size;
 
-use super::{Tally, Watch};
-use crate::escape_scenes::PERIOD_95;
+use super::watch::{Tally, Watch};
+use crate::exported::deep_100;
 
 const MAX: u32 = 1500;
 
+const SIZE: Size = Size::new(9, 9);
+
 /// Between seahorses: orbits of a thousand iterations, too far apart for a jump.
-const SHALLOW: [&str; 3] = ["-0.743643887037151", "0.131825904205330", "6e-9"];
+fn shallow() -> Result<DeepView<4>, Error> {
+    DeepView::parse("-0.743643887037151", "0.131825904205330", "6e-9", SIZE)
+}
 
 /// Every pixel's dwell; what is counted is the iterations of those that escape.
 fn dwells<const LIMBS: usize>(
     watch: &mut Watch<'_>,
-    [re, im, width]: [&str; 3],
+    view: Result<DeepView<LIMBS>, Error>,
     arithmetic: Arithmetic,
     max: u32,
     orbit: &mut [OrbitPoint],
 ) -> Result<Tally, Error> {
-    let view = DeepView::<LIMBS>::parse(re, im, width, Size::new(9, 9))?;
-    let set = DeepMandelbrot::new_in(view, max, arithmetic, orbit)?;
+    let set = DeepMandelbrot::new_in(view?, max, arithmetic, orbit)?;
     let outside = |x, y| !set.dwell_at(x, y).is_inside();
     let mut pixels = [(0, 0); 32];
     let found = (0..81).map(|i| (i % 9, i / 9)).filter(|(x, y)| outside(*x, *y));
@@ -50,39 +53,38 @@ fn dwells<const LIMBS: usize>(
 
 #[inline(never)]
 pub(super) fn word64(watch: &mut Watch<'_>) -> Tally {
-    dwells::<4>(watch, SHALLOW, Arithmetic::Word64, MAX, &mut []).unwrap_or_default()
+    dwells(watch, shallow(), Arithmetic::Word64, MAX, &mut []).unwrap_or_default()
 }
 
 #[inline(never)]
 pub(super) fn word128(watch: &mut Watch<'_>) -> Tally {
-    dwells::<4>(watch, SHALLOW, Arithmetic::Word128, MAX, &mut []).unwrap_or_default()
+    dwells(watch, shallow(), Arithmetic::Word128, MAX, &mut []).unwrap_or_default()
 }
 
 #[inline(never)]
 pub(super) fn perturbed(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); MAX as usize];
-    dwells::<4>(watch, SHALLOW, Arithmetic::Perturbed, MAX, &mut orbit).unwrap_or_default()
+    dwells(watch, shallow(), Arithmetic::Perturbed, MAX, &mut orbit).unwrap_or_default()
 }
 
 #[inline(never)]
 pub(super) fn perturbed_long(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); 2 * MAX as usize];
-    dwells::<4>(watch, SHALLOW, Arithmetic::PerturbedLong, MAX, &mut orbit).unwrap_or_default()
+    dwells(watch, shallow(), Arithmetic::PerturbedLong, MAX, &mut orbit).unwrap_or_default()
 }
 
 /// At a width of 1e-100, where most iterations are jumped over.
 #[inline(never)]
 pub(super) fn jumping(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); 1000];
-    dwells::<12>(watch, PERIOD_95, Arithmetic::Perturbed, 1000, &mut orbit).unwrap_or_default()
+    dwells(watch, deep_100::view(SIZE), Arithmetic::Perturbed, 1000, &mut orbit).unwrap_or_default()
 }
 
 /// The reference orbit in 12 limbs.
 #[inline(never)]
 pub(super) fn reference(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); 200];
-    let [re, im, width] = PERIOD_95;
-    let Ok(view) = DeepView::<12>::parse(re, im, width, Size::new(64, 64)) else { return Tally::default() };
+    let Ok(view) = deep_100::view(Size::new(64, 64)) else { return Tally::default() };
     watch.time(|| {
         let set = DeepMandelbrot::new_in(black_box(view), 200, Arithmetic::Perturbed, &mut orbit);
         set.map_or(Tally::default(), |set| Tally {
@@ -139,7 +141,7 @@ mod tests {
 
     #[test]
     fn every_loop_does_what_it_says() {
-        let run = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::Blind, 1));
+        let run = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::machine::Blind, 1));
         let words = [run(word64), run(word128), run(perturbed), run(perturbed_long)];
         assert!(words.iter().all(|tally| tally.units.abs_diff(words[0].units) < 99), "{words:?}");
         assert!(words[0].units > 32 * 500, "{words:?}");

@@ -18,8 +18,8 @@ use embedded_graphics::image::ImageDrawable;
 use embedded_graphics::pixelcolor::{IntoStorage, Rgb565, Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 
-use super::{Tally, Watch};
-use crate::scenes::Rp2040;
+use super::watch::{Tally, Watch};
+use crate::own::Rp2040;
 
 const MAX: u32 = 1000;
 const POINTS: usize = 32;
@@ -183,8 +183,9 @@ mod tests {
 
     #[test]
     fn floating_point_counts_about_the_same_iterations() {
-        let mut blind = crate::Blind;
-        let units = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::Blind, 1)).units;
+        let mut blind = crate::machine::Blind;
+        let units =
+            |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::machine::Blind, 1)).units;
         let fixed = fine(&mut Watch::new(&mut blind, 1)).units;
         for other in [units(coarse), units(plain_f32), units(plain_f64)] {
             assert!(other.abs_diff(fixed) < fixed / 8, "{other} against {fixed}");

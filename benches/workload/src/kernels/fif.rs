@@ -1,13 +1,14 @@
 //! Evaluation of the function `f` of figure 1 and of its integral.
 
 use attractor::Error;
-use attractor::fif::{Fif, Knot};
-use attractor::num::{Angle, Scaling, Wide};
+use attractor::fif::Fif;
+use attractor::num::{Angle, Wide};
 use attractor::rand_xoshiro::Xoshiro128PlusPlus;
 use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-use super::{Tally, Watch, fold};
-use crate::float::mul_add;
+use super::watch::{Tally, Watch};
+use crate::exported::figure_1_f;
+use crate::float::{fold, mul_add};
 use crate::inputs::{mixed, table};
 
 table! {
@@ -15,10 +16,9 @@ table! {
     PLACES: u32, i => (mixed(i) as u32 & 0xffff_ff00) | 0x100
 }
 
-/// The paper's `f`: knots (0, 0), (1, 1), (2, 0), both scalings 1/2.
-pub(crate) fn figure_1() -> Result<Fif<2, 1>, Error> {
-    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
-    Fif::interpolating(&knots, &[Scaling::from_bits(1 << 30); 2])
+/// The paper's `f`.
+fn figure_1() -> Result<Fif<2, 1>, Error> {
+    figure_1_f::function()
 }
 
 #[inline(never)]

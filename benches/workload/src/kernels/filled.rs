@@ -9,7 +9,8 @@ use attractor::num::Wide;
 use attractor::plane::Field;
 use embedded_graphics::geometry::Size;
 
-use super::{Tally, Watch};
+use super::watch::{Tally, Watch};
+use crate::exported::{deep_100, julia, seahorse_valley};
 
 const SIZE: Size = Size::new(64, 64);
 const MAX: u32 = 1000;
@@ -33,16 +34,11 @@ fn show<const FILLED: bool>(watch: &mut Watch<'_>, picture: impl Field<Value = D
     })
 }
 
-fn shallow(re: Wide, im: Wide, width: Wide) -> Result<View, Error> {
-    View::new(Complex::new(re, im), width, SIZE)
-}
-
 /// Douady's rabbit.
 #[inline(never)]
 pub(super) fn rabbit<const FILLED: bool>(watch: &mut Watch<'_>) -> Tally {
-    const C: Complex<Wide> = Complex::new(Wide::lit("-0.12256116687665"), Wide::lit("0.74486176661974"));
-    let picture =
-        shallow(Wide::ZERO, Wide::ZERO, const { Wide::lit("3.2") }).and_then(|view| Julia::new(view, C, MAX));
+    let view = View::new(Complex::default(), const { Wide::lit("3.2") }, SIZE);
+    let picture = view.and_then(|view| Julia::new(view, julia::C, MAX));
     picture.map_or(Tally::default(), |picture| show::<FILLED>(watch, picture))
 }
 
@@ -55,50 +51,49 @@ pub(super) fn home<const FILLED: bool>(watch: &mut Watch<'_>) -> Tally {
 
 #[inline(never)]
 pub(super) fn seahorses<const FILLED: bool>(watch: &mut Watch<'_>) -> Tally {
-    let view =
-        shallow(const { Wide::lit("-0.7453") }, const { Wide::lit("0.1127") }, const { Wide::lit("0.0065") });
-    let picture = view.and_then(|view| Mandelbrot::new(view, MAX));
+    let picture = seahorse_valley::view(SIZE).and_then(|view| Mandelbrot::new(view, MAX));
     picture.map_or(Tally::default(), |picture| show::<FILLED>(watch, picture))
 }
 
 /// A small copy that fills the picture.
 fn copy<const FILLED: bool>(
     watch: &mut Watch<'_>,
-    [re, im, width]: [&str; 3],
+    view: Result<DeepView<12>, Error>,
     arithmetic: Arithmetic,
     orbit: &mut [OrbitPoint],
 ) -> Tally {
-    let view = DeepView::<12>::parse(re, im, width, SIZE);
     let picture = view.and_then(|view| DeepMandelbrot::new_in(view, MAX, arithmetic, orbit));
     picture.map_or(Tally::default(), |picture| show::<FILLED>(watch, picture))
 }
 
 #[inline(never)]
 pub(super) fn word64<const FILLED: bool>(watch: &mut Watch<'_>) -> Tally {
-    copy::<FILLED>(watch, ["-1.7548776662466927601", "0", "0.04"], Arithmetic::Word64, &mut [])
+    let view = DeepView::parse("-1.7548776662466927601", "0", "0.04", SIZE);
+    copy::<FILLED>(watch, view, Arithmetic::Word64, &mut [])
 }
 
 #[inline(never)]
 pub(super) fn perturbed<const FILLED: bool>(watch: &mut Watch<'_>) -> Tally {
     let mut orbit = [OrbitPoint::default(); MAX as usize];
-    let [re, im, _] = crate::escape_scenes::PERIOD_95;
-    copy::<FILLED>(watch, [re, im, "1e-101"], Arithmetic::Perturbed, &mut orbit)
+    let view = "1e-101".parse().and_then(|width| DeepView::new(deep_100::CENTRE, width, SIZE));
+    copy::<FILLED>(watch, view, Arithmetic::Perturbed, &mut orbit)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::watch::Loop;
     use super::*;
 
     #[test]
     fn filling_changes_no_pixel_of_these() {
-        let pairs: [(super::super::Loop, super::super::Loop); 5] = [
+        let pairs: [(Loop, Loop); 5] = [
             (rabbit::<false>, rabbit::<true>),
             (home::<false>, home::<true>),
             (seahorses::<false>, seahorses::<true>),
             (word64::<false>, word64::<true>),
             (perturbed::<false>, perturbed::<true>),
         ];
-        let run = |work: super::super::Loop| work(&mut Watch::new(&mut crate::Blind, 1));
+        let run = |work: Loop| work(&mut Watch::new(&mut crate::machine::Blind, 1));
         for (k, (plain, filled)) in pairs.into_iter().enumerate() {
             let (plain, filled) = (run(plain), run(filled));
             assert!(plain.units == 4096 && plain == filled, "{k}: {plain:?} {filled:?}");

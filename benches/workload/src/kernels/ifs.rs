@@ -13,8 +13,8 @@ use attractor::rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use embedded_graphics::geometry::Size;
 
-use super::{Tally, Watch, fold};
-use crate::float::mul_add;
+use super::watch::{Tally, Watch};
+use crate::float::{fold, mul_add};
 
 const POINTS: u32 = 2048;
 const SEED: u64 = 7;
@@ -281,14 +281,15 @@ mod tests {
 
     #[test]
     fn floating_point_makes_as_many_copies() {
-        let units = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::Blind, 1)).units;
+        let units =
+            |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::machine::Blind, 1)).units;
         assert_eq!([copied_point, copied_f32, copied_f64].map(units), [4_u32.pow(5); 3]);
         assert_eq!(units(copied_path), 4 * 4_u32.pow(5));
     }
 
     #[test]
     fn both_counters_count_the_same_points() {
-        let run = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::Blind, 1));
+        let run = |work: fn(&mut Watch<'_>) -> Tally| work(&mut Watch::new(&mut crate::machine::Blind, 1));
         assert_eq!(run(density_u16), run(density_u8));
         assert_ne!(run(density_u16).checksum, run(density_with_maps).checksum);
     }

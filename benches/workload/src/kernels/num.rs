@@ -2,8 +2,8 @@
 
 use attractor::num::{self, Angle};
 
-use super::{Tally, Watch, fold};
-use crate::float;
+use super::watch::{Tally, Watch};
+use crate::float::{self, fold};
 use crate::inputs::{mixed, table};
 
 table! {

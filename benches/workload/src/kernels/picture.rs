@@ -5,7 +5,7 @@ use embedded_graphics::geometry::Size;
 use attractor::plane::Field as _;
 
 use super::trace::with_pyramid;
-use super::{Tally, Watch};
+use super::watch::{Tally, Watch};
 use crate::float::Float;
 use crate::rivals::Paper;
 use crate::surface::mirror;

@@ -6,7 +6,7 @@ use attractor::num::{Real, Unit, Vec3};
 use attractor::trace::{Environment, Light, Material};
 
 use super::trace::with_hits;
-use super::{Tally, Watch};
+use super::watch::{Tally, Watch};
 use crate::float::Float;
 use crate::rivals::{self, Sun};
 

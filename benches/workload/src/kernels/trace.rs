@@ -7,11 +7,12 @@ use attractor::num::{Real, Unit, Vec3};
 use attractor::trace::{HeightField, Hit, Ray, Statistics, meets};
 use embedded_graphics::geometry::Size;
 
-use super::{Tally, Watch};
+use super::watch::{Tally, Watch};
+use crate::exported::figure_3_g;
 use crate::float::Float;
 use crate::inputs::mixed;
 use crate::rivals::{self, CELLS, Caster, DEPTH, Vector};
-use crate::surface::{g_integral, mirror};
+use crate::surface::mirror;
 
 const SIDE: u32 = 48;
 const COUNT: usize = 64;
@@ -19,7 +20,7 @@ const COUNT: usize = 64;
 /// Hands the pyramid of `G` to `work`.
 pub(super) fn with_pyramid(work: impl FnOnce(&Pyramid<'_>) -> Tally) -> Tally {
     let mut memory = [Cell::ZERO; CELLS];
-    let Ok(g) = g_integral() else { return Tally::default() };
+    let Ok(g) = figure_3_g::function::<2, 2>() else { return Tally::default() };
     let Ok(pyramid) = Pyramid::new(&g, DEPTH as u32, &mut memory) else { return Tally::default() };
     work(&pyramid)
 }
@@ -181,7 +182,7 @@ pub(super) fn with_hits(work: impl FnOnce(&[(Hit, Cell, Cell); COUNT]) -> Tally)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Blind;
+    use crate::machine::Blind;
 
     #[test]
     fn nearly_every_ray_meets_the_surface_after_some_boxes() {

@@ -3,68 +3,15 @@
 //! - [`Caster`]: core's own algorithm, the walk through a pyramid of cells, as a competent C programmer would write it in floating point;
 //! - [`Paper`]: the algorithm of the paper, which composes maps and needs no pyramid.
 //!
-//! Both are one text for `float` and `double` ([`Float`]): where these differ is the width alone.
+//! Both are one text for `float` and `double` ([`crate::float::Float`]): where these differ is the width alone.
 
+mod camera;
 mod paper;
 mod shade;
+mod vector;
 mod walk;
 
 pub(crate) use paper::Paper;
-pub(crate) use shade::{Sun, mirror, normal, phong, sky};
+pub(crate) use shade::{Sun, mirror, normal, phong};
+pub(crate) use vector::{Vector, unit};
 pub(crate) use walk::{CELLS, Caster, Cell, DEPTH, meets};
-
-use crate::float::Float;
-
-/// `x`, `y`, `z`.
-pub(crate) type Vector<F> = [F; 3];
-
-#[inline(always)]
-pub(crate) fn dot<F: Float>([a, b, c]: Vector<F>, [x, y, z]: Vector<F>) -> F {
-    a.fused(x, b.fused(y, c * z))
-}
-
-/// `v / |v|`.
-#[inline(always)]
-pub(crate) fn unit<F: Float>(v: Vector<F>) -> Vector<F> {
-    let scale = F::of(1.0) / dot(v, v).root();
-    v.map(|c| c * scale)
-}
-
-/// A square picture's rays: those of `crate::surface::mirror`.
-pub(crate) struct Camera<F> {
-    pub(crate) eye: Vector<F>,
-    /// Direction through the centre of the top left pixel, and from a pixel to the next.
-    corner: Vector<F>,
-    right: Vector<F>,
-    down: Vector<F>,
-    /// Width of a pixel at distance 1.
-    footprint: F,
-}
-
-impl<F: Float> Camera<F> {
-    /// From (-4, -3, 5) to (1, 1, 0), 25 degrees. Set-up in double precision: it is not what is measured.
-    pub(crate) fn new(side: u32) -> Self {
-        let (eye, look_at) = ([-4.0, -3.0, 5.0], [1.0, 1.0, 0.0]);
-        let cross = |[a, b, c]: [f64; 3], [x, y, z]: [f64; 3]| [b * z - c * y, c * x - a * z, a * y - b * x];
-        let forward = unit([0, 1, 2].map(|i: usize| look_at[i] - eye[i]));
-        let right = unit(cross(forward, [0.0, 0.0, 1.0]));
-        let up = cross(right, forward);
-        let pixel = 2.0 * libm::tan(12.5_f64.to_radians()) / f64::from(side);
-        let half = f64::from(side - 1) / 2.0;
-        let corner = [0, 1, 2].map(|i: usize| forward[i] + pixel * half * (up[i] - right[i]));
-        Self {
-            eye: eye.map(F::of),
-            corner: corner.map(F::of),
-            right: right.map(|c| F::of(c * pixel)),
-            down: up.map(|c| F::of(-c * pixel)),
-            footprint: F::of(pixel),
-        }
-    }
-
-    /// The direction through the centre of a pixel.
-    #[inline(always)]
-    pub(crate) fn direction(&self, x: u32, y: u32) -> Vector<F> {
-        let (x, y) = (F::of_int(x as i32), F::of_int(y as i32));
-        [0, 1, 2].map(|i: usize| x.fused(self.right[i], y.fused(self.down[i], self.corner[i])))
-    }
-}

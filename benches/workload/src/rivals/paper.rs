@@ -7,7 +7,9 @@
 
 use attractor::fif::Pyramid;
 
-use super::{Camera, Vector, mirror, normal, sky, unit};
+use super::camera::Camera;
+use super::shade::{mirror, normal, sky};
+use super::vector::{Vector, unit};
 use crate::float::Float;
 
 /// The surface lies over `[0, 2] x [0, 2]`.
@@ -227,7 +229,8 @@ impl<F: Float> Paper<F> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::{g_integral, mirror};
+    use crate::exported::{figure_1_g, figure_3_g};
+    use crate::surface::mirror;
     use attractor::fif::{Cell, Pyramid};
     use attractor::num::Wide;
     use attractor::plane::Field as _;
@@ -235,7 +238,7 @@ mod tests {
 
     #[test]
     fn algorithm_2_evaluates_the_function_of_core() {
-        let g = g_integral().unwrap();
+        let g = figure_3_g::function::<2, 2>().unwrap();
         let mut memory = [Cell::ZERO; Pyramid::cells(2, 8)];
         let pyramid = Pyramid::new(&g, 8, &mut memory).unwrap();
         let (paper, single) = (Paper::<f64>::new(&pyramid, 8), Paper::<f32>::new(&pyramid, 8));
@@ -246,7 +249,7 @@ mod tests {
             assert!((f64::from(single.integral.at(x as f32)) - exact).abs() < 1e-5, "{x}");
         }
         // 0.85^24 of the slope's range is left
-        let slope = crate::surface::g().unwrap();
+        let slope = figure_1_g::function::<2, 1>().unwrap();
         for i in 0..=100 {
             let x = f64::from(i) / 50.0;
             let exact = slope.at(Wide::from_num(x)).to_num::<f64>();
@@ -258,7 +261,7 @@ mod tests {
     fn the_paper_finds_what_core_finds() {
         const SIDE: u32 = 240;
         let mut memory = [Cell::ZERO; Pyramid::cells(2, 8)];
-        let g = g_integral().unwrap();
+        let g = figure_3_g::function::<2, 2>().unwrap();
         let pyramid = Pyramid::new(&g, 8, &mut memory).unwrap();
         let caster = mirror(&pyramid, Size::new(SIDE, SIDE)).unwrap();
         let paper = Paper::<f64>::new(&pyramid, SIDE);

@@ -1,6 +1,6 @@
 //! The answer of a surface to light: core's materials and sky in floating point.
 
-use super::{Vector, dot, unit};
+use super::vector::{Vector, dot, unit};
 use crate::float::Float;
 
 /// The unit normal `(-f' g, -f g', 1)` of a height field `f(x) g(y)`.

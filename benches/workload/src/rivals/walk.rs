@@ -5,7 +5,8 @@
 
 use attractor::fif::{self, Pyramid};
 
-use super::{Camera, Vector};
+use super::camera::Camera;
+use super::vector::Vector;
 use crate::float::Float;
 
 /// A cell of a pyramid.

@@ -1,0 +1,3 @@
+//! The seed of the command's own pictures.
+
+pub(super) const SEED: u64 = 1;

@@ -1,0 +1,48 @@
+//! Figure 3, left: the integral of f, through (0,0) (1,1) (2,2).
+//!
+//! Written by `attractor export --gallery figure-3-f`.
+
+use attractor::Error;
+use attractor::draw::{Gradient, gradients};
+use attractor::fif::{Fif, Knot};
+use attractor::num::{Scaling, Wide};
+use attractor_gallery::Named;
+
+/// Where the graph passes.
+#[rustfmt::skip]
+pub static KNOTS: [Knot; 3] = [
+    Knot::lit("0", "0"),
+    Knot::lit("1", "1"),
+    Knot::lit("2", "0"),
+];
+
+/// One for each interval.
+#[rustfmt::skip]
+pub static VERTICAL_SCALINGS: [Scaling; 2] = [
+    Scaling::lit("0.5"),
+    Scaling::lit("0.5"),
+];
+
+/// Its maps: the least `N`.
+pub const MAPS: usize = 2;
+
+/// The degree of their polynomials: the least `D`.
+pub const DEGREE: usize = 2;
+
+/// The integral of the function through the knots.
+///
+/// # Errors
+/// [`Error::Capacity`] where `N` or `D` is too small.
+pub fn function<const N: usize, const D: usize>() -> Result<Fif<N, D>, Error> {
+    let f = Fif::<N, D>::interpolating(&KNOTS, &VERTICAL_SCALINGS)?;
+    f.integral::<D>(Wide::ZERO)
+}
+
+/// The maps whose intervals are shown below the graph, by index from 0, the outermost first.
+pub const ADDRESS: [usize; 0] = [];
+
+/// Where its colours come from.
+pub const PALETTE: Gradient<9> = gradients::OCEAN;
+
+/// The same by its name.
+pub const NAMED: Named = Named::Ocean;

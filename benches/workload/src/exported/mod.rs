@@ -1,0 +1,54 @@
+//! The built-in scenes.
+//!
+//! Written by `attractor export --all --gallery`.
+
+pub mod cantor;
+pub mod carpenter_1;
+pub mod carpenter_2;
+pub mod cesaro_square;
+pub mod coastline;
+pub mod copier_fern;
+pub mod copier_gasket;
+pub mod deep_100;
+pub mod deep_30;
+pub mod dendrite;
+pub mod dragon;
+pub mod dragon_curve;
+pub mod elbow;
+pub mod fern;
+pub mod figure_1_f;
+pub mod figure_1_g;
+pub mod figure_2;
+pub mod figure_3_f;
+pub mod figure_3_g;
+pub mod figure_6_ff;
+pub mod figure_6_ff_diffuse;
+pub mod figure_6_gg;
+pub mod figure_6_gg_phong;
+pub mod filaments;
+pub mod gosper;
+pub mod heighway_dragon;
+pub mod hilbert;
+pub mod julia;
+pub mod julia_dendrite;
+pub mod koch_curve;
+pub mod koch_snowflake;
+pub mod levy_c_curve;
+pub mod mandelbrot;
+pub mod mandelbrot_periods;
+pub mod maple_leaf;
+pub mod minkowski;
+pub mod mountain_line;
+pub mod peano;
+pub mod pentigree;
+pub mod plant;
+pub mod rabbit_outline;
+pub mod san_marco;
+pub mod seahorse_smooth;
+pub mod seahorse_valley;
+pub mod sierpinski;
+pub mod sierpinski_carpet;
+pub mod spiral;
+pub mod sunspots;
+pub mod terdragon;
+pub mod tree;

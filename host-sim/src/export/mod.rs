@@ -1,0 +1,86 @@
+//! `attractor export`: a scene as a Rust module, for firmware that has no TOML.
+//!
+//! Constants, and functions that build core's objects of them, whose bits are those that the command draws with. With `--gallery` also what
+//! `attractor-gallery` needs to draw the picture on the command's page.
+
+mod curve;
+mod escape;
+mod function;
+mod module;
+mod palette;
+mod surface;
+mod system;
+
+use std::io::Write as _;
+use std::path::Path;
+
+use crate::builtin;
+use crate::cli::Export;
+use crate::fail::Fail;
+use crate::output::{self, Directory};
+use crate::scene::{self, Kind, Scene};
+
+use module::{Module, comment};
+
+/// Prints the module of one scene, or writes those of all built-in ones.
+pub(crate) fn run(args: &Export) -> Result<(), Fail> {
+    if let Some(name) = &args.scene {
+        if let Some(output) = &args.output {
+            let reason = "a directory is for --all; one scene goes to standard output";
+            return Err(Fail::new(format_args!("--output {}: {reason}", output.display())));
+        }
+        let text = source(&scene::load(name)?, args.gallery);
+        std::io::stdout().lock().write_all(text.as_bytes())?;
+        return Ok(());
+    }
+    let output = args.output.as_deref().unwrap_or(Path::new("."));
+    let mut index = format!(
+        "//! The built-in scenes.\n//!\n//! Written by `attractor export --all{}`.\n\n",
+        flag(args.gallery)
+    );
+    let mut files = Vec::new();
+    for (name, _) in builtin::SCENES {
+        files.push((identifier(name), source(&scene::load(name)?, args.gallery)));
+    }
+    files.sort();
+    index.extend(files.iter().map(|(name, _)| format!("pub mod {name};\n")));
+    files.push(("mod".to_owned(), index));
+    let _into = Directory::ready(output, output)?;
+    let mut out = std::io::stdout().lock();
+    for (name, text) in files {
+        let path = output.join(name + ".rs");
+        output::check(&path)?;
+        output::write(&path, text.as_bytes())?;
+        writeln!(out, "{}", path.display())?;
+    }
+    Ok(())
+}
+
+/// The name of a built-in scene as that of a module.
+fn identifier(name: &str) -> String {
+    name.replace('-', "_")
+}
+
+fn flag(gallery: bool) -> &'static str {
+    if gallery { " --gallery" } else { "" }
+}
+
+/// The module of a scene.
+fn source(scene: &Scene, gallery: bool) -> String {
+    let (title, name) = (comment(&scene.title), comment(&scene.name).replace('`', "'"));
+    let mut module = Module::default();
+    match &scene.kind {
+        Kind::FifCurve(scene) => function::graph(scene, &mut module, gallery),
+        Kind::FifSurface(scene) => surface::surface(scene, &mut module, gallery),
+        Kind::Curve(scene) => curve::refined(scene, &mut module, gallery),
+        Kind::RandomCurve(scene) => curve::random(scene, &mut module, gallery),
+        Kind::LSystem(scene) => curve::words(scene, &mut module, gallery),
+        Kind::Ifs(scene) => system::attractor(scene, &mut module, gallery),
+        Kind::Copier(scene) => system::copies(scene, &mut module, gallery),
+        Kind::Mandelbrot(scene) => escape::mandelbrot(scene, &mut module),
+        Kind::Julia(scene) => escape::julia(scene, &mut module),
+        Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
+    }
+    module
+        .finished(&format!("//! {title}.\n//!\n//! Written by `attractor export{} {name}`.\n", flag(gallery)))
+}
