@@ -47,7 +47,7 @@ fn knots_must_increase() {
     assert_eq!(text(repeated), "knot 1 is not to the right of knot 0");
     let places = [wide(0.0), wide(0.0)];
     let polynomials: [&[Wide]; 1] = [&[Wide::ZERO]];
-    let equal = Fif::<1, 1>::with_polynomials(&places, &[Scaling::ZERO], &polynomials);
+    let equal = Fif::<1, 1>::from_polynomials(&places, &[Scaling::ZERO], &polynomials);
     assert_eq!(equal, Err(Error::NotIncreasing { what: "knot", index: 1 }));
 }
 
@@ -64,12 +64,12 @@ fn knots_scalings_and_polynomials_belong_together() {
     ));
     let places = [wide(0.0), wide(1.0)];
     let constant: [&[Wide]; 2] = [&[], &[]];
-    let two = Fif::<2, 1>::with_polynomials(&places, &[Scaling::ZERO], &constant);
+    let two = Fif::<2, 1>::from_polynomials(&places, &[Scaling::ZERO], &constant);
     assert_eq!(text(two), "2 polynomials given, 1 expected");
-    let none = Fif::<2, 1>::with_polynomials(&[], &[], &[]);
+    let none = Fif::<2, 1>::from_polynomials(&[], &[], &[]);
     assert_eq!(none, Err(Error::TooFew { what: "knots", given: 0, at_least: 2 }));
     let square: [&[Wide]; 1] = [&[Wide::ZERO, Wide::ZERO, Wide::ONE]];
-    let steep = Fif::<2, 1>::with_polynomials(&places, &[Scaling::ZERO], &square);
+    let steep = Fif::<2, 1>::from_polynomials(&places, &[Scaling::ZERO], &square);
     assert_eq!(text(steep), "2 powers of x needed, there is room for 1");
     let knots = places.map(|x| Knot::new(x, x));
     let constant = Fif::<2, 0>::interpolating(&knots, &[Scaling::ZERO]);
@@ -116,7 +116,7 @@ fn the_least_number_is_no_value() {
 fn maps_that_disagree_or_are_too_steep_have_no_calculus() {
     let places = [0.0, 1.0, 2.0].map(wide);
     let jump: [&[Wide]; 2] = [&[Wide::ZERO], &[Wide::ONE]];
-    let apart = Fif::<2, 1>::with_polynomials(&places, &[Scaling::ZERO; 2], &jump);
+    let apart = Fif::<2, 1>::from_polynomials(&places, &[Scaling::ZERO; 2], &jump);
     assert_eq!(apart, Err(Error::NotJoined { knot: 1 }));
     assert_eq!(text(apart), "the maps on both sides of knot 1 disagree there");
     assert_eq!(

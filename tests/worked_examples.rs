@@ -53,7 +53,7 @@ fn the_integrals_have_the_maps_of_equations_37_to_40() {
     let xs = wide(&[0.0, 1.0, 2.0]);
     let with = |alpha: [f64; 2], q: [&[f64]; 2]| {
         let (a, b) = (wide(q[0]), wide(q[1]));
-        Fif::<2, 2>::with_polynomials(&xs, &alpha.map(Scaling::from_num), &[&a, &b]).unwrap()
+        Fif::<2, 2>::from_polynomials(&xs, &alpha.map(Scaling::from_num), &[&a, &b]).unwrap()
     };
     let printed_f = with([0.25, 0.25], [&[0.0, 0.0, 0.125], &[1.0, 0.5, -0.125]]);
     assert_eq!(f().integral::<2>(Wide::ZERO).unwrap(), printed_f, "every number of f is dyadic");

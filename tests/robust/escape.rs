@@ -2,7 +2,7 @@
 
 use std::cell::Cell as Counter;
 
-use attractor::draw::{Equalised, gradients};
+use attractor::draw::{Equalised, Grey, Picture, gradients};
 use attractor::escape::{
     Arithmetic, Buffered, Distance, Dwell, EscapeTime, Filled, Interior, Julia, MAX_DWELL, MAX_PERIOD,
     Mandelbrot, Smooth, View,
@@ -10,7 +10,10 @@ use attractor::escape::{
 use attractor::num::Complex;
 use attractor::num::Wide;
 use attractor::plane::{Field, MAX_SIDE, checked_size, from_fn};
-use embedded_graphics::geometry::Size;
+use embedded_graphics::image::Image;
+use embedded_graphics::mock_display::MockDisplay;
+use embedded_graphics::pixelcolor::{Rgb565, Rgb888, RgbColor};
+use embedded_graphics::prelude::*;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -114,6 +117,17 @@ fn buffers_and_colourings_of_any_view() {
             part_of_a_row(&Smooth(&set), y, at[0], 1);
             part_of_a_row(&Distance(&set), y, at[0], 1);
             part_of_a_row(&Interior(&set), y, at[0], 1);
+        }
+        let picture = Picture::<_, _, Rgb565>::new(set, Grey);
+        let mut row = vec![Rgb888::BLACK; length % 25];
+        let given = row.len();
+        let mirrored = picture.mirrored(&mut row);
+        assert_eq!(mirrored.is_ok(), given >= size.width as usize);
+        if let Ok(mirrored) = mirrored {
+            let (mut whole, mut halves) = (MockDisplay::new(), MockDisplay::new());
+            assert!(Image::new(&picture, Point::zero()).draw(&mut whole).is_ok());
+            assert!(Image::new(&mirrored, Point::zero()).draw(&mut halves).is_ok());
+            halves.assert_eq(&whole);
         }
         let mut counts = vec![0_u16; Buffered::<Mandelbrot>::counts(size)];
         let mut canvas = Buffered::new(set, &mut counts).expect("a count a pixel");

@@ -144,12 +144,12 @@ fn polynomials_of_any_degree() {
     fuzz((function(1, 1), polynomials, vec(wide(), 4)), 28, |((knots, scaling), polynomials, xs)| {
         let places: Vec<Wide> = knots.iter().map(|k| k.x).collect();
         let slices: Vec<&[Wide]> = polynomials.iter().map(Vec::as_slice).collect();
-        let _ = Fif::<6, 0>::with_polynomials(&places, &scaling, &slices);
-        let _ = Fif::<6, 12>::with_polynomials(&places, &scaling, &slices);
+        let _ = Fif::<6, 0>::from_polynomials(&places, &scaling, &slices);
+        let _ = Fif::<6, 12>::from_polynomials(&places, &scaling, &slices);
         // one map has nothing to join
         let one = [Wide::ZERO, Wide::from_num(1)];
         let Some((first, alpha)) = slices.first().zip(scaling.first()) else { return false };
-        let Ok(f) = Fif::<1, 12>::with_polynomials(&one, &[*alpha], &[first]) else { return false };
+        let Ok(f) = Fif::<1, 12>::from_polynomials(&one, &[*alpha], &[first]) else { return false };
         exercise(&f, &xs, Real::DELTA, Point2::new(Real::MIN, Real::MAX));
         let mut memory = [Cell::ZERO; 5];
         let pyramid = Pyramid::new(&f, 4, &mut memory).expect("room for five cells");
@@ -206,7 +206,7 @@ fn polynomials_of_degree_14_have_a_range() {
     let mut q = [Wide::ZERO; 15];
     (q[9], q[14]) = (Wide::from_num(-0.5), Wide::ONE);
     let places = [Wide::ZERO, Wide::ONE];
-    let f = Fif::<1, 14>::with_polynomials(&places, &[Scaling::ZERO], &[&q]).expect("a polynomial");
+    let f = Fif::<1, 14>::from_polynomials(&places, &[Scaling::ZERO], &[&q]).expect("a polynomial");
     let (low, high) = f.range();
     let least = (0..=1000).map(|i| f.at(Wide::from_num(i) / 1000)).min().expect("values");
     assert!(
@@ -224,7 +224,7 @@ fn functions_without_knots_or_room() {
             && Fif::<0, 1>::interpolating(&KNOTS, &[Scaling::ZERO]).is_err()
     );
     assert!(Fif::<1, 0>::interpolating(&KNOTS, &[Scaling::ZERO]).is_err());
-    assert!(Fif::<1, 1>::with_polynomials(&[], &[], &[]).is_err());
+    assert!(Fif::<1, 1>::from_polynomials(&[], &[], &[]).is_err());
     let line = Fif::<1, 1>::interpolating(&KNOTS, &[Scaling::ZERO]).expect("a line");
     assert_eq!(line.at(Wide::MAX), -127);
     assert!(line.integral::<1>(Wide::ZERO).is_err() && line.derivative::<0>().is_ok());

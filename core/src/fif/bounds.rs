@@ -4,12 +4,12 @@
 
 use super::map::Map;
 use super::polynomial::twice_high;
-use super::value::{FRACTION, ONE, wide};
+use super::value::{FRACTION_Q55, ONE_UQ63, wide};
 use crate::Error;
 use crate::num::{quotient, ratio};
 
 /// `2^7` with 55 fractional bits: the values of a function stay below it.
-const LIMIT: i64 = 1 << (FRACTION + 7);
+const LIMIT: i64 = 1 << (FRACTION_Q55 + 7);
 
 /// The magnitudes of a map's coefficients add up to less than `2^8`.
 const COEFFICIENTS: i64 = i64::MAX;
@@ -53,7 +53,7 @@ impl Image {
 
     /// Where the map's fixed point lies if its polynomial is `q` there: `q / (1 - scaling)`.
     fn fixed_point(&self, q: i64) -> i64 {
-        quotient(q, 63, ONE.wrapping_sub(self.scaling as u64))
+        quotient(q, 63, ONE_UQ63.wrapping_sub(self.scaling as u64))
     }
 }
 
@@ -108,13 +108,13 @@ fn limit(what: &'static str, index: Option<usize>, got: i64, allowed: i64) -> Er
 }
 
 /// The range is found with 16 fractional bits, because the first root may be large.
-const COARSE: u32 = FRACTION - 16;
+const COARSE: u32 = FRACTION_Q55 - 16;
 
 /// Bounds of the attractor in `y`: iterates the hull of the images, outward, from a root that contains it.
 #[inline(never)]
 fn hull(images: &[Image], largest: u64, steepest: u64) -> (i64, i64) {
     // |f| <= max |q| / (1 - max |alpha|)
-    let rest = (ONE - steepest) >> 32; // at least 1: scalings have 31 bits, or come from a contraction of such
+    let rest = (ONE_UQ63 - steepest) >> 32; // at least 1: scalings have 31 bits, or come from a contraction of such
     let root = ratio((largest >> COARSE) + 2, 31, rest.max(1)).min(1 << 56) as i64;
     let (mut min, mut max) = (-root, root);
     for _ in 0..4096 {
@@ -140,7 +140,7 @@ pub(super) const LEVELS: u32 = 1 << 15;
 /// below `2^-40`. `r^k <= e^(-k (1 - r))`.
 fn levels(widest: u64, steepest: u64) -> u32 {
     let steps = |nepers: u64, r: u64| {
-        let k = ratio(nepers, 63, ONE.saturating_sub(r));
+        let k = ratio(nepers, 63, ONE_UQ63.saturating_sub(r));
         k.min(u64::from(u32::MAX) - 1) as u32 + 1
     };
     // 63 ln 2 = 43.67, 40 ln 2 = 27.73
@@ -158,8 +158,8 @@ mod tests {
             scaling: i64::from(scaling) << 32,
             q: Polynomial { constant, powers: [power] },
             start: 0,
-            width: ONE,
-            per_width: Reciprocal::of(ONE),
+            width: ONE_UQ63,
+            per_width: Reciprocal::of(ONE_UQ63),
         })
     }
 
@@ -206,13 +206,13 @@ mod tests {
     #[test]
     fn levels_settle_the_value() {
         for (width, scaling) in [(0.5, 0.9), (0.9, 0.5), (0.99, 0.99), (0.998, 0.999_99), (0.3, 0.999)] {
-            let bits = |v: f64| (v * ONE as f64) as u64;
+            let bits = |v: f64| (v * ONE_UQ63 as f64) as u64;
             let levels = f64::from(levels(bits(width), bits(scaling)));
             let settled =
                 |levels: f64| levels * -f64::log2(width) >= 63.0 || levels * -f64::log2(scaling) >= 40.0;
             assert!(settled(levels) && levels * (1.0 - f64::max(width, scaling)) < 46.0, "{width} {scaling}");
         }
-        assert_eq!(levels(ONE - 1, ONE - 1), LEVELS);
+        assert_eq!(levels(ONE_UQ63 - 1, ONE_UQ63 - 1), LEVELS);
     }
 
     /// The range of a function ends below 128, the sum of a map's coefficients below 256.
@@ -276,10 +276,10 @@ mod tests {
     /// `44 / (1 - a)` maps or `28 / (1 - alpha)`, and one: for the widest and the steepest, wherever they stand.
     #[test]
     fn levels_count_the_widest_and_the_steepest_map() {
-        assert_eq!((levels(ONE / 2, ONE - 1), levels(ONE - 1, ONE / 2)), (89, 57));
-        assert_eq!((levels(ONE / 4 * 3, ONE - 1), levels(ONE / 2, ONE / 2)), (177, 57));
+        assert_eq!((levels(ONE_UQ63 / 2, ONE_UQ63 - 1), levels(ONE_UQ63 - 1, ONE_UQ63 / 2)), (89, 57));
+        assert_eq!((levels(ONE_UQ63 / 4 * 3, ONE_UQ63 - 1), levels(ONE_UQ63 / 2, ONE_UQ63 / 2)), (177, 57));
         let wide = |width: u64, scaling: i32| Image { width, ..image(scaling, 0, 0) };
-        let (a, b) = (wide(ONE / 4 * 3, i32::MAX - (1 << 29)), wide(ONE / 4, 1 << 20));
+        let (a, b) = (wide(ONE_UQ63 / 4 * 3, i32::MAX - (1 << 29)), wide(ONE_UQ63 / 4, 1 << 20));
         for maps in [[a, b], [b, a]] {
             // a scaling just below 3/4
             assert_eq!(Bounds::of(&maps).unwrap().levels, 28 * 4);

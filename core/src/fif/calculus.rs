@@ -10,8 +10,8 @@ use heapless::Vec;
 
 use super::function::{Fif, POWERS};
 use super::map::Map;
-use super::polynomial::{Polynomial, times, twice_high};
-use super::value::{ONE, in_range, value};
+use super::polynomial::{Polynomial, product_q55, twice_high};
+use super::value::{ONE_UQ63, in_range, value};
 use crate::Error;
 use crate::num::{Wide, mul_high_u, nth, quotient};
 
@@ -36,12 +36,12 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         let mut maps = Vec::new();
         let mut knot = start; // Y_(j-1)
         for map in &self.maps {
-            let scaling = times(map.scaling, map.width);
+            let scaling = product_q55(map.scaling, map.width);
             let mut q = Polynomial::<E>::ZERO;
             q.constant = knot.wrapping_sub(twice_high(start, scaling));
             let integrated = [map.q.constant].into_iter().chain(map.q.powers).zip(1..);
             for (to, (c, n)) in q.powers.iter_mut().zip(integrated) {
-                *to = self.times_width(times(nth(c, n), map.width));
+                *to = self.times_width(product_q55(nth(c, n), map.width));
                 inside(*to)?;
             }
             let step = q.powers.iter().fold(0_i64, |sum, c| sum.wrapping_add(*c));
@@ -88,10 +88,10 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     #[inline(never)]
     pub(crate) fn mean(&self) -> i64 {
         let mut sum = 0_i64;
-        let mut rest = ONE; // stays inside (0, 2): |sum of a_n alpha_n| < 1
+        let mut rest = ONE_UQ63; // stays inside (0, 2): |sum of a_n alpha_n| < 1
         for map in &self.maps {
-            sum = sum.saturating_add(times(map.q.mean(), map.width));
-            rest = rest.wrapping_sub(times(map.scaling, map.width) as u64);
+            sum = sum.saturating_add(product_q55(map.q.mean(), map.width));
+            rest = rest.wrapping_sub(product_q55(map.scaling, map.width) as u64);
         }
         quotient(sum, 63, rest)
     }
@@ -175,7 +175,7 @@ mod tests {
         let eighths = |cs: [i32; 4]| cs.map(|c| Wide::from_num(c) / 8);
         let (left, right) = (eighths([-1, 3, -3, 1]), eighths([27, 27, 9, 1]));
         let knots = [-1, 1, 3].map(Wide::from_num);
-        Fif::with_polynomials(&knots, &[Scaling::ZERO; 2], &[&left, &right]).unwrap()
+        Fif::from_polynomials(&knots, &[Scaling::ZERO; 2], &[&left, &right]).unwrap()
     }
 
     #[test]

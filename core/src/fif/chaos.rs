@@ -10,7 +10,7 @@ use rand_core::Rng;
 use super::function::Fif;
 use super::map::{Map, first_step, map_at};
 use super::polynomial::{by_scaling, part_by_width};
-use super::value::FRACTION;
+use super::value::FRACTION_Q55;
 use crate::num::{Real, real_from};
 use crate::plane::Point2;
 
@@ -53,7 +53,7 @@ impl<R: Rng, const D: usize> Iterator for ChaosGame<'_, R, D> {
         // u < 1: parts are rounded down
         self.y = map.q.before_end(self.u).wrapping_add(by_scaling(self.y, map.scaling));
         self.u = map.start.wrapping_add(part_by_width(self.u, map.width));
-        Some(Point2::new(Real::from_bits((self.u >> 39) as i32), real_from(self.y, FRACTION)))
+        Some(Point2::new(Real::from_bits((self.u >> 39) as i32), real_from(self.y, FRACTION_Q55)))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {

@@ -6,7 +6,7 @@
 use super::function::Fif;
 use super::map::Map;
 use super::polynomial::{Polynomial, twice_high};
-use super::value::{FRACTION, ONE};
+use super::value::{FRACTION_Q55, ONE_UQ63};
 use crate::num::{Real, Scaling, Wide, mul_high_u, real_from};
 use crate::plane::Point2;
 
@@ -21,7 +21,7 @@ pub struct Composite<const D: usize> {
 
 impl<const D: usize> Composite<D> {
     /// The identity.
-    pub const IDENTITY: Self = Self { start: 0, width: ONE, scaling: i64::MAX, q: Polynomial::ZERO };
+    pub const IDENTITY: Self = Self { start: 0, width: ONE_UQ63, scaling: i64::MAX, q: Polynomial::ZERO };
 
     /// `self` after `map`: eq. 24-27.
     fn then(&self, map: &Map<D>) -> Self {
@@ -33,7 +33,7 @@ impl<const D: usize> Composite<D> {
         }
         Self {
             start: self.start.wrapping_add(mul_high_u(self.width, map.start << 1)),
-            width: if map.width == ONE { self.width } else { mul_high_u(self.width, map.width << 1) },
+            width: if map.width == ONE_UQ63 { self.width } else { mul_high_u(self.width, map.width << 1) },
             scaling: twice_high(self.scaling, map.scaling),
             q,
         }
@@ -47,9 +47,10 @@ impl<const D: usize> Composite<D> {
     /// The image of a point of the graph (unit abscissa, value): another point of the graph, truncated and rounded to the format.
     pub fn image(&self, point: Point2) -> Point2 {
         let u = (point.x.to_bits().clamp(0, 1 << 24) as u64) << 39;
-        let x = self.start.wrapping_add(if u == ONE { self.width } else { mul_high_u(self.width, u << 1) });
-        let y = self.value(u, i64::from(point.y.to_bits()) << (FRACTION - 24));
-        Point2::new(Real::from_bits((x >> 39) as i32), real_from(y, FRACTION))
+        let x =
+            self.start.wrapping_add(if u == ONE_UQ63 { self.width } else { mul_high_u(self.width, u << 1) });
+        let y = self.value(u, i64::from(point.y.to_bits()) << (FRACTION_Q55 - 24));
+        Point2::new(Real::from_bits((x >> 39) as i32), real_from(y, FRACTION_Q55))
     }
 
     /// The interval that the whole domain is sent to, in the unit abscissa, truncated to the format (figure 2).
@@ -86,19 +87,19 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             .maps
             .get(self.maps.len() / 2)
             .map_or(0, |m| m.q.at(0).wrapping_add(twice_high(self.first, m.scaling)));
-        real_from(composite.value(median, y), FRACTION)
+        real_from(composite.value(median, y), FRACTION_Q55)
     }
 
     /// The composition of the first maps of the address of `x`, as many as it takes until the horizontal factor is at most `epsilon` (at least
     /// `2^-40`), and no more than `most`. Cost: as [`Fif::at_by_composition`].
     pub fn composite_at(&self, x: Wide, epsilon: Real, most: u32) -> Composite<D> {
-        let epsilon = (epsilon.to_bits().max(0) as u64).saturating_mul(1 << 39).clamp(1 << 23, ONE);
+        let epsilon = (epsilon.to_bits().max(0) as u64).saturating_mul(1 << 39).clamp(1 << 23, ONE_UQ63);
         let mut u = self.unit(x);
         let mut composite = Composite::IDENTITY;
         for _ in 0..self.levels.min(most) {
             let index = self.maps.partition_point(|m| m.start <= u).min(self.maps.len()).saturating_sub(1);
             let Some(map) = self.maps.get(index) else { break };
-            u = map.per_width.quotient(u.saturating_sub(map.start)).min(ONE);
+            u = map.per_width.quotient(u.saturating_sub(map.start)).min(ONE_UQ63);
             composite = composite.then(map);
             if composite.width <= epsilon {
                 break;
@@ -126,7 +127,7 @@ mod tests {
         // q_1(2) + f(2) / 2 = q_2(0) - f(0) / 4 for f(0) = 2 q_1(0) = 2, f(2) = q_2(2) / (5/4) = 4
         let (left, right) = (wide([1.0, 0.25, -0.5, 0.125]), wide([3.0, 0.5, 0.0, 0.125]));
         let knots = [0, 1, 2].map(Wide::from_num);
-        Fif::with_polynomials(&knots, &[0.5, -0.25].map(Scaling::from_num), &[&left, &right]).unwrap()
+        Fif::from_polynomials(&knots, &[0.5, -0.25].map(Scaling::from_num), &[&left, &right]).unwrap()
     }
 
     /// Start and width in 256ths, the scaling in 256ths: the product of the widths and of the scalings, the first digit outermost.
@@ -205,8 +206,8 @@ mod tests {
         assert_eq!(width(Real::ZERO, 0), (Real::ONE, Real::ZERO));
         assert_eq!(width(Real::MAX, 9), (real(0.5), real(0.5)));
         // epsilon counts as 2^-40 at least
-        assert_eq!(f.composite_at(x, Real::ZERO, 99).width, ONE >> 40);
-        assert_eq!(f.composite_at(x, Real::MIN, 99).width, ONE >> 40);
+        assert_eq!(f.composite_at(x, Real::ZERO, 99).width, ONE_UQ63 >> 40);
+        assert_eq!(f.composite_at(x, Real::MIN, 99).width, ONE_UQ63 >> 40);
     }
 
     /// The value is that of the middle knot's image: here a dyadic place, where the walk along the address gives the same.
@@ -240,6 +241,6 @@ mod tests {
         let knots = [0, 1, 1 << 50].map(|x| Knot::new(Wide::from_bits(x), Wide::ZERO));
         let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap();
         assert_eq!(f.levels, 29);
-        assert!(f.composite_at(Wide::from_bits(1 << 49), Real::ZERO, u32::MAX).width > ONE / 2);
+        assert!(f.composite_at(Wide::from_bits(1 << 49), Real::ZERO, u32::MAX).width > ONE_UQ63 / 2);
     }
 }

@@ -10,7 +10,7 @@ use heapless::Vec;
 use super::compose::Composite;
 use super::error::up;
 use super::function::Fif;
-use super::value::{FRACTION, ONE};
+use super::value::{FRACTION_Q55, ONE_UQ63};
 use crate::num::{Angle, Real, mul_high_u, product, ratio, round_shift};
 
 /// One map in 32-bit words.
@@ -96,7 +96,11 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             return None;
         }
         let digit = count.trailing_zeros();
-        if self.maps.iter().zip(0_u64..).any(|(m, j)| m.start != j << (63 - digit) || m.width != ONE >> digit)
+        if self
+            .maps
+            .iter()
+            .zip(0_u64..)
+            .any(|(m, j)| m.start != j << (63 - digit) || m.width != ONE_UQ63 >> digit)
         {
             return None;
         }
@@ -118,13 +122,13 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             largest = largest.max(powers);
         }
         // words with `fraction` bits: largest * 2^(fraction - 55) < 2^31
-        let integer_bits = (64 - largest.leading_zeros()).saturating_sub(FRACTION);
+        let integer_bits = (64 - largest.leading_zeros()).saturating_sub(FRACTION_Q55);
         let fraction = 31_u32.saturating_sub(integer_bits).clamp(20, 30);
         let word = |v: i64| {
-            round_shift(v, FRACTION - fraction).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+            round_shift(v, FRACTION_Q55 - fraction).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
         };
         let mut maps = Vec::new();
-        let mut errors = Errors { unit: 1 << (FRACTION - fraction), value, step: 0, steepest: 0 };
+        let mut errors = Errors { unit: 1 << (FRACTION_Q55 - fraction), value, step: 0, steepest: 0 };
         for address in 0..1_usize << bits {
             let map = composite(address);
             // wraps for large constants, as the sums do; the final sum is a value and fits
@@ -348,7 +352,7 @@ mod tests {
             join(&mut q);
             let q = q.map(|c| c.map(Wide::from_bits));
             let polynomials = [&q[0][..=D], &q[1][..=D]];
-            let Ok(f) = Fif::<2, D>::with_polynomials(&knots, &scalings, &polynomials) else { continue };
+            let Ok(f) = Fif::<2, D>::from_polynomials(&knots, &scalings, &polynomials) else { continue };
             let fast = f.dyadic::<M>().unwrap();
             let bound = i128::from(fast.error_bound().to_bits()) << 56;
             for k in 0..200 {

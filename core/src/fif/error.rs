@@ -13,7 +13,7 @@
 
 use super::bounds::LEVELS;
 use super::function::Fif;
-use super::value::{FRACTION, ONE};
+use super::value::{FRACTION_Q55, ONE_UQ63};
 use crate::num::{Real, exp_minus, log2, mul_high_u, ratio};
 
 /// One halving, as logarithms are written.
@@ -29,12 +29,12 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// for the value at `x` there is [`Fif::error_bound_at_x`].
     pub fn error_bound(&self) -> Real {
         let steepest = self.steepest();
-        let rest = ((ONE - steepest) >> 32).max(1);
+        let rest = ((ONE_UQ63 - steepest) >> 32).max(1);
         let largest = self.range.0.unsigned_abs().max(self.range.1.unsigned_abs());
         // with 55 fractional bits: scalings 2^-32 max|f|, products and coefficients 2^-47, places the slope times their shift, for each level
-        let per_level = (largest >> 32) + (1 << (FRACTION - 47)) + (self.slope() >> self.shift());
+        let per_level = (largest >> 32) + (1 << (FRACTION_Q55 - 47)) + (self.slope() >> self.shift());
         let sum = ratio(per_level, 31, rest).saturating_add(self.left_out(steepest));
-        up(sum.saturating_add(1 << (FRACTION - 25)).saturating_add(1 << (FRACTION - 30)))
+        up(sum.saturating_add(1 << (FRACTION_Q55 - 25)).saturating_add(1 << (FRACTION_Q55 - 30)))
     }
 
     /// A bound on the error of [`Fif::at`] against the value at `x` itself, whatever the partition: [`Fif::error_bound`] and, where the abscissa
@@ -52,7 +52,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     pub fn oscillation(&self, halvings: u32) -> Real {
         let whole = self.spread();
         let slope = self.slope();
-        let narrowest = self.maps.iter().map(|m| m.width).min().unwrap_or(ONE);
+        let narrowest = self.maps.iter().map(|m| m.width).min().unwrap_or(ONE_UQ63);
         let finer = (halvings.min(63) * HALVING).saturating_sub(halvings_to(narrowest));
         let bound = |k: u32| {
             // the least a_j^h - |alpha_j|, 30 fractional bits
@@ -82,14 +82,14 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The largest magnitude of a polynomial's slope, 55 fractional bits, rounded up.
     fn slope(&self) -> u64 {
         let slope = |q: &super::polynomial::Polynomial<D>| q.derivative().norm().unsigned_abs();
-        self.maps.iter().map(|m| slope(&m.q)).max().unwrap_or(0).saturating_add(1 << (FRACTION - 47))
+        self.maps.iter().map(|m| slope(&m.q)).max().unwrap_or(0).saturating_add(1 << (FRACTION_Q55 - 47))
     }
 
     /// The abscissa that is evaluated lies within `2^-shift` of the domain from `x`.
     fn shift(&self) -> u32 {
         // 1 + a + a a' + ...: the widest map again and again, or as many as there are
         let widest = self.maps.iter().map(|m| m.width).max().unwrap_or(0);
-        let sum = ratio(1, 63, ONE.saturating_sub(widest)).min(self.levels.into()).max(3) + 1;
+        let sum = ratio(1, 63, ONE_UQ63.saturating_sub(widest)).min(self.levels.into()).max(3) + 1;
         60_u32.saturating_sub(64 - (sum - 1).leading_zeros())
     }
 
@@ -129,7 +129,7 @@ fn power(halvings: u32, k: u32) -> (u32, u32) {
 
 /// A number with 55 fractional bits, rounded up.
 pub(super) fn up(value: u64) -> Real {
-    Real::from_bits(value.div_ceil(1 << (FRACTION - 24)).min(i32::MAX as u64) as i32)
+    Real::from_bits(value.div_ceil(1 << (FRACTION_Q55 - 24)).min(i32::MAX as u64) as i32)
 }
 
 #[cfg(test)]
@@ -188,8 +188,8 @@ mod tests {
 
     #[test]
     fn halvings_to_a_width_are_not_too_few() {
-        for width in [2, 3, 1000, ONE / 3, ONE / 2, ONE - 1, ONE] {
-            let exact = -((width - 1) as f64 / ONE as f64).log2();
+        for width in [2, 3, 1000, ONE_UQ63 / 3, ONE_UQ63 / 2, ONE_UQ63 - 1, ONE_UQ63] {
+            let exact = -((width - 1) as f64 / ONE_UQ63 as f64).log2();
             let got = f64::from(halvings_to(width)) / f64::from(HALVING);
             assert!((exact - 1e-9..exact + 2_f64.powi(-22)).contains(&got), "{width}: {got} against {exact}");
         }

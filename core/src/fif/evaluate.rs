@@ -10,7 +10,7 @@
 use super::function::Fif;
 use super::map::{first_step, map_at};
 use super::polynomial::by_scaling;
-use super::value::{FRACTION, ONE, wide};
+use super::value::{FRACTION_Q55, ONE_UQ63, wide};
 use crate::num::{Real, Wide, mul_high, ratio, real_from};
 
 /// A product of horizontal factors counts as 0 when 1 has been halved so often (24 fractional bits).
@@ -40,7 +40,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// never more than 32,768;
     /// [`super::Dyadic`] takes 7.2 (kernel `fif dyadic level`) where the partition is dyadic.
     pub fn at(&self, x: Wide) -> Real {
-        real_from(self.evaluate(self.unit(x)), FRACTION)
+        real_from(self.evaluate(self.unit(x)), FRACTION_Q55)
     }
 
     /// The value at `x` with 48 fractional bits, for values that are to be subtracted or multiplied.
@@ -53,12 +53,12 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at a unit abscissa with 63 fractional bits, with 55 fractional bits.
     #[inline(never)]
     pub(crate) fn evaluate(&self, unit: u64) -> i64 {
-        let mut u = unit.min(ONE);
+        let mut u = unit.min(ONE_UQ63);
         let mut sum = 0_i64; // 53 fractional bits
         let mut scaling = 1_i64 << 62; // product of the scalings, 62 fractional bits
         let mut left = VANISHED; // of the product of the horizontal factors, 24 fractional bits
         // only the right end itself is 1: pre-images of what lies before it do too
-        let mut levels = if u == ONE { 0 } else { self.levels };
+        let mut levels = if u == ONE_UQ63 { 0 } else { self.levels };
         while u != 0 && levels != 0 && left >= 0 && !is_negligible(scaling) {
             let Some(map) = map_at(&self.maps, const { first_step(N) }, u) else { break };
             u = map.per_width.quotient(u - map.start);
@@ -67,14 +67,14 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             left -= map.per_width.halvings() as i32;
             levels -= 1;
         }
-        let end = if u < ONE / 2 { self.first } else { self.last };
+        let end = if u < ONE_UQ63 / 2 { self.first } else { self.last };
         sum.wrapping_add(mul_high(scaling, end)) << 2
     }
 
     /// The value at the place `numerator / denominator` of the domain, as a point's ordinate.
     pub(crate) fn at_fraction(&self, numerator: u32, denominator: u32) -> (u64, Real) {
-        let u = ratio(u64::from(numerator), 63, u64::from(denominator)).min(ONE);
-        (u, real_from(self.evaluate(u), FRACTION))
+        let u = ratio(u64::from(numerator), 63, u64::from(denominator)).min(ONE_UQ63);
+        (u, real_from(self.evaluate(u), FRACTION_Q55))
     }
 }
 
@@ -130,7 +130,7 @@ mod tests {
             halvings += f.maps[0].per_width.halvings();
             maps += 1;
         }
-        let exact = (63.0 / -(f.maps[0].width as f64 / ONE as f64).log2()).ceil();
+        let exact = (63.0 / -(f.maps[0].width as f64 / ONE_UQ63 as f64).log2()).ceil();
         assert!((f64::from(maps) - exact).abs() <= exact * 1e-3, "{maps} against {exact}");
     }
 
@@ -170,7 +170,7 @@ mod tests {
             let got = f.at_wide(Wide::from_bits((u as i64).wrapping_sub(1 << 62)));
             (value(u) - (i128::from(got.to_bits()) << 70)).abs()
         };
-        let (third, mut worst) = (ONE / 3, 0);
+        let (third, mut worst) = (ONE_UQ63 / 3, 0);
         let mut word = 1_u64;
         for _ in 0..2000 {
             word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -197,7 +197,8 @@ mod tests {
         let mut word = 7_u64;
         for k in 0..3000 {
             word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let u = [word >> 1, 1 << (k % 63), (1 << 62) - 1, ONE - 1, ONE - (1 << (k % 63))][k % 5];
+            let u =
+                [word >> 1, 1 << (k % 63), (1 << 62) - 1, ONE_UQ63 - 1, ONE_UQ63 - (1 << (k % 63))][k % 5];
             let (mut y, mut t) = (1_i128 << 76, 0_i128);
             for i in 0..63 {
                 let digit = (u >> i & 1) as usize;

@@ -5,7 +5,7 @@ use heapless::Vec;
 use super::bounds::{Bounds, Image, too_large};
 use super::map::Map;
 use super::polynomial::{Polynomial, twice_high};
-use super::value::{FRACTION, ONE, in_range, real_above, real_below, value, wide};
+use super::value::{FRACTION_Q55, ONE_UQ63, in_range, real_above, real_below, value, wide};
 use crate::Error;
 use crate::num::{Real, Reciprocal, Scaling, Wide, mul_high_u, quotient, ratio};
 
@@ -70,7 +70,7 @@ pub struct Fif<const N: usize, const D: usize = 1> {
 pub(crate) const POWERS: &str = "powers of x";
 
 /// How far neighbouring maps may disagree at a knot: `2^-22`.
-const JOIN_TOLERANCE: i64 = 1 << (FRACTION - 22);
+const JOIN_TOLERANCE: i64 = 1 << (FRACTION_Q55 - 22);
 
 impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function through the knots with affine polynomials (eq. 10-11), the ordinary construction.
@@ -112,7 +112,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// # Errors
     /// As [`Fif::interpolating`]; [`Error::Capacity`] for a degree above `D`; [`Error::NotJoined`] if two maps disagree at their knot by more than
     /// `2^-22`.
-    pub fn with_polynomials(
+    pub fn from_polynomials(
         knots_x: &[Wide],
         vertical_scaling: &[Scaling],
         polynomials: &[&[Wide]],
@@ -180,7 +180,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
                 });
             }
             let start = unit(a);
-            let end = if index + 2 == count { ONE } else { unit(b) };
+            let end = if index + 2 == count { ONE_UQ63 } else { unit(b) };
             let scaling = i64::from(scaling.to_bits()) << 32;
             let map = Map {
                 scaling,
@@ -204,7 +204,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     ) -> Result<Self, Error> {
         if let [only] = maps.as_mut_slice() {
             // N = 1: f = alpha f + q at the same abscissa, so f = q / (1 - alpha)
-            let rest = ONE.wrapping_sub(only.scaling as u64);
+            let rest = ONE_UQ63.wrapping_sub(only.scaling as u64);
             for c in only.q.powers.iter_mut().chain([&mut only.q.constant]) {
                 *c = quotient(*c, 63, rest);
             }
@@ -225,7 +225,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     pub(crate) fn joined(self) -> Result<Self, Error> {
         for (index, pair) in self.maps.windows(2).enumerate() {
             if let [a, b] = pair {
-                let from_left = a.q.at(ONE).saturating_add(twice_high(self.last, a.scaling));
+                let from_left = a.q.at(ONE_UQ63).saturating_add(twice_high(self.last, a.scaling));
                 let from_right = b.q.at(0).saturating_add(twice_high(self.first, b.scaling));
                 if from_left.saturating_sub(from_right).saturating_abs() > JOIN_TOLERANCE {
                     return Err(Error::NotJoined { knot: index + 1 });
@@ -278,13 +278,13 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         } else {
             let distance = bits.wrapping_sub(self.x0) as u64;
             // exact: what is rounded down stays, so that a dyadic place is one whatever the width
-            if distance >= self.width { ONE } else { self.per_width.exact(distance, self.width) }
+            if distance >= self.width { ONE_UQ63 } else { self.per_width.exact(distance, self.width) }
         }
     }
 
     /// The abscissa of a place in the unit interval (63 fractional bits), rounded down to the format.
     pub(crate) fn abscissa(&self, u: u64) -> Wide {
-        if u >= ONE {
+        if u >= ONE_UQ63 {
             return self.domain().1;
         }
         let offset = mul_high_u(self.width, u << 1);
@@ -309,7 +309,7 @@ fn on_unit_interval<const D: usize>(
     let mut powers = [0_i128; D];
     for c in q.iter().rev() {
         let mut below = constant;
-        let c = i128::from(c.to_bits()) << (FRACTION - 48);
+        let c = i128::from(c.to_bits()) << (FRACTION_Q55 - 48);
         constant = product(constant, i128::from(x0)).and_then(|v| v.checked_add(c)).ok_or_else(too_large)?;
         for p in &mut powers {
             let next =
@@ -405,7 +405,7 @@ mod tests {
             // f(0) = 2, f(2) = 0: 1 + 0 at the middle knot, 2 - 1 and the gap
             let left = [Wide::ONE, Wide::ZERO];
             let right = [Wide::from_bits(units), Wide::from_bits(-units / 2)];
-            Fif::<2, 1>::with_polynomials(&[0, 1, 2].map(Wide::from_num), &[half; 2], &[&left, &right])
+            Fif::<2, 1>::from_polynomials(&[0, 1, 2].map(Wide::from_num), &[half; 2], &[&left, &right])
         };
         let tolerance = 1 << 26;
         for units in [0, tolerance - 8, 8 - tolerance] {
@@ -432,9 +432,9 @@ mod tests {
             let ends = f.domain();
             assert_eq!(
                 (f.unit(ends.0), f.unit(ends.1), f.unit(Wide::MIN), f.unit(Wide::MAX)),
-                (0, ONE, 0, ONE)
+                (0, ONE_UQ63, 0, ONE_UQ63)
             );
-            assert_eq!((f.abscissa(0), f.abscissa(ONE)), ends);
+            assert_eq!((f.abscissa(0), f.abscissa(ONE_UQ63)), ends);
         }
     }
 

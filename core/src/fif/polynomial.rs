@@ -3,7 +3,7 @@
 //! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
 //! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
-use super::value::ONE;
+use super::value::ONE_UQ63;
 use crate::num::{mul_high, mul_high_short, mul_high_u, nth, product_u};
 
 /// A polynomial of degree at most `D` on the unit interval, 55 fractional bits.
@@ -18,14 +18,14 @@ pub(crate) struct Polynomial<const D: usize> {
 ///
 /// Out of line: constructors ask for many.
 #[inline(never)]
-pub(crate) fn times(value: i64, t: u64) -> i64 {
+pub(crate) fn product_q55(value: i64, t: u64) -> i64 {
     inline_times(value, t)
 }
 
 /// [`times`] for the walk along an address.
 #[inline(always)]
 fn inline_times(value: i64, t: u64) -> i64 {
-    if t >= ONE { value } else { times_before_end(value, t) }
+    if t >= ONE_UQ63 { value } else { times_before_end(value, t) }
 }
 
 /// The same for `t` below 1.
@@ -105,9 +105,9 @@ impl<const D: usize> Polynomial<D> {
         // Horner: part <- part * (start + width s) + c
         for c in self.powers.iter().rev().chain([&self.constant]) {
             let mut below = part.constant;
-            part.constant = times(part.constant, start).wrapping_add(*c);
+            part.constant = product_q55(part.constant, start).wrapping_add(*c);
             for p in &mut part.powers {
-                let next = times(*p, start).wrapping_add(times(below, width));
+                let next = product_q55(*p, start).wrapping_add(product_q55(below, width));
                 below = *p;
                 *p = next;
             }
@@ -197,14 +197,14 @@ mod tests {
     fn a_part_is_the_polynomial_on_its_interval_and_inside_its_range() {
         let p = polynomial(1.5, [-7.25, 3.0, 11.0, -8.5]);
         for (start, width) in [(0.0, 1.0), (0.25, 0.5), (0.9, 0.01), (0.5, 0.5)] {
-            let part = p.part((start * ONE as f64) as u64, (width * ONE as f64) as u64);
+            let part = p.part((start * ONE_UQ63 as f64) as u64, (width * ONE_UQ63 as f64) as u64);
             let (min, max) = part.range();
             let mut sampled = (f64::MAX, f64::MIN);
             for i in 0..=100 {
                 let s = f64::from(i) / 100.0;
                 let t: f64 = start + width * s;
                 let exact = 1.5 - 7.25 * t + 3.0 * t * t + 11.0 * t.powi(3) - 8.5 * t.powi(4);
-                assert!((float(part.at((s * ONE as f64) as u64)) - exact).abs() < 1e-13);
+                assert!((float(part.at((s * ONE_UQ63 as f64) as u64)) - exact).abs() < 1e-13);
                 assert!(float(min) <= exact && exact <= float(max));
                 sampled = (sampled.0.min(exact), sampled.1.max(exact));
             }
@@ -230,7 +230,7 @@ mod tests {
             let (a, b, t) = (next(), next() >> 1, next() as u64 >> 1);
             // what is missing, in units of 2^-63
             let exact = i128::from(a) * i128::from(t);
-            let missing = exact - (i128::from(times(a, t)) << 63);
+            let missing = exact - (i128::from(product_q55(a, t)) << 63);
             worst[0] = worst[0].max(missing as f64 / 2_f64.powi(63));
             assert!(missing >= 0);
             let missing = i128::from(a) * i128::from(b) - (i128::from(twice_high(a, b)) << 63);
@@ -240,7 +240,7 @@ mod tests {
             let missing = i128::from(part) * i128::from(t) - (i128::from(part_of(part, t)) << 63);
             worst[2] = worst[2].max(missing as f64 / 2_f64.powi(63));
             assert!(missing >= 0);
-            assert_eq!((times(a, ONE), part_of(part, ONE)), (a, part));
+            assert_eq!((product_q55(a, ONE_UQ63), part_of(part, ONE_UQ63)), (a, part));
             // walks take shorter ways for operands of 31 bits
             for b in [b, b >> 32 << 32, -(b >> 40 << 32)] {
                 assert_eq!(by_scaling(a, b), twice_high(a, b), "{a} {b}");
@@ -302,7 +302,7 @@ mod tests {
     #[test]
     fn the_mean_of_the_derivative_is_the_difference_of_the_ends() {
         let p = polynomial(0.5, [1.0, -2.0, 4.0]);
-        assert!((p.derivative().mean() - (p.at(ONE) - p.at(0))).abs() < 8);
+        assert!((p.derivative().mean() - (p.at(ONE_UQ63) - p.at(0))).abs() < 8);
     }
 
     /// Against exact values at eighths: none outside, and the ends of Bernstein's coefficients within the pad.

@@ -7,12 +7,12 @@
 //! - slope: `s(j w) = (alpha_j s(w) + mean of q_j' over I_w / (x_N - x_0)) / a_j`.
 //!
 //! No polynomial is ever composed. Ranges are rounded outward. After Cochran, Lewis, Hart, eq. 47-48, which need composites and give
-//! boxes two to three times as many (DESIGN).
+//! boxes two to three times as many.
 
 use super::function::Fif;
 use super::map::Map;
 use super::polynomial::{Polynomial, part_of, twice_high};
-use super::value::{FRACTION, ONE, real_above, real_below};
+use super::value::{FRACTION_Q55, ONE_UQ63, real_above, real_below};
 use crate::Error;
 use crate::num::{Real, mul_high, mul_high_u, quotient, real_from};
 
@@ -95,11 +95,11 @@ impl<'a> Pyramid<'a> {
         let cells = memory.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         if let Some(root) = cells.first_mut() {
             let rise = fif.last.saturating_sub(fif.first);
-            let slope = quotient(rise, 48 + 24 - FRACTION, fif.width);
+            let slope = quotient(rise, 48 + 24 - FRACTION_Q55, fif.width);
             *root = Cell {
                 min: real_below(fif.range.0),
                 max: real_above(fif.range.1),
-                mean: real_from(fif.mean(), FRACTION),
+                mean: real_from(fif.mean(), FRACTION_Q55),
                 slope: saturated(slope),
             };
         }
@@ -263,12 +263,12 @@ fn fill<const D: usize>(maps: &[Map<D>], width: u64, cells: &mut [Cell], level: 
             let q = map.q.part(start, width);
             let (low, high) = range(map, &q, parent);
             if fresh == Fresh::All {
-                let mean = twice_high(i64::from(parent.mean.to_bits()) << (FRACTION - 24), map.scaling)
+                let mean = twice_high(i64::from(parent.mean.to_bits()) << (FRACTION_Q55 - 24), map.scaling)
                     .wrapping_add(q.mean());
                 *cell = Cell {
                     min: low,
                     max: high,
-                    mean: real_from(mean, FRACTION),
+                    mean: real_from(mean, FRACTION_Q55),
                     slope: slopes.at(parent.slope, start, width),
                 };
                 changed = true;
@@ -285,7 +285,7 @@ fn fill<const D: usize>(maps: &[Map<D>], width: u64, cells: &mut [Cell], level: 
 fn range<const D: usize>(map: &Map<D>, q: &Polynomial<D>, parent: &Cell) -> (Real, Real) {
     /// Errors of products and coefficients, far above and far below one unit of the result.
     const PAD: i64 = 1 << 10;
-    let scaled = |y: Real| twice_high(i64::from(y.to_bits()) << (FRACTION - 24), map.scaling);
+    let scaled = |y: Real| twice_high(i64::from(y.to_bits()) << (FRACTION_Q55 - 24), map.scaling);
     let (a, b) = (scaled(parent.min), scaled(parent.max));
     let (low, high) = q.range();
     let below = a.min(b).saturating_add(low).saturating_sub(PAD);
@@ -295,7 +295,7 @@ fn range<const D: usize>(map: &Map<D>, q: &Polynomial<D>, parent: &Cell) -> (Rea
 
 /// The interval of the cell at `index` of `level`, 63 fractional bits.
 fn interval<const D: usize>(maps: &[Map<D>], index: usize, level: u32) -> (u64, u64) {
-    let (mut start, mut width) = (0_u64, ONE);
+    let (mut start, mut width) = (0_u64, ONE_UQ63);
     let mut rest = index;
     for _ in 0..level {
         // innermost digit first
@@ -303,7 +303,7 @@ fn interval<const D: usize>(maps: &[Map<D>], index: usize, level: u32) -> (u64, 
             (rest.checked_div(maps.len()).unwrap_or(0), rest.checked_rem(maps.len()).unwrap_or(0));
         if let Some(map) = maps.get(digit) {
             start = map.start + part_of(start, map.width);
-            width = if width == ONE { map.width } else { part_of(width, map.width) };
+            width = if width == ONE_UQ63 { map.width } else { part_of(width, map.width) };
         }
         rest = quotient;
     }
@@ -356,8 +356,8 @@ mod tests {
             scaling: i64::from(scaling) << 32,
             q: Polynomial { constant, powers: [power] },
             start: 0,
-            width: ONE,
-            per_width: crate::num::Reciprocal::of(ONE),
+            width: ONE_UQ63,
+            per_width: crate::num::Reciprocal::of(ONE_UQ63),
         }
     }
 
@@ -502,7 +502,7 @@ mod tests {
             for (i, cell) in pyramid.level(level + 1).iter().enumerate() {
                 let (map, parent) = (&f.maps[i / count], &pyramid.level(level)[i % count]);
                 let (start, width) = interval(&f.maps, i % count, level);
-                assert_eq!((start, width), ((i % count) as u64 * (ONE >> level), ONE >> level));
+                assert_eq!((start, width), ((i % count) as u64 * (ONE_UQ63 >> level), ONE_UQ63 >> level));
                 let (low, high) = range(map, &map.q.part(start, width), parent);
                 assert!(cell.min >= low && cell.max <= high, "{level} {i}");
                 let parts = pyramid.level(level + 2).get(2 * i..2 * i + 2).unwrap_or(&[]);
@@ -510,7 +510,8 @@ mod tests {
                 assert!(parts.is_empty() || cell.min >= hull.0 && cell.max <= hull.1, "{level} {i}");
                 let (mut least, mut most) = (Real::MAX, Real::MIN);
                 for k in 0..=256 {
-                    let y = f.at(f.abscissa(i as u64 * (ONE >> (level + 1)) + k * (ONE >> (level + 9))));
+                    let y = f
+                        .at(f.abscissa(i as u64 * (ONE_UQ63 >> (level + 1)) + k * (ONE_UQ63 >> (level + 9))));
                     (least, most) = (least.min(y), most.max(y));
                 }
                 assert!(cell.min <= least && most <= cell.max, "{level} {i}");

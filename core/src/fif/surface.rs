@@ -7,7 +7,7 @@
 
 use super::function::Fif;
 use super::polynomial::twice_high;
-use super::value::FRACTION;
+use super::value::FRACTION_Q55;
 use crate::Error;
 use crate::num::{Real, Vec3, Wide, quotient, real_from};
 
@@ -118,7 +118,7 @@ impl<'a, const N: usize, const D: usize, const M: usize, const E: usize> Surface
 /// `a b` of two values with 55 fractional bits, saturated.
 fn product(a: i64, b: i64) -> Real {
     // 55 + 55 - 63 = 47 fractional bits, less than 2^15 * 2^47
-    real_from(twice_high(a, b), FRACTION - 8)
+    real_from(twice_high(a, b), FRACTION_Q55 - 8)
 }
 
 #[cfg(test)]
@@ -141,7 +141,7 @@ mod tests {
         };
         let (left, right) = (q(ends[0]), q(ends[1]));
         let f =
-            Fif::<2, 3>::with_polynomials(&ends.map(Wide::from_num), &[Scaling::ZERO; 2], &[&left, &right]);
+            Fif::<2, 3>::from_polynomials(&ends.map(Wide::from_num), &[Scaling::ZERO; 2], &[&left, &right]);
         Factor::new(&f.unwrap()).unwrap()
     }
 

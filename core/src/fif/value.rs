@@ -4,26 +4,26 @@ use crate::Error;
 use crate::num::{Real, Wide, round_shift};
 
 /// Fractional bits of values and coefficients.
-pub(crate) const FRACTION: u32 = 55;
+pub(crate) const FRACTION_Q55: u32 = 55;
 /// One, as an abscissa with 63 fractional bits.
-pub(crate) const ONE: u64 = 1 << 63;
+pub(crate) const ONE_UQ63: u64 = 1 << 63;
 
 /// A description's number with 55 fractional bits; the caller has checked its range.
 pub(crate) fn value(y: Wide) -> i64 {
-    y.to_bits() << (FRACTION - 48)
+    y.to_bits() << (FRACTION_Q55 - 48)
 }
 
 pub(crate) fn wide(value: i64) -> Wide {
-    Wide::from_bits(round_shift(value, FRACTION - 48))
+    Wide::from_bits(round_shift(value, FRACTION_Q55 - 48))
 }
 
 #[inline(never)]
 pub(crate) fn real_below(value: i64) -> Real {
-    Real::from_bits((value >> (FRACTION - 24)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+    Real::from_bits((value >> (FRACTION_Q55 - 24)).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
 }
 
 pub(crate) fn real_above(value: i64) -> Real {
-    let up = value.saturating_add((1 << (FRACTION - 24)) - 1);
+    let up = value.saturating_add((1 << (FRACTION_Q55 - 24)) - 1);
     real_below(up)
 }
 

@@ -39,7 +39,7 @@ pub(super) fn function(function: &Function, name: &str, prefix: &str, module: &m
             let row = |row: &Vec<Wide>| format!("&[{}]", row.iter().map(wide).collect::<Vec<_>>().join(", "));
             let doc = "One for each interval: coefficients in x, constant first.";
             module.array(doc, &q, "&[Wide]", rows.iter().map(row));
-            format!("Fif::<N, D>::with_polynomials(&{x}, &{prefix}VERTICAL_SCALINGS, &{q})")
+            format!("Fif::<N, D>::from_polynomials(&{x}, &{prefix}VERTICAL_SCALINGS, &{q})")
         }
     };
     let scalings = parts.scalings.iter().map(|s| lit("Scaling", *s));

@@ -72,7 +72,7 @@ impl Description {
             Some(rows) => {
                 let rows: Vec<&[Wide]> = rows.iter().map(Vec::as_slice).collect();
                 let x: Vec<Wide> = knots.iter().map(|k| k.x).collect();
-                Fixed::with_polynomials(&x, &scalings, &rows)
+                Fixed::from_polynomials(&x, &scalings, &rows)
             }
         };
         let mut fixed = fixed.map_err(|error| self.explain(source, prefix, error))?;
@@ -155,7 +155,7 @@ impl Description {
                     q: q.iter().map(|c| c.to_num()).collect(),
                 });
                 let x: Vec<f64> = knots.map(|knot| knot.0).collect();
-                reference::Fif::with_polynomials(&x, maps.collect())
+                reference::Fif::from_polynomials(&x, maps.collect())
             }
         }
     }

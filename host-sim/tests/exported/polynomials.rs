@@ -40,7 +40,7 @@ pub const DEGREE: usize = 4;
 /// # Errors
 /// [`Error::Capacity`] where `N` or `D` is too small.
 pub fn function<const N: usize, const D: usize>() -> Result<Fif<N, D>, Error> {
-    let f = Fif::<N, D>::with_polynomials(&ABSCISSAE, &VERTICAL_SCALINGS, &POLYNOMIALS)?;
+    let f = Fif::<N, D>::from_polynomials(&ABSCISSAE, &VERTICAL_SCALINGS, &POLYNOMIALS)?;
     let f = f.integral::<D>(Wide::ZERO)?;
     f.integral::<D>(Wide::ZERO)
 }

@@ -180,7 +180,7 @@ mod tests {
 
     fn cubic_maps() -> Fif {
         let map = |vertical_scaling: f64, q: &[f64]| Map { vertical_scaling, q: q.to_vec() };
-        Fif::with_polynomials(
+        Fif::from_polynomials(
             &[-1.0, 0.0, 0.5, 2.0],
             vec![
                 map(0.4, &[1.0, -2.0, 0.5, 0.7]),

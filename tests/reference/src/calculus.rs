@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn twice_integrated_polynomials_stay_polynomials() {
-        let line = Fif::with_polynomials(&[0.0, 1.0], vec![Map { vertical_scaling: 0.0, q: vec![0.0, 6.0] }]);
+        let line = Fif::from_polynomials(&[0.0, 1.0], vec![Map { vertical_scaling: 0.0, q: vec![0.0, 6.0] }]);
         let cubic = line.integral(0.0).integral(1.0);
         assert!((cubic.at(0.5) - 1.125).abs() < 1e-15);
     }
@@ -136,7 +136,7 @@ mod tests {
         let rough = Fif::interpolating(&KNOTS, &[0.5, 0.5]).derivative();
         assert!(rough.expect_err("too rough").contains("map 0"));
         let step = |c: f64| Map { vertical_scaling: 0.0, q: vec![c] };
-        let broken = Fif::with_polynomials(&[0.0, 1.0, 2.0], vec![step(3.0), step(5.0)]).derivative();
+        let broken = Fif::from_polynomials(&[0.0, 1.0, 2.0], vec![step(3.0), step(5.0)]).derivative();
         assert!(broken.expect_err("broken").contains("do not join"));
     }
 }

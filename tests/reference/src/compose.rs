@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn a_single_map_ends_at_the_level_limit() {
         let one =
-            Fif::with_polynomials(&[0.0, 2.0], vec![Map { vertical_scaling: 0.75, q: vec![1.0, 0.0, 0.5] }]);
+            Fif::from_polynomials(&[0.0, 2.0], vec![Map { vertical_scaling: 0.75, q: vec![1.0, 0.0, 0.5] }]);
         // The median knot of a single map is its first.
         assert!((one.at_composition(1.0, 1e-6) - one.at(0.0)).abs() < 1e-14);
     }

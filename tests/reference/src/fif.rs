@@ -68,7 +68,7 @@ impl Fif {
     ///
     /// # Panics
     /// With abscissae that do not increase, or maps that are not one an interval and of scalings inside (-1, 1).
-    pub fn with_polynomials(knots_x: &[f64], maps: Vec<Map>) -> Self {
+    pub fn from_polynomials(knots_x: &[f64], maps: Vec<Map>) -> Self {
         check(knots_x, maps.len());
         let start = DoubleDouble::from(knots_x[0]);
         let length = DoubleDouble::from(knots_x[maps.len()]) - start;
@@ -188,7 +188,7 @@ mod tests {
         let g = Fif::interpolating(&KNOTS, &[0.85, -0.85]);
         assert_eq!((&g.maps[0].q, &g.maps[1].q), (&f.maps[0].q, &f.maps[1].q));
         assert_eq!(g.max_scaling(), 0.85);
-        assert_eq!(Fif::with_polynomials(&g.knots_x, g.maps.clone()), g);
+        assert_eq!(Fif::from_polynomials(&g.knots_x, g.maps.clone()), g);
     }
 
     #[test]
@@ -266,10 +266,10 @@ mod tests {
     #[test]
     fn a_single_map_is_a_polynomial_and_maps_need_not_join() {
         let one =
-            Fif::with_polynomials(&[0.0, 2.0], vec![Map { vertical_scaling: 0.75, q: vec![1.0, 0.0, 0.5] }]);
+            Fif::from_polynomials(&[0.0, 2.0], vec![Map { vertical_scaling: 0.75, q: vec![1.0, 0.0, 0.5] }]);
         assert_eq!((one.at(0.0), one.at(1.0), one.at(2.0)), (4.0, 6.0, 12.0));
         let step = |c: f64| Map { vertical_scaling: 0.0, q: vec![c] };
-        let jump = Fif::with_polynomials(&[0.0, 1.0, 2.0], vec![step(3.0), step(5.0)]);
+        let jump = Fif::from_polynomials(&[0.0, 1.0, 2.0], vec![step(3.0), step(5.0)]);
         assert_eq!((jump.at(0.0), jump.at(1.0), jump.at(1.25), jump.at(2.0)), (3.0, 3.0, 5.0, 5.0));
     }
 }

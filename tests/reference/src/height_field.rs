@@ -194,7 +194,7 @@ mod tests {
         // h = (2 + x) y: the slopes are y and 2 + x.
         let line = |c0: f64, c1: f64| {
             let map = Map { vertical_scaling: 0.0, q: vec![c0, c1] };
-            Bounds::new(&Fif::with_polynomials(&[0.0, 1.0], vec![map]), 0)
+            Bounds::new(&Fif::from_polynomials(&[0.0, 1.0], vec![map]), 0)
         };
         let (x, y) = (line(2.0, 1.0), line(0.0, 1.0));
         let hit = Hit { level: 0, i: 0, j: 0, t: 1.0 };

@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_level_square_is_a_trapezium_of_one_tone() {
         let level = |c: f64| Map { vertical_scaling: 0.0, q: vec![c] };
-        let flat = Fif::with_polynomials(&[0.0, 1.0, 2.0], vec![level(0.5), level(0.5)]);
+        let flat = Fif::from_polynomials(&[0.0, 1.0, 2.0], vec![level(0.5), level(0.5)]);
         let scene = scene(&flat, Material::Diffuse { ambient: 0.25 });
         let tones = render(&scene, 32, 24, &CENTRE);
         for j in 0..24 {

@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn a_bilinear_surface_has_the_normal_of_the_schoolbook() {
         let line = |c0: f64, c1: f64| {
-            Fif::with_polynomials(&[0.0, 4.0], vec![Map { vertical_scaling: 0.0, q: vec![c0, c1] }])
+            Fif::from_polynomials(&[0.0, 4.0], vec![Map { vertical_scaling: 0.0, q: vec![c0, c1] }])
         };
         let factor = |c0, c1| Factor::new(line(c0, c1)).expect("smooth");
         let surface = Surface { x: factor(2.0, 1.0), y: factor(0.0, 3.0) };

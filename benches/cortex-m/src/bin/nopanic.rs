@@ -38,7 +38,7 @@ fn functions() -> Result<(), Error> {
     let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
     let f = Fif::<4, 2>::interpolating(bb(&knots[..]), bb(&[Scaling::from_bits(1 << 30); 2][..]))?;
     let xs = knots.map(|knot| knot.x);
-    bb(Fif::<2, 2>::with_polynomials(bb(&xs), bb(&[Scaling::ZERO; 2]), bb(&[&xs[..], &xs[..]]))?);
+    bb(Fif::<2, 2>::from_polynomials(bb(&xs), bb(&[Scaling::ZERO; 2]), bb(&[&xs[..], &xs[..]]))?);
     bb((f.at(zero), f.at_wide(zero), f.error_bound(), f.at_by_composition(zero, bb(Real::DELTA))));
     bb((f.error_bound_at_x(), f.oscillation(bb(40)), f.composite_at(zero, bb(Real::DELTA), bb(9))));
     bb((f.maps(), f.degree(), f.domain(), f.range(), f.max_scaling(), f.knots().last()));
