@@ -1,9 +1,10 @@
 //! Iterations of `z^2 + c` a second.
 //!
-//! - `home view`: the whole Mandelbrot set; elements are the dwells of all pixels added up, whether they are iterated or, as in the two largest parts of
-//!   the set, known from a formula. `f64 with formulas` knows the same two parts.
-//! - `interior orbit`: one orbit of a quadratic with a Siegel disc, which turns by an irrational angle: no cycle ends it early, and every element is an
-//!   iteration.
+//! - `home view`: the whole Mandelbrot set; elements are the dwells of all pixels added up, whether they are
+//!   iterated or, as in the two largest parts of the set, known from a formula. `f64 with formulas` knows the
+//!   same two parts.
+//! - `interior orbit`: one orbit of a quadratic with a Siegel disc, which turns by an irrational angle: no
+//!   cycle ends it early, and every element is an iteration.
 
 use std::hint::black_box;
 

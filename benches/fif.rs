@@ -1,7 +1,9 @@
-//! Evaluations of a fractal interpolation function a second, and what it takes to build its integral and its pyramid.
+//! Evaluations of a fractal interpolation function a second, and what it takes to build its integral and its
+//! pyramid.
 //!
-//! Abscissae are random with 24 binary digits, so that every walk that ends with the digits does so after 24 maps. `plain f64` is the walk of
-//! `Dyadic` in floating point, as one would write it by hand; the reference computes with pairs of `f64` and is no competitor. `identity` is the floor.
+//! Abscissae are random with 24 binary digits, so that every walk that ends with the digits does so after 24
+//! maps. `plain f64` is the walk of `Dyadic` in floating point, as one would write it by hand; the reference
+//! computes with pairs of `f64` and is no competitor. `identity` is the floor.
 
 use std::hint::black_box;
 

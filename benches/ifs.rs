@@ -1,7 +1,7 @@
 //! Points of the chaos game a second: Barnsley's fern.
 //!
-//! The loop in `f64` takes the same words of the same generator and the same alias table, which are integers anyway; `generator and choice` is what both
-//! share, the floor.
+//! The loop in `f64` takes the same words of the same generator and the same alias table, which are integers
+//! anyway; `generator and choice` is what both share, the floor.
 
 use std::hint::black_box;
 

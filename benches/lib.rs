@@ -1,7 +1,8 @@
 //! What the benches share: how long they measure, and what they measure on.
 //!
-//! Inputs are figure 1's function `g` (knots (0, 0), (1, 1), (2, 0), vertical scalings 0.85 and -0.85), its integral `G`, and the surface `G x G` from
-//! the front corner. Cochran, Lewis, Hart, "The Normal of a Fractal Surface", figures 1 and 6.
+//! Inputs are figure 1's function `g` (knots (0, 0), (1, 1), (2, 0), vertical scalings 0.85 and -0.85), its
+//! integral `G`, and the surface `G x G` from the front corner. Cochran, Lewis, Hart, "The Normal of a
+//! Fractal Surface", figures 1 and 6.
 
 use std::time::Duration;
 

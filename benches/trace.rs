@@ -1,6 +1,7 @@
 //! Rays a second: the mirror `G x G`, which fills a third of the picture, one ray a pixel, shading included.
 //!
-//! Every eighth row of 240 x 240 pixels. The reference follows Algorithm 3 by recursion and computes the camera's frame anew for each ray.
+//! Every eighth row of 240 x 240 pixels. The reference follows Algorithm 3 by recursion and computes the
+//! camera's frame anew for each ray.
 
 use attractor::fif::Pyramid;
 use attractor::plane::Field as _;

@@ -1,4 +1,5 @@
-//! The table of promises: every kernel with its format, the inputs tried, the errors found and the bound that it states.
+//! The table of promises: every kernel with its format, the inputs tried, the errors found and the bound that
+//! it states.
 //!
 //! Inputs come from four generators: a hand list, edge cases, a seeded random sequence, evenly spaced values.
 
@@ -250,7 +251,8 @@ fn functions() -> Vec<Row> {
         fixed.error_bound().to_num::<f64>() - two_to(-25),
         places().map(|u| fixed.at_wide(Wide::from_num(2.0 * u)).to_num::<f64>() - exact.at(2.0 * u)),
     ));
-    // composition ends at another abscissa than x: compare a function that is smooth enough for the difference not to show
+    // composition ends at another abscissa than x: compare a function that is smooth enough for the
+    // difference not to show
     let smooth = &dyadic_examples()[3];
     let (fixed, exact) = (smooth.fixed(), smooth.exact());
     rows.push(row(
@@ -422,8 +424,8 @@ fn shading() -> Vec<Row> {
     rows
 }
 
-/// The depth of hits times the least component of the direction, where the leaf is the reference's; fewer than one in 500 may be
-/// another one.
+/// The depth of hits times the least component of the direction, where the leaf is the reference's; fewer
+/// than one in 500 may be another one.
 fn hits() -> Row {
     let e = &dyadic_examples()[3];
     let fixed = e.fixed();
@@ -461,7 +463,8 @@ fn hits() -> Row {
     row("HeightField::intersect (depth)", "I8F24", two_to(-21), errors)
 }
 
-/// The exact moments of an attractor's measure by the reference, for the numbers that the kernel has, rounding of the tables included.
+/// The exact moments of an attractor's measure by the reference, for the numbers that the kernel has,
+/// rounding of the tables included.
 pub fn exact_moments<const N: usize>(ifs: &attractor::ifs::Ifs<N>) -> reference::Moments {
     let maps: Vec<_> = ifs
         .maps()

@@ -302,7 +302,8 @@ fn random_curves_are_those_of_the_recursive_procedures() {
     }
 }
 
-/// The textbook's recursion with the stopping rules of both texts, where no part is so close to the limit that a rounding decides.
+/// The textbook's recursion with the stopping rules of both texts, where no part is so close to the limit
+/// that a rounding decides.
 #[test]
 fn lengths_and_norms_stop_as_in_the_texts() {
     let (a, b) = ((-1.0, 0.5), (2.0, 1.0));
@@ -552,7 +553,8 @@ fn power(signal: &[f64]) -> Vec<f64> {
     (1..signal.len() / 2).map(|k| re[k] * re[k] + im[k] * im[k]).collect()
 }
 
-/// Minus the slope of log power against log frequency: least squares over octaves, from `2^first` to `2^last`.
+/// Minus the slope of log power against log frequency: least squares over octaves, from `2^first` to
+/// `2^last`.
 fn exponent(power: &[f64], first: u32, last: u32) -> f64 {
     let octaves: Vec<(f64, f64)> = (first..last)
         .map(|k| {
@@ -569,8 +571,8 @@ fn exponent(power: &[f64], first: u32, last: u32) -> f64 {
     -sxy / sxx
 }
 
-/// The exponents of the mean spectra over 64 seeds, `2^12` samples each, from 4 to 512 periods: that of `y(t)`, and that of the displacement
-/// from the chord, both coordinates added up.
+/// The exponents of the mean spectra over 64 seeds, `2^12` samples each, from 4 to 512 periods: that of
+/// `y(t)`, and that of the displacement from the chord, both coordinates added up.
 fn measured(curve: impl Fn(u64) -> Vec<Point2>) -> [f64; 2] {
     let mut mean = [vec![0.0; (1 << 11) - 1], vec![0.0; (1 << 11) - 1]];
     for seed in 0..64 {
@@ -586,8 +588,8 @@ fn measured(curve: impl Fn(u64) -> Vec<Point2>) -> [f64; 2] {
     mean.map(|power| exponent(&power, 2, 9))
 }
 
-/// `y(t)` of an elbow that begins almost straight is steeper than asked while it becomes rough, since displacements begin along `y` and end in all directions:
-/// there both coordinates are measured together.
+/// `y(t)` of an elbow that begins almost straight is steeper than asked while it becomes rough, since
+/// displacements begin along `y` and end in all directions: there both coordinates are measured together.
 #[test]
 fn a_spectrum_falls_as_asked() {
     let knots = [point(0.0, 0.0), point(1.0, 0.0)];
@@ -619,8 +621,9 @@ fn a_spectrum_falls_as_asked() {
     }
 }
 
-/// "If its length increases by an average ratio of 1.3 each time it is subdivided then its similarity ratio is 1.3", D = 1.61: the lengths of the polylines of
-/// `2^k` segments, and the dimension as the slope of their number against the mean segment, over 64 seeds.
+/// "If its length increases by an average ratio of 1.3 each time it is subdivided then its similarity ratio
+/// is 1.3", D = 1.61: the lengths of the polylines of `2^k` segments, and the dimension as the slope of their
+/// number against the mean segment, over 64 seeds.
 ///
 /// Boxes count otherwise: see `attractor dimension` and its tests.
 #[test]

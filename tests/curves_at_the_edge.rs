@@ -1,4 +1,5 @@
-//! Curves with coordinates, offsets and limits up to the ends of their formats: refused, or walked without a panic; and the right values there.
+//! Curves with coordinates, offsets and limits up to the ends of their formats: refused, or walked without a
+//! panic; and the right values there.
 
 use attractor::Error;
 use attractor::curve::{

@@ -1,17 +1,23 @@
-//! Deep zooms agree with arbitrary precision: 64 and 128 bits where `f64` shows blocks, perturbation down to a width of 1e-100.
+//! Deep zooms agree with arbitrary precision: 64 and 128 bits where `f64` shows blocks, perturbation down to
+//! a width of 1e-100.
 //!
 //! # Where the coordinates come from
-//! Newton's iteration in 520 fractional bits, started at the published first digits of two Misiurewicz points:
-//! - `M_{4,1}`, `-0.1010963638 + 0.9562865108 i`, solves `z_5 = z_4` for the orbit of 0 (a spiral with three arms), as do
-//!   `0.3439069960 + 0.7006200202 i` and the real `-1.5436890127`, where the two bands of the needle meet;
-//! - nuclei of small copies of the set: `z_p = 0`, started at `M_{3,1} = -0.2281554936 + 1.1151425080 i`, at `M_{4,2} = -1.2963551382 + 0.4418516057 i`
-//!   and, for the chaotic place, at `M_{4,1}`. A nucleus of period `p` near a Misiurewicz point
-//!   is `~lambda^-p` away from it, its copy `~lambda^-2p` large: the periods are chosen so that the copy fills about a tenth of the view.
+//! Newton's iteration in 520 fractional bits, started at the published first digits of two Misiurewicz
+//! points:
+//! - `M_{4,1}`, `-0.1010963638 + 0.9562865108 i`, solves `z_5 = z_4` for the orbit of 0 (a spiral with three
+//!   arms), as do `0.3439069960 + 0.7006200202 i` and the real `-1.5436890127`, where the two bands of the
+//!   needle meet;
+//! - nuclei of small copies of the set: `z_p = 0`, started at `M_{3,1} = -0.2281554936 + 1.1151425080 i`, at
+//!   `M_{4,2} = -1.2963551382 + 0.4418516057 i` and, for the chaotic place, at `M_{4,1}`. A nucleus of period
+//!   `p` near a Misiurewicz point is `~lambda^-p` away from it, its copy `~lambda^-2p` large: the periods are
+//!   chosen so that the copy fills about a tenth of the view.
 //!
 //! - between seahorses, where orbits take thousands of iterations: the nucleus of period 8007 nearest to
-//!   `-0.743643887037158704752191506114774 + 0.131825904205311970493132056385139 i`, the end of the zoom "Mandelbrot sequence new" on Wikimedia Commons.
+//!   `-0.743643887037158704752191506114774 + 0.131825904205311970493132056385139 i`, the end of the zoom
+//!   "Mandelbrot sequence new" on Wikimedia Commons.
 //!
-//! `the_coordinates_are_what_they_are_said_to_be` follows the orbits and checks both equations to the last digits.
+//! `the_coordinates_are_what_they_are_said_to_be` follows the orbits and checks both equations to the last
+//! digits.
 
 use attractor::Error;
 use attractor::escape::{Arithmetic, DeepMandelbrot, DeepView, OrbitPoint};
@@ -105,7 +111,8 @@ const PLACES: [Place; 9] = [
     },
 ];
 
-/// A copy of period 245 wound into a spiral: neighbouring pixels share nothing, and bits far behind a pixel decide.
+/// A copy of period 245 wound into a spiral: neighbouring pixels share nothing, and bits far behind a pixel
+/// decide.
 const CHAOTIC: Place = Place {
     re: "-0.10109636384562216102578544573874555904580300638820556440768887442333163856573890",
     im: "0.95628651080914150077109605773014301122275521289360319025125884680254763722810216",
@@ -176,7 +183,8 @@ impl Exact {
     }
 }
 
-/// Pixels of a picture that differ from arbitrary precision, pixels inside, and the number of different dwells.
+/// Pixels of a picture that differ from arbitrary precision, pixels inside, and the number of different
+/// dwells.
 fn differences<const N: usize>(picture: &DeepMandelbrot<'_, N>, bits: u32) -> (u32, u32, usize) {
     let exact = Exact { bits };
     let size = picture.size();

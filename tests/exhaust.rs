@@ -1,7 +1,9 @@
-//! Every 32-bit input of the elementary functions against a truth that is better by `2^-30`: no sample can miss the worst one.
+//! Every 32-bit input of the elementary functions against a truth that is better by `2^-30`: no sample can
+//! miss the worst one.
 //!
-//! A function of 64 bits is asked for three families of `2^32` inputs: the word `h` as such, `h 2^32`, and `h 2^32 + 2^32 - 1`. The kernels use
-//! the upper 32 significant bits at most, so the latter two hold, for each that a kernel can see, the least and the greatest number behind them.
+//! A function of 64 bits is asked for three families of `2^32` inputs: the word `h` as such, `h 2^32`, and
+//! `h 2^32 + 2^32 - 1`. The kernels use the upper 32 significant bits at most, so the latter two hold, for
+//! each that a kernel can see, the least and the greatest number behind them.
 
 use attractor::num::{self, Angle, Real};
 use attractor_reference::Elementary;

@@ -1,7 +1,7 @@
 //! In these rooms imports go one way: no file reaches, over any way, a file that reaches it.
 //!
-//! Read from the text: `crate::`, `super::` and `self::` paths, in groups or not, and `mod name;`, by which a module reaches its parts. A module's own
-//! tests may use what they like.
+//! Read from the text: `crate::`, `super::` and `self::` paths, in groups or not, and `mod name;`, by which a
+//! module reaches its parts. A module's own tests may use what they like.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -105,7 +105,8 @@ fn named(here: &Module, code: &str, all: &BTreeMap<Module, String>) -> BTreeSet<
     found
 }
 
-/// What is left when all modules are taken away that reach, or are reached by, no others: those of cycles, and what lies between.
+/// What is left when all modules are taken away that reach, or are reached by, no others: those of cycles,
+/// and what lies between.
 fn knots(all: &BTreeMap<Module, String>) -> Vec<String> {
     let mut edges: BTreeMap<&Module, BTreeSet<Module>> =
         all.iter().map(|(here, code)| (here, named(here, code, all))).collect();

@@ -147,7 +147,8 @@ fn config() -> ProptestConfig {
     }
 }
 
-/// How far `f(L_j(x))` is from `alpha_j f(x) + q_j(x)`, `q_j` the chord (affine maps), for each map, at the place `u`.
+/// How far `f(L_j(x))` is from `alpha_j f(x) + q_j(x)`, `q_j` the chord (affine maps), for each map, at the
+/// place `u`.
 fn off_their_maps(random: &Random, f: &Fif<6, 3>, u: f64) -> Vec<f64> {
     let (first, last) = (random.knots[0], random.knots[random.knots.len() - 1]);
     let y = f.at_wide(Wide::from_num(first.0 + u * (last.0 - first.0))).to_num::<f64>();
@@ -161,7 +162,8 @@ fn off_their_maps(random: &Random, f: &Fif<6, 3>, u: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The graph is the fixed point of its maps: on dyadic partitions, where every abscissa is a number of the format, to the last bits.
+/// The graph is the fixed point of its maps: on dyadic partitions, where every abscissa is a number of the
+/// format, to the last bits.
 #[test]
 fn the_graph_is_the_fixed_point_of_its_maps() {
     let evaluated = Count::new(0);
@@ -195,7 +197,8 @@ fn the_graph_is_the_fixed_point_of_its_maps_on_any_partition() {
     assert!(evaluated.get() > 600 && telling.get() > 100, "{} {}", evaluated.get(), telling.get());
 }
 
-/// The value at `x` of the function through rounded knots, with as many bits as its address needs: pre-images lose none that count.
+/// The value at `x` of the function through rounded knots, with as many bits as its address needs: pre-images
+/// lose none that count.
 fn exact(knots: &[(Wide, Wide)], scaling: &[Scaling], x: Wide) -> f64 {
     const PLACE: usize = 1600; // fractional bits of a pre-image
     const VALUE: usize = 160; // of a product of scalings
@@ -265,7 +268,8 @@ fn a_long_address_gives_the_exact_value() {
     assert!(error <= f.error_bound_at_x().to_num::<f64>() && error < 1e-3, "{error:e}");
 }
 
-/// Elsewhere than on dyadic partitions the value is within the bound of the exact one at an abscissa no further than 2^-40.
+/// Elsewhere than on dyadic partitions the value is within the bound of the exact one at an abscissa no
+/// further than 2^-40.
 #[test]
 fn values_are_exact_at_an_abscissa_within_two_to_the_minus_40() {
     for example in other_examples() {
@@ -322,7 +326,8 @@ fn one_map_is_a_polynomial() {
     }
 }
 
-/// At its knots an integral is the reference's. The numbers of `f` are exact here, so that its own error does not count.
+/// At its knots an integral is the reference's. The numbers of `f` are exact here, so that its own error does
+/// not count.
 #[test]
 fn an_integral_is_within_its_bound() {
     let (tried, worst) = (Count::new(0_u32), Count::new(0.0_f64));

@@ -321,7 +321,8 @@ fn jittered_samples_repeat_with_their_seed_and_approach_the_mean() {
     });
 }
 
-/// Box tests a ray, on the paper's surfaces at depth 8 with a view that fills about a third: at most 13. The stack keeps its bound.
+/// Box tests a ray, on the paper's surfaces at depth 8 with a view that fills about a third: at most 13. The
+/// stack keeps its bound.
 #[test]
 fn a_ray_takes_at_most_13_box_tests() {
     for (surface, view) in

@@ -1,9 +1,10 @@
-//! Every promise of the table holds; every `Error:` of core's documentation names the test or the row that measures it; every `Cost:` in Cortex-M4
-//! instructions is what was counted.
+//! Every promise of the table holds; every `Error:` of core's documentation names the test or the row that
+//! measures it; every `Cost:` in Cortex-M4 instructions is what was counted.
 //!
-//! The convention: after `Error:` a doc comment names a test in backticks, `a_root_is_exact`, which must exist, be a test and mention the item; or a row
-//! of the table of accuracy: (row `num::sin_cos`). A number of "Cortex-M4 instructions" is followed by (kernel `NAME`), a
-//! row of benches/cortex-m/counts.toml, and so is each number that stands beside it.
+//! The convention: after `Error:` a doc comment names a test in backticks, `a_root_is_exact`, which must
+//! exist, be a test and mention the item; or a row of the table of accuracy: (row `num::sin_cos`). A number
+//! of "Cortex-M4 instructions" is followed by (kernel `NAME`), a row of benches/cortex-m/counts.toml, and so
+//! is each number that stands beside it.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -85,7 +85,8 @@ pub enum Error {
         /// Index of the knot.
         knot: usize,
     },
-    /// The function has no derivative of its own kind: a map is steeper than it is narrow, `|alpha_j| >= a_j`.
+    /// The function has no derivative of its own kind: a map is steeper than it is narrow,
+    /// `|alpha_j| >= a_j`.
     NotDifferentiable {
         /// Index of the map.
         map: usize,

@@ -1,4 +1,5 @@
-//! `defmt::Format` for types that hold numbers of `fixed`, which has none: what `Debug` says, formatted on the target.
+//! `defmt::Format` for types that hold numbers of `fixed`, which has none: what `Debug` says, formatted on
+//! the target.
 
 use core::fmt::Debug;
 

@@ -2,9 +2,10 @@
 //!
 #![doc = include_str!("../docs/trace.md")]
 //!
-//! `attractor` is a `no_std` kernel without allocation, without `unsafe`, without a panicking path and without floating
-//! point: it gives the same bits on a Cortex-M4, a Cortex-M0, RISC-V and the desktop. Everything it computes is one of three kinds of
-//! [picture](plane): points, a path, or a field of values; [draw] puts any of them on any `embedded-graphics` display.
+//! `attractor` is a `no_std` kernel without allocation, without `unsafe`, without a panicking path and
+//! without floating point: it gives the same bits on a Cortex-M4, a Cortex-M0, RISC-V and the desktop.
+//! Everything it computes is one of three kinds of [picture](plane): points, a path, or a field of values;
+//! [draw] puts any of them on any `embedded-graphics` display.
 //!
 //! | room | what it knows |
 //! | --- | --- |
@@ -29,12 +30,14 @@
 //! | `serde` | `Serialize` and `Deserialize` for values and descriptions; a type whose constructor checks something is read back through it, so that none is invalid |
 //! | `micromath` | a camera from f32 angles |
 //!
-//! Read back through their constructors: [`plane::Window`], [`escape::View`], [`escape::DeepView`], [`escape::Mandelbrot`], [`escape::Julia`], [`escape::JuliaSet`],
-//! [`ifs::Ifs`]. Not read back, as they keep only what they computed: [`fif::Fif`], [`curve::Generator`], [`trace::Camera`], [`trace::Light`] and the laws of random
-//! curves; store the knots, points and vectors they are made from. Written only: [`Error`], [`trace::Hit`] and the entries of the catalogues, which borrow their names.
+//! Read back through their constructors: [`plane::Window`], [`escape::View`], [`escape::DeepView`],
+//! [`escape::Mandelbrot`], [`escape::Julia`], [`escape::JuliaSet`], [`ifs::Ifs`]. Not read back, as they keep
+//! only what they computed: [`fif::Fif`], [`curve::Generator`], [`trace::Camera`], [`trace::Light`] and the
+//! laws of random curves; store the knots, points and vectors they are made from. Written only: [`Error`],
+//! [`trace::Hit`] and the entries of the catalogues, which borrow their names.
 //!
-//! The types of the [`fixed`] crate are part of the public interface; it is re-exported. Version 1.29 is required: later ones conflict
-//! with `embedded-graphics` 0.8.2 over the crate `az`.
+//! The types of the [`fixed`] crate are part of the public interface; it is re-exported. Version 1.29 is
+//! required: later ones conflict with `embedded-graphics` 0.8.2 over the crate `az`.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

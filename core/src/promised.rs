@@ -35,8 +35,8 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Each public type with its attributes. Left out: what borrows, which is neither value nor description, and all of `draw`
-/// but its levels: palettes, packings and drawings are code or constants.
+/// Each public type with its attributes. Left out: what borrows, which is neither value nor description, and
+/// all of `draw` but its levels: palettes, packings and drawings are code or constants.
 fn public_types() -> Vec<(String, String)> {
     let mut paths = Vec::new();
     files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut paths);

@@ -1,9 +1,10 @@
-//! What validated types are written as with the feature `serde`, and how they are read: through their constructors.
+//! What validated types are written as with the feature `serde`, and how they are read: through their
+//! constructors.
 //!
-//! Plain values and descriptions derive `Serialize` and `Deserialize` where they are defined. A type whose constructor
-//! checks something is written as the numbers that its constructor takes and read back through it, so that an invalid
-//! one is refused with the constructor's own [`Error`]. Numbers of `fixed` are written as `fixed` writes them, as their
-//! bits; [`Limbs`] as their limbs, least first.
+//! Plain values and descriptions derive `Serialize` and `Deserialize` where they are defined. A type whose
+//! constructor checks something is written as the numbers that its constructor takes and read back through
+//! it, so that an invalid one is refused with the constructor's own [`Error`]. Numbers of `fixed` are written
+//! as `fixed` writes them, as their bits; [`Limbs`] as their limbs, least first.
 
 use embedded_graphics_core::geometry::Size;
 use heapless::Vec;

@@ -1,7 +1,8 @@
 //! Box counting: the cells of a fine grid that a set meets, put together into boxes of several sizes.
 //!
-//! Boxes of 8 to 64 cells a side are counted, on eight positions of the grid for each size, and `log N` is averaged over the positions: that removes most of
-//! the staircase. Boxes below 8 cells feel the cells, those above a 64th of the picture feel its rim.
+//! Boxes of 8 to 64 cells a side are counted, on eight positions of the grid for each size, and `log N` is
+//! averaged over the positions: that removes most of the staircase. Boxes below 8 cells feel the cells, those
+//! above a 64th of the picture feel its rim.
 
 use attractor::ifs::{Affine, Ifs, MAX_MAPS};
 use attractor::plane::{Bounds2, PathElement, Point2};
@@ -36,8 +37,9 @@ impl Grid {
         Self { side, x0, y0, cell, met: vec![0; (side * side) as usize / 64] }
     }
 
-    /// Opens addresses until an image is at most this share of a cell across: below half a cell no cell inside the set is missed; each image leaves a
-    /// point of the attractor. None when it takes too many images.
+    /// Opens addresses until an image is at most this share of a cell across: below half a cell no cell
+    /// inside the set is missed; each image leaves a point of the attractor. None when it takes too many
+    /// images.
     pub(crate) fn of_attractor(ifs: &Ifs<MAX_MAPS>, side: i64, share: f64) -> Option<Self> {
         let maps = float_maps(ifs);
         let bounds = ifs.bounds();
@@ -70,8 +72,9 @@ impl Grid {
         Some(grid)
     }
 
-    /// Follows all orbits of a fixed point, but not on from a cell that has been hit [`HITS`] times. For maps that overlap so much
-    /// that there are too many images. Cells that the set hardly touches are missed, boxes are not.
+    /// Follows all orbits of a fixed point, but not on from a cell that has been hit [`HITS`] times. For maps
+    /// that overlap so much that there are too many images. Cells that the set hardly touches are missed,
+    /// boxes are not.
     pub(crate) fn of_orbits(ifs: &Ifs<MAX_MAPS>, side: i64) -> Option<Self> {
         let maps = float_maps(ifs);
         let mut grid = Self::empty(&ifs.bounds(), side);

@@ -17,7 +17,8 @@ pub(crate) const MAX_PIXELS: u64 = 1 << 26;
 
 /// Fractals for small displays, in fixed point.
 ///
-/// Shows on this machine, bit for bit, what a microcontroller shows on its display. Without a command: what there is.
+/// Shows on this machine, bit for bit, what a microcontroller shows on its display. Without a command: what
+/// there is.
 #[derive(Debug, Parser)]
 #[command(name = "attractor", version, after_help = EXAMPLES)]
 pub(crate) struct Cli {
@@ -245,7 +246,8 @@ fn parse_size(text: &str) -> Result<Size, String> {
     Ok(size)
 }
 
-/// Prints help where it was asked for; turns every other complaint of the parser into one line and exit code 2.
+/// Prints help where it was asked for; turns every other complaint of the parser into one line and exit
+/// code 2.
 pub(crate) fn explain(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         // help or version; nobody listening is no error

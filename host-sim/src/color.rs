@@ -1,4 +1,5 @@
-//! Colour depths: which colour type of embedded-graphics a display has, and how its pixels go into a PNG file.
+//! Colour depths: which colour type of embedded-graphics a display has, and how its pixels go into a PNG
+//! file.
 
 use attractor::draw::Ink;
 pub(crate) use attractor_gallery::ground;

@@ -1,23 +1,30 @@
 //! `attractor dimension`: the dimension of a scene, measured in one or two ways, and what theory says.
 //!
-//! Boxes (sets, paths, points; see `boxes`). Of attractors (`ifs`, `copier`) all cells of a grid of 4096 a side that the set meets, no matter which
-//! points a chaos game would visit; of 2048, or most of them, where the maps overlap; curves are refined until their pieces are shorter than half a cell;
-//! of Julia sets each box is decided by itself (see `cover`). With `--boundary` only cells with an empty neighbour count: the boundary of a set with an inside.
-//! What is systematic: boxes across the rim count in full, the more so the larger they are, which lowers the slope: by 0.005 for the gasket, 0.015 for the carpet,
-//! 0.06 for the pentigree, by 0.04 (Hilbert's curve) to 0.17 (Levy's) for sets of dimension 2. Inlets narrower than a cell are closed, which the small boxes
-//! miss: boundaries measure 0.02 to 0.03 low. The standard error is that of the fit and knows nothing of this; the drift, the slope of the smaller
-//! boxes less that of the larger ones, does.
+//! Boxes (sets, paths, points; see `boxes`). Of attractors (`ifs`, `copier`) all cells of a grid of 4096 a
+//! side that the set meets, no matter which points a chaos game would visit; of 2048, or most of them, where
+//! the maps overlap; curves are refined until their pieces are shorter than half a cell; of Julia sets each
+//! box is decided by itself (see `cover`). With `--boundary` only cells with an empty neighbour count: the
+//! boundary of a set with an inside. What is systematic: boxes across the rim count in full, the more so the
+//! larger they are, which lowers the slope: by 0.005 for the gasket, 0.015 for the carpet, 0.06 for the
+//! pentigree, by 0.04 (Hilbert's curve) to 0.17 (Levy's) for sets of dimension 2. Inlets narrower than a cell
+//! are closed, which the small boxes miss: boundaries measure 0.02 to 0.03 low. The standard error is that of
+//! the fit and knows nothing of this; the drift, the slope of the smaller boxes less that of the larger ones,
+//! does.
 //!
-//! Chords (random curves in the plane): `2^k` chords between points at equal parameters, over 64 curves of the law; `D = log 2^k / log(1/L)` for chords of mean
-//! length `L`. This is how Carpenter defines the dimension of a curve that becomes longer by a ratio whenever it is halved, as with a coast and a measuring stick.
-//! For boxes theory has another value, `2 mean(r^D) = 1`, which is greater, 1.70 at a ratio of 1.3; and they count less than that, 1.62 there: such a curve has
-//! double points, as Brownian paths do (A. Dvoretzky, P. Erdos, S. Kakutani, "Double points of paths of Brownian motion in n-space", 1950), and a box that is
-//! passed twice counts once. The smaller the boxes, the rarer that is: the drift is upwards.
+//! Chords (random curves in the plane): `2^k` chords between points at equal parameters, over 64 curves of
+//! the law; `D = log 2^k / log(1/L)` for chords of mean length `L`. This is how Carpenter defines the
+//! dimension of a curve that becomes longer by a ratio whenever it is halved, as with a coast and a measuring
+//! stick. For boxes theory has another value, `2 mean(r^D) = 1`, which is greater, 1.70 at a ratio of 1.3;
+//! and they count less than that, 1.62 there: such a curve has double points, as Brownian paths do (A.
+//! Dvoretzky, P. Erdos, S. Kakutani, "Double points of paths of Brownian motion in n-space", 1950), and a box
+//! that is passed twice counts once. The smaller the boxes, the rarer that is: the drift is upwards.
 //!
-//! Graphs (`fif-curve`, `line-to-line`): counting boxes on graphs converges slowly, because the width of a column adds to its height. Instead the oscillation of
-//! each column above its chord is added up, `V(w)`: a variation method (B. Dubuc, J. F. Quiniou, C. Roques-Carmes, C. Tricot, S. W. Zucker,
-//! "Evaluating the fractal dimension of profiles", Physical Review A 39, 1989) that leaves trends out. `V / w` boxes of side `w` cover the graph, `D` is
-//! their slope, at least 1. The numbers of columns are powers of `sqrt 2`, whatever the knots are; what lies near the last place is left out.
+//! Graphs (`fif-curve`, `line-to-line`): counting boxes on graphs converges slowly, because the width of a
+//! column adds to its height. Instead the oscillation of each column above its chord is added up, `V(w)`: a
+//! variation method (B. Dubuc, J. F. Quiniou, C. Roques-Carmes, C. Tricot, S. W. Zucker, "Evaluating the
+//! fractal dimension of profiles", Physical Review A 39, 1989) that leaves trends out. `V / w` boxes of side
+//! `w` cover the graph, `D` is their slope, at least 1. The numbers of columns are powers of `sqrt 2`,
+//! whatever the knots are; what lies near the last place is left out.
 
 use std::io::Write as _;
 

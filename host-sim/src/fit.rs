@@ -5,7 +5,8 @@
 pub(crate) struct Fit {
     /// The slope.
     pub(crate) slope: f64,
-    /// The standard error of the slope, from the residuals. Neighbouring scales share their randomness: it is a lower estimate.
+    /// The standard error of the slope, from the residuals. Neighbouring scales share their randomness: it is
+    /// a lower estimate.
     pub(crate) error: f64,
 }
 
@@ -27,7 +28,8 @@ impl Fit {
         Some(Self { slope, error: (rest / (n - 2.0) / spread).sqrt() })
     }
 
-    /// The slope of the second half of the points less that of the first half, the middle one in both: what is systematic shows there. None with fewer than six.
+    /// The slope of the second half of the points less that of the first half, the middle one in both: what
+    /// is systematic shows there. None with fewer than six.
     pub(crate) fn drift(points: &[(f64, f64)]) -> Option<f64> {
         let n = points.len();
         let (first, second) = (points.get(..n.div_ceil(2))?, points.get(n / 2..)?);

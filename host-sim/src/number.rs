@@ -1,4 +1,5 @@
-//! Numbers between text and fixed point, both ways without loss: decimal digits to the nearest number of a format, and back with all digits.
+//! Numbers between text and fixed point, both ways without loss: decimal digits to the nearest number of a
+//! format, and back with all digits.
 
 use std::fmt;
 use std::str::FromStr;

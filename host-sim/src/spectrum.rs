@@ -1,11 +1,14 @@
-//! `attractor spectrum`: how the power of a curve's coordinates falls with the frequency, `P ~ 1/f^beta`, measured, and what theory says.
+//! `attractor spectrum`: how the power of a curve's coordinates falls with the frequency, `P ~ 1/f^beta`,
+//! measured, and what theory says.
 //!
-//! `2^n` values at equal distances, less the chord between both ends (a jump from the end back to the start would add `1/f^2`), times a Hann window,
-//! through a discrete Fourier transform; the mean power of each octave; a line through the logarithms from 8 periods to a 16th of the sampling rate.
-//! Lower octaves feel the window, higher ones the aliases of what lies above the sampling rate. The periodogram is A. Schuster, 1898; the window J. von Hann's
-//! (F. J. Harris, "On the use of windows for harmonic analysis", 1978).
-//! Functions (`fif-curve`): 2^16 ordinates. Random curves: 2^14 points at equal parameters of each of 64 curves of the law, powers added up, those of both
-//! coordinates too where the curve lies in the plane: displacements begin along one coordinate and end in all directions.
+//! `2^n` values at equal distances, less the chord between both ends (a jump from the end back to the start
+//! would add `1/f^2`), times a Hann window, through a discrete Fourier transform; the mean power of each
+//! octave; a line through the logarithms from 8 periods to a 16th of the sampling rate. Lower octaves feel
+//! the window, higher ones the aliases of what lies above the sampling rate. The periodogram is A. Schuster,
+//! 1898; the window J. von Hann's (F. J. Harris, "On the use of windows for harmonic analysis", 1978).
+//! Functions (`fif-curve`): 2^16 ordinates. Random curves: 2^14 points at equal parameters of each of 64
+//! curves of the law, powers added up, those of both coordinates too where the curve lies in the plane:
+//! displacements begin along one coordinate and end in all directions.
 
 use std::f64::consts::TAU;
 use std::io::Write as _;
@@ -79,7 +82,8 @@ fn coordinates(law: &scene::Law) -> Result<Signals, Fail> {
     Ok((what, curves.iter().flat_map(split).collect(), law.spectrum()))
 }
 
-/// `(log f, log P)` of each octave that is fitted, the powers of all signals added up. Each has `2^n + 1` values, of which the last is left out.
+/// `(log f, log P)` of each octave that is fitted, the powers of all signals added up. Each has `2^n + 1`
+/// values, of which the last is left out.
 fn octaves(signals: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     let n = signals.first()?.len() - 1;
     let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);

@@ -24,7 +24,8 @@ pub(crate) fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     low
 }
 
-/// Moran's equation `sum r_j^D = 1` when all maps are similarities; none with a single map. More than 2 is no dimension of a set in the plane.
+/// Moran's equation `sum r_j^D = 1` when all maps are similarities; none with a single map. More than 2 is no
+/// dimension of a set in the plane.
 pub(crate) fn similarity(maps: &[Affine]) -> Option<Theory> {
     let ratio = |m: &Affine| {
         let [a, b, c, d] = [m.a, m.b, m.c, m.d].map(|l| l.to_num::<f64>());
@@ -51,11 +52,11 @@ pub(crate) fn boundary_of(name: &str) -> Option<Theory> {
     Some(Theory::new(value, source))
 }
 
-/// The dimension of the graph of a fractal interpolation function with scalings `alpha_j` over intervals that are a part `a_j` of the whole:
-/// `sum |alpha_j| a_j^(D - 1) = 1` when `sum |alpha_j| > 1`, else 1.
+/// The dimension of the graph of a fractal interpolation function with scalings `alpha_j` over intervals that
+/// are a part `a_j` of the whole: `sum |alpha_j| a_j^(D - 1) = 1` when `sum |alpha_j| > 1`, else 1.
 ///
-/// Source: M. F. Barnsley, "Fractal functions and interpolation", 1986, theorem 4 (equal intervals); T. Bedford, "Hölder exponents and box dimension for
-/// self-affine fractal functions", 1989.
+/// Source: M. F. Barnsley, "Fractal functions and interpolation", 1986, theorem 4 (equal intervals); T.
+/// Bedford, "Hölder exponents and box dimension for self-affine fractal functions", 1989.
 pub(crate) fn graph_dimension(maps: &[(f64, f64)]) -> Theory {
     let sum = |d: f64| maps.iter().map(|(alpha, a)| alpha.abs() * a.powf(d - 1.0)).sum::<f64>() - 1.0;
     Theory::new(
@@ -64,10 +65,12 @@ pub(crate) fn graph_dimension(maps: &[(f64, f64)]) -> Theory {
     )
 }
 
-/// The spectral exponent of the same function: `sum alpha_j^2 a_j^(2 - beta) = 1`, none where that is not between 1 and 3.
+/// The spectral exponent of the same function: `sum alpha_j^2 a_j^(2 - beta) = 1`, none where that is not
+/// between 1 and 3.
 ///
-/// Second differences at distance `a_j h` inside the interval `j` are `alpha_j` times those at `h`, so that their mean square `S` obeys
-/// `S(h) = sum a_j alpha_j^2 S(h / a_j)` up to smooth terms, and is a power `h^(beta - 1)`.
+/// Second differences at distance `a_j h` inside the interval `j` are `alpha_j` times those at `h`, so that
+/// their mean square `S` obeys `S(h) = sum a_j alpha_j^2 S(h / a_j)` up to smooth terms, and is a power
+/// `h^(beta - 1)`.
 pub(crate) fn graph_spectrum(maps: &[(f64, f64)]) -> Option<Theory> {
     // increases with beta
     let sum = |beta: f64| maps.iter().map(|(alpha, a)| alpha * alpha * a.powf(2.0 - beta)).sum::<f64>();

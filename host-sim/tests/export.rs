@@ -1,4 +1,5 @@
-//! `attractor export`: what it writes are modules that firmware compiles, with the bits that the command draws with.
+//! `attractor export`: what it writes are modules that firmware compiles, with the bits that the command
+//! draws with.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -19,7 +20,8 @@ use embedded_graphics::pixelcolor::{BinaryColor, Gray8, Rgb565, Rgb888};
 use embedded_graphics::prelude::*;
 use embedded_graphics_simulator::SimulatorDisplay;
 
-/// The modules that the target is built with; `benches/workload/tests/built_in.rs` holds the picture of each to the command's.
+/// The modules that the target is built with; `benches/workload/tests/built_in.rs` holds the picture of each
+/// to the command's.
 const TARGET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../benches/workload/src/exported");
 
 fn modules(directory: &Path) -> BTreeMap<PathBuf, String> {
@@ -27,7 +29,8 @@ fn modules(directory: &Path) -> BTreeMap<PathBuf, String> {
     files.map(|path| (path.file_name().unwrap().into(), fs::read_to_string(&path).unwrap())).collect()
 }
 
-/// A scene was changed? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test suite export` writes the modules again.
+/// A scene was changed? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test suite export` writes the
+/// modules again.
 #[test]
 fn the_modules_of_the_target_are_what_the_command_writes() {
     let directory = tempfile::tempdir().unwrap();

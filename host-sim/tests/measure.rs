@@ -265,7 +265,8 @@ fn dimensions_of_julia_sets_are_within_two_of_the_errors_that_are_stated() {
             assert!((got - exact).abs() <= 2.0 * error && error < 0.011, "{c}: {line} against {exact}");
         });
     }
-    // C. T. McMullen, "Hausdorff dimension and conformal dynamics III", 1998, and the segment: within two of the errors that are stated
+    // C. T. McMullen, "Hausdorff dimension and conformal dynamics III", 1998, and the segment: within two of
+    // the errors that are stated
     for (c, exact) in [("\"0.25\", 0", 1.0812), ("0, 1", 1.2835), ("-1, 0", 1.2683), ("-2, 0", 1.0)] {
         with_scene(&format!("kind = \"julia-set\"\nc = [{c}]\n"), |directory, file| {
             let text = good(directory, &["dimension", file]);

@@ -45,7 +45,8 @@ fn the_smallest_and_the_oddest_displays_work() {
     }
 }
 
-/// Changed on purpose? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test suite pictures`, look at the pictures, and say so in the CHANGELOG.
+/// Changed on purpose? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test suite pictures`, look at the
+/// pictures, and say so in the CHANGELOG.
 #[test]
 fn pictures_are_the_same_to_the_last_bit() {
     let mut now = BTreeMap::new();

@@ -1,5 +1,5 @@
-//! The pictures of core's rooms, which its documentation shows: drawn by the command, kept in `core/docs` as files for the
-//! README, and as text for rustdoc, which keeps no files.
+//! The pictures of core's rooms, which its documentation shows: drawn by the command, kept in `core/docs` as
+//! files for the README, and as text for rustdoc, which keeps no files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,8 @@ fn halves(directory: &Path) -> PathBuf {
     joined
 }
 
-/// Changed on purpose? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test suite rooms`, and look at `core/docs`.
+/// Changed on purpose? `ATTRACTOR_BLESS=1 cargo test -p attractor-sim --test suite rooms`, and look at
+/// `core/docs`.
 #[test]
 fn the_documentation_shows_what_the_command_draws() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../core/docs");

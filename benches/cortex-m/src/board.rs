@@ -50,8 +50,9 @@ impl Board {
         self.counter.counts()
     }
 
-    /// Streams every pixel drawn from now on to `file`: records of six 16-bit numbers (column, row, width of the area, bits of a pixel,
-    /// 0, count; the offset into the area as 32 bits) and the colours. `None` ends it.
+    /// Streams every pixel drawn from now on to `file`: records of six 16-bit numbers (column, row, width of
+    /// the area, bits of a pixel, 0, count; the offset into the area as 32 bits) and the colours. `None` ends
+    /// it.
     pub fn stream(&mut self, file: Option<File>, bits: u8) {
         self.frames = file;
         self.bits = bits;
@@ -176,7 +177,8 @@ impl Counter {
 
     /// Only the machine with a Cortex-M4 has the timer, whatever target the image is built for.
     fn start() -> Self {
-        // SAFETY: CPUID can be read on every Cortex-M, and the registers are those of the only Cortex-M4 machine this runs on.
+        // SAFETY: CPUID can be read on every Cortex-M, and the registers are those of the only Cortex-M4
+        // machine this runs on.
         unsafe {
             let present = (Self::CPUID as *const u32).read_volatile() >> 4 & 0xfff == 0xc24;
             if present {

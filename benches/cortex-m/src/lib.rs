@@ -17,7 +17,8 @@ pub use cortex_m_rt::entry;
 #[cfg(target_arch = "riscv32")]
 pub use riscv_rt::entry;
 
-/// A panic handler that says where and stops the emulator with a failure. Images that must not panic use `panic_never` instead.
+/// A panic handler that says where and stops the emulator with a failure. Images that must not panic use
+/// `panic_never` instead.
 #[macro_export]
 macro_rules! report_panics {
     () => {
@@ -38,7 +39,8 @@ macro_rules! never_panics {
     };
 }
 
-/// The least panic handler, so that the image links after all and the callers of `core::panicking` can be looked for.
+/// The least panic handler, so that the image links after all and the callers of `core::panicking` can be
+/// looked for.
 #[cfg(feature = "locate-panics")]
 #[macro_export]
 macro_rules! never_panics {

@@ -1,4 +1,5 @@
-//! What iterators take on a 32-bit machine, checked where they are compiled: the sizes that core's documentation states.
+//! What iterators take on a 32-bit machine, checked where they are compiled: the sizes that core's
+//! documentation states.
 
 use attractor::curve::{Elbow, Generator, LSystem, OneVariable, Refined, Subdivision, Turtle, TwoVariable};
 use attractor::ifs::{CopiedPath, CopiedPoints, Ifs};

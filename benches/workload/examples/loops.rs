@@ -1,6 +1,8 @@
-//! The fixed-point loops of every kernel on the host, for valgrind to count: see `benches/xtask/src/valgrind.rs`, which starts this.
+//! The fixed-point loops of every kernel on the host, for valgrind to count: see
+//! `benches/xtask/src/valgrind.rs`, which starts this.
 //!
-//! Each loop runs once and then `1 + MORE` times (the argument), and [`mark`] is called after either: what the second took more belongs to the loop.
+//! Each loop runs once and then `1 + MORE` times (the argument), and [`mark`] is called after either: what
+//! the second took more belongs to the loop.
 
 use std::hint::black_box;
 

@@ -1,8 +1,10 @@
-//! What the loops in floating point compute with, in single and in double precision: C's operators, and two that `core` has not yet.
+//! What the loops in floating point compute with, in single and in double precision: C's operators, and two
+//! that `core` has not yet.
 //!
-//! Where the target has a single-precision FPU, a C compiler turns `sqrtf` into VSQRT and, contracting as C compilers do by default,
-//! `a * b + c` into VFMA. Rust never contracts, so the f32 loops ask for it by name; otherwise fixed point would win against a straw man.
-//! The names are unstable in `core`: `benches/cortex-m/.cargo/config.toml` permits them to this crate alone.
+//! Where the target has a single-precision FPU, a C compiler turns `sqrtf` into VSQRT and, contracting as C
+//! compilers do by default, `a * b + c` into VFMA. Rust never contracts, so the f32 loops ask for it by name;
+//! otherwise fixed point would win against a straw man. The names are unstable in `core`:
+//! `benches/cortex-m/.cargo/config.toml` permits them to this crate alone.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 

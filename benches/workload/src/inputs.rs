@@ -1,4 +1,5 @@
-//! The inputs of the kernels: tables in flash, the same values in each format, so that no loop pays for a conversion.
+//! The inputs of the kernels: tables in flash, the same values in each format, so that no loop pays for a
+//! conversion.
 
 /// How many inputs a table has.
 pub(crate) const COUNT: usize = 256;

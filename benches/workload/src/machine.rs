@@ -10,7 +10,8 @@ pub trait Machine {
     /// Paints the free part of the stack, from the caller's frame downwards.
     fn paint_stack(&mut self) {}
 
-    /// How many bytes of the paint were overwritten since: the deepest the stack went below the painter's caller.
+    /// How many bytes of the paint were overwritten since: the deepest the stack went below the painter's
+    /// caller.
     fn stack_used(&mut self) -> u32 {
         0
     }
@@ -36,6 +37,6 @@ impl Machine for Blind {
     }
 }
 
-/// Whether this is an image for Armv6-M, which alone lacks atomic exchange: it has only the rows that a machine with 16 KiB of RAM runs, since all of
-/// them would not fit its flash.
+/// Whether this is an image for Armv6-M, which alone lacks atomic exchange: it has only the rows that a
+/// machine with 16 KiB of RAM runs, since all of them would not fit its flash.
 pub(crate) const SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));

@@ -73,7 +73,8 @@ fn field<C: Colour + Ink, F: Field, P: Palette<F::Value>>(
     stage.show(&Image::new(&picture, Point::zero()), size_of_val(&picture) + borrowed)
 }
 
-/// The frame that was published for the RP2040: `c = (-2 + 3 i / 640, 1 - 2 j / 480)`, at most 1000 iterations. Its pixels are not square.
+/// The frame that was published for the RP2040: `c = (-2 + 3 i / 640, 1 - 2 j / 480)`, at most 1000
+/// iterations. Its pixels are not square.
 pub(crate) struct Rp2040(Mandelbrot);
 
 impl Rp2040 {

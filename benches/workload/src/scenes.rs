@@ -1,7 +1,9 @@
 //! Whole pictures, drawn as firmware would draw them.
 //!
-//! To add one: write a function that builds its objects, [claims](crate::sink::Stage::claim) their RAM and [shows](crate::sink::Stage::show) them, and add a line to
-//! `own::ROWS`. The function takes the size from the stage, so that one function serves several lines. A built-in scene of the command is a line of `built_in::PAIRS`.
+//! To add one: write a function that builds its objects, [claims](crate::sink::Stage::claim) their RAM and
+//! [shows](crate::sink::Stage::show) them, and add a line to `own::ROWS`. The function takes the size from
+//! the stage, so that one function serves several lines. A built-in scene of the command is a line of
+//! `built_in::PAIRS`.
 
 use crate::built_in::PAIRS;
 use crate::machine::SMALL;
@@ -9,7 +11,8 @@ use crate::own::{self, ROWS};
 
 pub use crate::scene::Scene;
 
-/// The table: the target's own scenes, and the built-in scenes of the command; in an image for Armv6-M those that it can draw.
+/// The table: the target's own scenes, and the built-in scenes of the command; in an image for Armv6-M those
+/// that it can draw.
 pub static ALL: &[Scene] = &{
     let mut all = [ROWS[0]; count(ROWS.len() + BUILT_IN.len())];
     let (mut i, mut kept) = (0, 0);

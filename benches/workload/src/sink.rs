@@ -1,10 +1,11 @@
 //! A display without pixels: it takes what is drawn into a CRC-32.
 //!
-//! The clock runs while a picture is computed and while its colours are stored into a small buffer, as a driver would; it stands still
-//! while the buffer goes into the checksum. What the storing costs is measured afterwards with the same calls of the same length
-//! and a constant colour, and taken off.
+//! The clock runs while a picture is computed and while its colours are stored into a small buffer, as a
+//! driver would; it stands still while the buffer goes into the checksum. What the storing costs is measured
+//! afterwards with the same calls of the same length and a constant colour, and taken off.
 //!
-//! The checksum covers the sequence of calls: position, width and colours of each run of pixels, in the order of drawing.
+//! The checksum covers the sequence of calls: position, width and colours of each run of pixels, in the order
+//! of drawing.
 
 use core::convert::Infallible;
 use core::fmt;
@@ -111,7 +112,8 @@ impl<'m> Stage<'m> {
     /// Asks for `bytes` of RAM before the object that takes them is built.
     ///
     /// # Errors
-    /// [`Failure::Ram`] when the machine has less; a quarter of what is free, 8 KiB at most, is left to the stack.
+    /// [`Failure::Ram`] when the machine has less; a quarter of what is free, 8 KiB at most, is left to the
+    /// stack.
     pub fn claim(&mut self, bytes: usize) -> Result<(), Failure> {
         let free = self.machine.ram_free();
         let free = free - (free / 4).min(8 << 10);
@@ -122,7 +124,8 @@ impl<'m> Stage<'m> {
         Ok(())
     }
 
-    /// Draws and measures. `ram_bytes` counts the scene objects: `size_of_val` of the drawable and of all that it borrows.
+    /// Draws and measures. `ram_bytes` counts the scene objects: `size_of_val` of the drawable and of all
+    /// that it borrows.
     ///
     /// # Errors
     /// [`Failure::Ram`], as [`Stage::claim`].
@@ -137,7 +140,8 @@ impl<'m> Stage<'m> {
         })
     }
 
-    /// Measures what `draw` does, for pictures that borrow memory while they are drawn. What was [claimed](Stage::claim) before is not asked for again.
+    /// Measures what `draw` does, for pictures that borrow memory while they are drawn. What was
+    /// [claimed](Stage::claim) before is not asked for again.
     ///
     /// # Errors
     /// What `draw` says; [`Failure::Ram`], as [`Stage::claim`].

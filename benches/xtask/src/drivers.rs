@@ -1,4 +1,5 @@
-//! `cargo xtask drivers`: compiles `examples/drivers` with the real drivers for a Cortex-M4. That it draws the right pictures is tested on the host.
+//! `cargo xtask drivers`: compiles `examples/drivers` with the real drivers for a Cortex-M4. That it draws
+//! the right pictures is tested on the host.
 
 use std::path::Path;
 

@@ -48,7 +48,8 @@ fn is_in(path: &OsStr, program: &str) -> bool {
     which_in_global(program, Some(path)).is_ok_and(|mut found| found.next().is_some())
 }
 
-/// Runs `image` on `machine` and returns what it printed. An image that fails or does not end in time is an error.
+/// Runs `image` on `machine` and returns what it printed. An image that fails or does not end in time is an
+/// error.
 pub(crate) fn run(
     machine: &Machine,
     image: &Path,

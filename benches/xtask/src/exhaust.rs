@@ -1,7 +1,9 @@
-//! `cargo xtask exhaust`: all `2^32` inputs of the elementary functions, and the committed table of what was found.
+//! `cargo xtask exhaust`: all `2^32` inputs of the elementary functions, and the committed table of what was
+//! found.
 //!
-//! `--check` takes a stride instead of all inputs. It holds each promise, finds no error above the table's, and the table's worst input must still give
-//! the table's error to the last digit: so a kernel cannot change without its row being measured again.
+//! `--check` takes a stride instead of all inputs. It holds each promise, finds no error above the table's,
+//! and the table's worst input must still give the table's error to the last digit: so a kernel cannot change
+//! without its row being measured again.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};

@@ -1,7 +1,9 @@
 //! Holds what was measured against two committed tables.
 //!
-//! - `counts.toml`, written by `--bless`: what was measured last, for each target and each compiler. Growth by more than 3 % is a finding.
-//! - `budgets.toml`, written by hand: what each figure may be at most, and why a kernel may lose against floating point.
+//! - `counts.toml`, written by `--bless`: what was measured last, for each target and each compiler. Growth
+//!   by more than 3 % is a finding.
+//! - `budgets.toml`, written by hand: what each figure may be at most, and why a kernel may lose against
+//!   floating point.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -152,7 +154,8 @@ fn figures(measured: &Measured) -> BTreeMap<String, BTreeMap<String, Figure>> {
 /// The kind of figure that says what an excused kernel's instructions are; written by `--bless` alone.
 const KINDS: &str = "kinds";
 
-/// Every excused kernel that is not too long to be logged has its instructions by kind beside it, and they add up to what it takes.
+/// Every excused kernel that is not too long to be logged has its instructions by kind beside it, and they
+/// add up to what it takes.
 fn by_kind(
     kernels: &[KernelRow],
     slower: &[Slower],

@@ -1,7 +1,8 @@
-//! Counts the instructions of a kernel's loops by kind: what `budgets.toml` asks for where a kernel loses against floating point.
+//! Counts the instructions of a kernel's loops by kind: what `budgets.toml` asks for where a kernel loses
+//! against floating point.
 //!
-//! QEMU disassembles and logs every block of instructions without a branch (`-d in_asm,exec,nochain`). The image is run once with one run
-//! of the loop and once with two; the difference is the loop.
+//! QEMU disassembles and logs every block of instructions without a branch (`-d in_asm,exec,nochain`). The
+//! image is run once with one run of the loop and once with two; the difference is the loop.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -115,8 +116,8 @@ impl Loop<'_> {
     }
 }
 
-/// Reads QEMU's log: `IN:` and lines like `0x00000400:  b580  push {r7, lr}` where a block is translated, `Trace 0: 0x7f.. [..]` where it is
-/// executed; the number tells the blocks apart.
+/// Reads QEMU's log: `IN:` and lines like `0x00000400:  b580  push {r7, lr}` where a block is translated,
+/// `Trace 0: 0x7f.. [..]` where it is executed; the number tells the blocks apart.
 fn count(log: &str) -> BTreeMap<String, i64> {
     let mut counts = BTreeMap::new();
     let mut finish = |(mnemonics, times): (Vec<&str>, i64)| {

@@ -14,7 +14,8 @@ pub(crate) enum Line {
         size: String,
         why: String,
     },
-    /// The scene that is too large for the machine: bytes that it needs and has, none where it was drawn all the same.
+    /// The scene that is too large for the machine: bytes that it needs and has, none where it was drawn all
+    /// the same.
     Refusal {
         needed: u64,
         free: u64,
@@ -59,7 +60,8 @@ impl Count {
     }
 }
 
-/// The lines of an image's output. Output that does not end with the line `end` is an error: the image stopped half-way.
+/// The lines of an image's output. Output that does not end with the line `end` is an error: the image
+/// stopped half-way.
 pub(crate) fn parse(output: &str) -> Result<Vec<Line>> {
     let mut lines = Vec::new();
     for text in output.lines() {

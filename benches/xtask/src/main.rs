@@ -1,5 +1,6 @@
-//! `cargo xtask target`: builds the images of `benches/cortex-m`, runs them in QEMU, compares every checksum with the host's, and holds
-//! counts and sizes against the committed tables. See `benches/cortex-m/README.md`. `cargo xtask exhaust`: every input of the elementary functions.
+//! `cargo xtask target`: builds the images of `benches/cortex-m`, runs them in QEMU, compares every checksum
+//! with the host's, and holds counts and sizes against the committed tables. See
+//! `benches/cortex-m/README.md`. `cargo xtask exhaust`: every input of the elementary functions.
 
 mod drivers;
 mod elf;
@@ -47,7 +48,8 @@ struct Options {
     /// Print JSON instead of tables
     #[arg(long)]
     json: bool,
-    /// Run on this target only (may be given several times); the first one's kernels and sizes head the report [default: all]
+    /// Run on this target only (may be given several times); the first one's kernels and sizes head the
+    /// report [default: all]
     #[arg(long = "target", value_name = "TARGET", value_parser = targets::names())]
     targets: Vec<String>,
     /// Fail also when a figure is over budget, or grew by more than 3 % against benches/cortex-m/counts.toml

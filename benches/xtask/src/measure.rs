@@ -15,7 +15,8 @@ use crate::stack;
 use crate::targets::{Machine, Target};
 use crate::toolchain::Toolchain;
 
-/// Builds the images, runs them and gathers what they say; counts the kernels `by_kind` once more, instruction by instruction. Comparisons come later.
+/// Builds the images, runs them and gathers what they say; counts the kernels `by_kind` once more,
+/// instruction by instruction. Comparisons come later.
 pub(crate) fn measure(
     target: &'static Target,
     toolchain: &Toolchain,

@@ -1,9 +1,11 @@
 //! A bound on the stack of an image: what its functions push, along the deepest path of calls.
 //!
-//! The functions of a Thumb image are read instruction by instruction. A function's frame is the sum of all that it pushes and subtracts from the stack
-//! pointer anywhere, and a path's is the sum of its functions' frames; a branch to another function is a tail call, at which the caller's frame is
-//! gone (Arm's procedure call standard). An image that calls through a register, calls itself, or moves the stack pointer by a register has
-//! no bound of this kind. What an interrupt pushes (at most 104 bytes with the FPU's registers) comes on top.
+//! The functions of a Thumb image are read instruction by instruction. A function's frame is the sum of all
+//! that it pushes and subtracts from the stack pointer anywhere, and a path's is the sum of its functions'
+//! frames; a branch to another function is a tail call, at which the caller's frame is gone (Arm's procedure
+//! call standard). An image that calls through a register, calls itself, or moves the stack pointer by a
+//! register has no bound of this kind. What an interrupt pushes (at most 104 bytes with the FPU's registers)
+//! comes on top.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -167,7 +169,8 @@ fn is_unbounded(first: u32) -> bool {
     }
 }
 
-/// LDR to the program counter but from the stack; SUB and ADD of a register, or to the stack pointer from another register.
+/// LDR to the program counter but from the stack; SUB and ADD of a register, or to the stack pointer from
+/// another register.
 fn is_unbounded_long(first: u32, second: u32) -> bool {
     let loads_pc = matches!(first & 0xff70, 0xf850) && second >> 12 == 15 && first & 15 != 13;
     let (to_sp, of_sp) = (second & 0x8f00 == 0xd00, first & 15 == 13);
@@ -176,7 +179,8 @@ fn is_unbounded_long(first: u32, second: u32) -> bool {
     loads_pc || sum || constant && to_sp && !of_sp
 }
 
-/// The deepest path from `address` on; `known` holds the functions that are done, and none for those on the path.
+/// The deepest path from `address` on; `known` holds the functions that are done, and none for those on the
+/// path.
 fn deepest(
     functions: &BTreeMap<u64, Function>,
     address: u64,

@@ -1,4 +1,5 @@
-//! A compiler for the target: rustup's, else rustup's after fetching the target, else Debian's with `core` built from source.
+//! A compiler for the target: rustup's, else rustup's after fetching the target, else Debian's with `core`
+//! built from source.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -40,7 +41,8 @@ impl fmt::Display for Toolchain {
 }
 
 impl Toolchain {
-    /// `cargo COMMAND` for the target in `directory`, without whatever flags the environment holds: they would replace the package's own.
+    /// `cargo COMMAND` for the target in `directory`, without whatever flags the environment holds: they
+    /// would replace the package's own.
     pub(crate) fn cargo(&self, command: &str, target: &Target, directory: &Path) -> Command {
         let mut cargo = Command::new(&self.cargo);
         cargo.current_dir(directory).arg(command).args(["--locked", "--release", "--target", target.triple]);

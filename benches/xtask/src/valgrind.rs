@@ -1,7 +1,9 @@
-//! Instructions of the fixed-point loops on this host, where valgrind is installed: the column `host` of the kernels.
+//! Instructions of the fixed-point loops on this host, where valgrind is installed: the column `host` of the
+//! kernels.
 //!
-//! `benches/workload/examples/loops.rs`, built in release, runs under callgrind once for all kernels; callgrind writes what it counted at each of
-//! the program's marks. The figures are the same on every run of a binary, but belong to this machine's compiler and architecture: they are shown, not gated.
+//! `benches/workload/examples/loops.rs`, built in release, runs under callgrind once for all kernels;
+//! callgrind writes what it counted at each of the program's marks. The figures are the same on every run of
+//! a binary, but belong to this machine's compiler and architecture: they are shown, not gated.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

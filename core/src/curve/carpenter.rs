@@ -242,7 +242,8 @@ impl TwoVariable {
     /// The knot that makes `to` the midpoint between `from` and it: see [`LineToLine::extrapolated`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] when the knot leaves the range of [`Real`], [`Error::Degenerate`] when every knot or none would do.
+    /// [`Error::OutOfRange`] when the knot leaves the range of [`Real`], [`Error::Degenerate`] when every
+    /// knot or none would do.
     pub fn extrapolated(&self, from: Point2, to: Point2, at: Parameter) -> Result<Point2, Error> {
         let [along, across] = self.displacements(at);
         perpendicular(from, to, along, across)

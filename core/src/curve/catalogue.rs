@@ -28,10 +28,12 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// Its generator; `S` is [`LARGEST`] for those of the catalogue whose number of segments is not known beforehand.
+    /// Its generator; `S` is [`LARGEST`] for those of the catalogue whose number of segments is not known
+    /// beforehand.
     ///
     /// # Errors
-    /// As [`Generator::turtle`] and [`Generator::through`]; for those of the catalogue only [`Error::Capacity`].
+    /// As [`Generator::turtle`] and [`Generator::through`]; for those of the catalogue only
+    /// [`Error::Capacity`].
     pub fn generator<const S: usize>(&self) -> Result<Generator<S>, Error> {
         let generator = Generator::turtle(self.word, self.angle)?;
         match self.marker {

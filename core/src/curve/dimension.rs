@@ -15,11 +15,13 @@ use crate::num::{Real, Wide, exp_minus, log2, ratio as quotient};
 /// `ln 2 / ln(2 / ratio)`; a ratio of 1.3 gives 1.61.
 ///
 /// It is the slope of `log 2^k` against `log(1 / mean length)` of the chords after `k` halvings
-/// (tests/curves.rs: `a_similarity_ratio_of_1_3_gives_dimension_1_61`).
-/// Boxes count otherwise: halves of random lengths `r` fill `2 mean(r^D) = 1` of them (R. D. Mauldin, S. C. Williams, "Random recursive
-/// constructions", 1986), 1.70 at a ratio of 1.3, less those that the curve passes twice at its double points. `attractor dimension` measures both.
+/// (tests/curves.rs: `a_similarity_ratio_of_1_3_gives_dimension_1_61`). Boxes count otherwise: halves of
+/// random lengths `r` fill `2 mean(r^D) = 1` of them (R. D. Mauldin, S. C. Williams, "Random recursive
+/// constructions", 1986), 1.70 at a ratio of 1.3, less those that the curve passes twice at its double
+/// points. `attractor dimension` measures both.
 ///
-/// Result: from [`Wide::MAX`] on, at a ratio of 1.99995769, it saturates. Error: below `2^-43` of the value (`a_dimension_holds_up_to_the_ends_of_its_domain`).
+/// Result: from [`Wide::MAX`] on, at a ratio of 1.99995769, it saturates. Error: below `2^-43` of the value
+/// (`a_dimension_holds_up_to_the_ends_of_its_domain`).
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a ratio outside `1 .. 2`.
@@ -66,7 +68,8 @@ pub fn dimension_of_spectrum(beta: Real) -> Result<Wide, Error> {
 }
 
 impl<const S: usize> Generator<S> {
-    /// The dimension of the curve that the generator tends to, unless it overlaps itself: the solution of `sum r_j^D = 1`, `1 ..= 2`; 2 where that is greater.
+    /// The dimension of the curve that the generator tends to, unless it overlaps itself: the solution of
+    /// `sum r_j^D = 1`, `1 ..= 2`; 2 where that is greater.
     ///
     /// Error: below `2^-20` where no segment is longer than 3/4 (`a_dimension_solves_its_equation`).
     pub fn dimension(&self) -> Wide {

@@ -229,7 +229,8 @@ mod tests {
         assert!(inside > 2000 && saturated > 500, "{inside} {saturated}");
     }
 
-    /// `2^(1 - beta)`: the exponent is the nearest, so that half a unit of `2^-24` and the exponential's `2^-28` remain.
+    /// `2^(1 - beta)`: the exponent is the nearest, so that half a unit of `2^-24` and the exponential's
+    /// `2^-28` remain.
     #[test]
     fn a_spectrum_is_a_power_of_two_within_its_rounding() {
         let mut worst: f64 = 0.0;
@@ -271,7 +272,8 @@ mod tests {
         assert!(tried > 2000, "{tried}");
     }
 
-    /// Every knot has the midpoint of a part that ends where it begins twice as far on; and knots end with the format.
+    /// Every knot has the midpoint of a part that ends where it begins twice as far on; and knots end with
+    /// the format.
     #[test]
     fn the_end_of_a_part_is_refused_where_there_is_none() {
         let point = |x: i32, y: i32| Point2::new(Real::from_num(x), Real::from_num(y));

@@ -73,7 +73,8 @@ impl Elbow {
         Ok(Self { random: RandomFunction::new(seed), deviations })
     }
 
-    /// Elbows with the same deviation at all levels, `sqrt(2^(1 - beta) - 1/4)`: a curve that is statistically self-similar.
+    /// Elbows with the same deviation at all levels, `sqrt(2^(1 - beta) - 1/4)`: a curve that is
+    /// statistically self-similar.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for `beta` outside `1 ..= 3`; at 3 the curve is a straight line.

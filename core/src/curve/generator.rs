@@ -82,8 +82,8 @@ pub struct Generator<const S: usize> {
 impl<const S: usize> Generator<S> {
     /// The generator with these vertices; the segment from the first to the last is what it replaces.
     ///
-    /// Domain: points as a scene says them. Error: half a unit in the last place of each vertex after division
-    /// by the segment, `2^-31` (`a_vertex_is_the_nearest_number`).
+    /// Domain: points as a scene says them. Error: half a unit in the last place of each vertex after
+    /// division by the segment, `2^-31` (`a_vertex_is_the_nearest_number`).
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` or 127 segments,
@@ -124,7 +124,8 @@ impl<const S: usize> Generator<S> {
         Self::build(segments, vertices, given)
     }
 
-    /// From vertices below `2^46` that begin at 0, one more than segments, and an orientation for each segment.
+    /// From vertices below `2^46` that begin at 0, one more than segments, and an orientation for each
+    /// segment.
     pub(super) fn build(
         segments: usize,
         vertices: impl Iterator<Item = [i64; 2]> + Clone,
@@ -205,8 +206,9 @@ impl<const S: usize> Generator<S> {
         self.len == 0
     }
 
-    /// By how much a refinement lengthens the curve: the sum of the segments' lengths over that of the segment they replace. Error: below
-    /// `2^-29` a segment, upwards (`a_refinement_lengthens_by_the_sum_of_its_segments`).
+    /// By how much a refinement lengthens the curve: the sum of the segments' lengths over that of the
+    /// segment they replace. Error: below `2^-29` a segment, upwards
+    /// (`a_refinement_lengthens_by_the_sum_of_its_segments`).
     ///
     /// ```
     /// use attractor::curve::koch;

@@ -67,7 +67,8 @@ impl Fraction {
     }
 }
 
-/// The length of the Koch curve of this order on a base of length 1, `(4/3)^n`; none where it does not fit, from order 32 on. Exact.
+/// The length of the Koch curve of this order on a base of length 1, `(4/3)^n`; none where it does not fit,
+/// from order 32 on. Exact.
 ///
 /// ```
 /// use attractor::curve::koch;
@@ -79,13 +80,15 @@ pub fn length(order: u32) -> Option<Fraction> {
     Some(Fraction { numerator: 4_u64.checked_pow(order)?, denominator: 3_u64.checked_pow(order)? })
 }
 
-/// The perimeter of the snowflake of this order on a triangle of side 1, `3 (4/3)^n`; none from order 32 on. Exact.
+/// The perimeter of the snowflake of this order on a triangle of side 1, `3 (4/3)^n`; none from order 32 on.
+/// Exact.
 pub fn snowflake_perimeter(order: u32) -> Option<Fraction> {
     let Fraction { numerator, denominator } = length(order)?;
     Some(Fraction { numerator: numerator.checked_mul(3)?, denominator })
 }
 
-/// The area of the snowflake of this order over that of its triangle, `8/5 - 3/5 (4/9)^n`; none from order 20 on. Exact.
+/// The area of the snowflake of this order over that of its triangle, `8/5 - 3/5 (4/9)^n`; none from order 20
+/// on. Exact.
 pub fn snowflake_area(order: u32) -> Option<Fraction> {
     let nines = 9_u64.checked_pow(order)?;
     let fours = 4_u64.checked_pow(order)?;

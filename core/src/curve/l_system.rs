@@ -91,13 +91,16 @@ impl Growth {
 }
 
 impl<'a> LSystem<'a> {
-    /// The system with this axiom, these rules and this angle in degrees; the turtle first looks to the right.
+    /// The system with this axiom, these rules and this angle in degrees; the turtle first looks to the
+    /// right.
     ///
-    /// Domain: words of the letters in the table above; all angles. A letter without a rule stays what it is; an empty rule removes its letter.
+    /// Domain: words of the letters in the table above; all angles. A letter without a rule stays what it is;
+    /// an empty rule removes its letter.
     ///
     /// # Errors
-    /// [`Error::Character`] for a character that is no letter of a word, a bracket that opens or closes none in its own word, a rule for what is no letter or for a
-    /// letter that has one; [`Error::Capacity`] for more than [`MAX_RULES`].
+    /// [`Error::Character`] for a character that is no letter of a word, a bracket that opens or closes none
+    /// in its own word, a rule for what is no letter or for a letter that has one; [`Error::Capacity`] for
+    /// more than [`MAX_RULES`].
     ///
     /// ```
     /// use attractor::{curve::LSystem, num::Wide};
@@ -128,7 +131,8 @@ impl<'a> LSystem<'a> {
         Ok(Self { axiom: axiom.as_bytes(), rules, angle: turns(degrees), heading: 0 })
     }
 
-    /// The same with another first direction, in degrees to the left of the `x` axis: 90 lets plants grow upwards.
+    /// The same with another first direction, in degrees to the left of the `x` axis: 90 lets plants grow
+    /// upwards.
     pub const fn with_heading(self, degrees: Wide) -> Self {
         Self { heading: turns(degrees), ..self }
     }
@@ -143,7 +147,8 @@ impl<'a> LSystem<'a> {
     /// and time of this call grow with the rules and the order alone.
     ///
     /// # Errors
-    /// [`Error::Capacity`] for more than `ORDERS` rewritings, more than `BRANCHES` brackets open at once, or more than [`MAX_LETTERS`] letters.
+    /// [`Error::Capacity`] for more than `ORDERS` rewritings, more than `BRANCHES` brackets open at once, or
+    /// more than [`MAX_LETTERS`] letters.
     pub fn path<const ORDERS: usize, const BRANCHES: usize>(
         &self,
         order: u32,
@@ -265,7 +270,8 @@ enum Pen {
     Put,
 }
 
-/// The path of an L-system. Size on a 32-bit machine: 8 bytes for each of `ORDERS` rewritings, 24 for each of `BRANCHES` open brackets, and 88.
+/// The path of an L-system. Size on a 32-bit machine: 8 bytes for each of `ORDERS` rewritings, 24 for each of
+/// `BRANCHES` open brackets, and 88.
 #[derive(Debug, Clone)]
 pub struct Turtle<'a, const ORDERS: usize, const BRANCHES: usize> {
     system: LSystem<'a>,
@@ -285,7 +291,8 @@ pub struct Turtle<'a, const ORDERS: usize, const BRANCHES: usize> {
 }
 
 impl<const ORDERS: usize, const BRANCHES: usize> Turtle<'_, ORDERS, BRANCHES> {
-    /// The length of a step: the greatest power of two, 1 at most, with which all steps together are no longer than 64.
+    /// The length of a step: the greatest power of two, 1 at most, with which all steps together are no
+    /// longer than 64.
     pub fn step(&self) -> Wide {
         Wide::from_bits(1 << (48 - self.shortening.min(48)))
     }

@@ -1,12 +1,17 @@
-//! Curves by refinement: the Koch curve and its relatives from generators, random curves from laws of displacement.
+//! Curves by refinement: the Koch curve and its relatives from generators, random curves from laws of
+//! displacement.
 //!
 #![doc = include_str!("../../docs/curve.md")]
 //!
-//! A [`Generator`] says by which polyline each segment is replaced; [`Refined`] walks the result, order by order or down to the length of a pixel, with a stack of
-//! fixed capacity and no recursion. A law ([`OneVariable`], [`TwoVariable`], [`LineToLine`], [`Elbow`], or one of your own) says where the midpoint of a part
-//! lies; [`Subdivision`] walks the curve through given knots, all of it or a piece. An [`LSystem`] rewrites words that a turtle draws, plants with branches among them. All are paths: iterators of [`crate::plane::PathElement`].
+//! A [`Generator`] says by which polyline each segment is replaced; [`Refined`] walks the result, order by
+//! order or down to the length of a pixel, with a stack of fixed capacity and no recursion. A law
+//! ([`OneVariable`], [`TwoVariable`], [`LineToLine`], [`Elbow`], or one of your own) says where the midpoint
+//! of a part lies; [`Subdivision`] walks the curve through given knots, all of it or a piece. An [`LSystem`]
+//! rewrites words that a turtle draws, plants with branches among them. All are paths: iterators of
+//! [`crate::plane::PathElement`].
 //!
-//! Sources: course unit V, sections 5.1 and 5.6; P. Prusinkiewicz, A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990; L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
+//! Sources: course unit V, sections 5.1 and 5.6; P. Prusinkiewicz, A. Lindenmayer, "The Algorithmic Beauty of
+//! Plants", 1990; L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
 //!
 //! ```
 //! use attractor::curve::{Elbow, Generator, Stop, Subdivision, koch, turn_over};

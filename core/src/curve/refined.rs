@@ -157,7 +157,8 @@ pub struct Refined<'a, const S: usize, const DEPTH: usize> {
     run: core::slice::Iter<'a, Segment>,
     /// What is left of the base, from the point where the current segment ends.
     base: &'a [Point2],
-    /// Copies on the way down to it, some of whose segments are refined further; the first `waiting` are in use.
+    /// Copies on the way down to it, some of whose segments are refined further; the first `waiting` are in
+    /// use.
     stack: [Replica; DEPTH],
     waiting: usize,
     order: u8,
@@ -171,15 +172,17 @@ pub struct Refined<'a, const S: usize, const DEPTH: usize> {
 impl<const S: usize> Generator<S> {
     /// Each segment of `base` refined `order` times.
     ///
-    /// Result: `base.len() - 1` curves of `len^order` segments each, joined; a closed base ends with its first point.
-    /// Error: below `2^-22` for the curves of the catalogue on a base of length 1 up to order 12 (`curves.rs`: `every_vertex_is_within_its_bound`).
-    /// Cost of a vertex, in a loop that adds the coordinates up: 59.3 Cortex-M4 instructions (kernel `koch`) for the
-    /// Koch curve of order 6, 45.6 (kernel `gosper`) for Gosper's flowsnake, 133 (kernel `dragon`) for the dragon,
-    /// whose generator has only two segments.
+    /// Result: `base.len() - 1` curves of `len^order` segments each, joined; a closed base ends with its
+    /// first point. Error: below `2^-22` for the curves of the catalogue on a base of length 1 up to order 12
+    /// (`curves.rs`: `every_vertex_is_within_its_bound`). Cost of a vertex, in a loop that adds the
+    /// coordinates up: 59.3 Cortex-M4 instructions (kernel `koch`) for the Koch curve of order 6, 45.6
+    /// (kernel `gosper`) for Gosper's flowsnake, 133 (kernel `dragon`) for the dragon, whose generator has
+    /// only two segments.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for a base of fewer than two points, [`Error::Degenerate`] when two neighbours coincide, [`Error::Capacity`] when `order` exceeds `DEPTH`
-    /// or 255, [`Error::OutOfRange`] for a segment of length 32 and above, or a curve that could leave the range of [`Real`].
+    /// [`Error::TooFew`] for a base of fewer than two points, [`Error::Degenerate`] when two neighbours
+    /// coincide, [`Error::Capacity`] when `order` exceeds `DEPTH` or 255, [`Error::OutOfRange`] for a segment
+    /// of length 32 and above, or a curve that could leave the range of [`Real`].
     pub fn refined<'a, const DEPTH: usize>(
         &'a self,
         base: &'a [Point2],
@@ -192,10 +195,12 @@ impl<const S: usize> Generator<S> {
         }
     }
 
-    /// Each segment of `base` refined until the pieces are shorter than `length`, such as a pixel: each piece as often as it needs.
+    /// Each segment of `base` refined until the pieces are shorter than `length`, such as a pixel: each piece
+    /// as often as it needs.
     ///
     /// # Errors
-    /// As [`Generator::refined`], about the base first; [`Error::Capacity`] when some piece could need more than `DEPTH` refinements; [`Error::OutOfRange`] for a length of 0 or less.
+    /// As [`Generator::refined`], about the base first; [`Error::Capacity`] when some piece could need more
+    /// than `DEPTH` refinements; [`Error::OutOfRange`] for a length of 0 or less.
     pub fn refined_to<'a, const DEPTH: usize>(
         &'a self,
         base: &'a [Point2],

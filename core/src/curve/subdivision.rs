@@ -102,10 +102,11 @@ pub struct Subdivision<'a, D, const LEVELS: usize> {
 impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     /// The curve through `knots` that `law` describes; closed when the last knot is the first.
     ///
-    /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision, with the
-    /// point that it yields: 156 Cortex-M4 instructions (kernel `elbow`) for an elbow that stops by parameter, 185
-    /// (kernel `elbow by length`) by length; 179 (kernel `one variable`) for one variable and 241
-    /// (kernel `two variable`) for two by norm; 145 (kernel `line to line`) for a function that stops by parameter.
+    /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision,
+    /// with the point that it yields: 156 Cortex-M4 instructions (kernel `elbow`) for an elbow that stops by
+    /// parameter, 185 (kernel `elbow by length`) by length; 179 (kernel `one variable`) for one variable and
+    /// 241 (kernel `two variable`) for two by norm; 145 (kernel `line to line`) for a function that stops by
+    /// parameter.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for neighbours that are 128 or more
@@ -169,7 +170,8 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
         Ok(curve)
     }
 
-    /// Only the piece between two parameters: the parts that lie in it at least partly. The points are those of the whole curve.
+    /// Only the piece between two parameters: the parts that lie in it at least partly. The points are those
+    /// of the whole curve.
     pub const fn between(mut self, first: Parameter, last: Parameter) -> Self {
         self.piece = [first.to_bits(), last.to_bits()];
         self.partial = true;

@@ -38,7 +38,8 @@ fn command(letter: u8) -> Option<Command> {
     })
 }
 
-/// A part of a turn, rounded to nearest: `turn_over(6)` is 60 degrees. 0 counts as 1, a whole turn, which is 0.
+/// A part of a turn, rounded to nearest: `turn_over(6)` is 60 degrees. 0 counts as 1, a whole turn, which
+/// is 0.
 pub const fn turn_over(parts: u32) -> Angle {
     let parts = if parts == 0 { 1 } else { parts as u64 };
     match ((1_u64 << 32) + parts / 2).checked_div(parts) {

@@ -34,8 +34,8 @@ pub(super) fn moved((x, y): Spans, offset: Point) -> Spans {
 /// The columns and rows of a picture of `size`, in its own coordinates.
 pub(super) type Part = (Range<u32>, Range<u32>);
 
-/// The part of a picture of `size` that shows when its `area` is drawn with the area's top left at the origin of a target whose
-/// bounding box is `target`; either range may be empty.
+/// The part of a picture of `size` that shows when its `area` is drawn with the area's top left at the origin
+/// of a target whose bounding box is `target`; either range may be empty.
 pub(super) fn visible(size: Size, area: &Rectangle, target: &Rectangle) -> Part {
     narrow(common(&inside(size, area), &moved(spans(target), area.top_left)))
 }

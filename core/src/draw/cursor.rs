@@ -4,7 +4,9 @@
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::Point;
 
-use crate::draw::{Ink, Palette, Picture};
+use super::image::Picture;
+use super::ink::Ink;
+use super::palette::Palette;
 use crate::plane::Field;
 
 /// Draws a [`Picture`] downwards, one row a call, and can stop and go on at every row.

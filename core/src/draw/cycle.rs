@@ -5,12 +5,14 @@ use core::num::NonZeroU32;
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
-use crate::draw::{Level, Leveled, Palette};
+use super::level::{Level, Leveled};
+use super::palette::Palette;
 
 /// Winds a palette of levels round the counts: `level = ((count + offset) mod period) / period`.
 ///
-/// Move the offset from frame to frame and the colours flow; the kernel's values stay the same. A palette whose ends meet
-/// ([`gradients::PORCELAIN`](crate::draw::gradients::PORCELAIN)) shows no seam. Values inside the set stay black.
+/// Move the offset from frame to frame and the colours flow; the kernel's values stay the same. A palette
+/// whose ends meet ([`gradients::PORCELAIN`](crate::draw::gradients::PORCELAIN)) shows no seam. Values inside
+/// the set stay black.
 ///
 /// ```
 /// use attractor::draw::{Cycled, Palette, gradients};
@@ -62,7 +64,8 @@ impl<V: Leveled, P: Palette<Level>> Palette<V> for Cycled<P> {
     }
 }
 
-/// A list of colours, one a count, over and over: the bands of classic dwell pictures. Values inside the set are black.
+/// A list of colours, one a count, over and over: the bands of classic dwell pictures. Values inside the set
+/// are black.
 ///
 /// ```
 /// use attractor::draw::{Palette, Ramp, hex};

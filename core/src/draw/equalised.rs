@@ -3,8 +3,9 @@
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
+use super::level::{Level, Leveled};
+use super::palette::Palette;
 use crate::Error;
-use crate::draw::{Level, Leveled, Palette};
 use crate::plane::Field;
 
 /// Another palette at the equalised level of one picture; black inside the set.
@@ -33,8 +34,8 @@ pub struct Equalised<'a, P> {
 }
 
 impl Equalised<'_, ()> {
-    /// How many words a picture takes whose outer counts are at most `most`: the length of the memory to lend. The dwell of
-    /// a point outside is at most `Num - 1`.
+    /// How many words a picture takes whose outer counts are at most `most`: the length of the memory to
+    /// lend. The dwell of a point outside is at most `Num - 1`.
     pub const fn counts(most: u32) -> usize {
         (most as usize).saturating_add(1)
     }
@@ -46,7 +47,8 @@ impl<'a, P> Equalised<'a, P> {
     /// Cost: every pixel of `picture` is computed once. Memory: 4 bytes a count.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] if `counts` is shorter than [`Equalised::counts`] of the largest count outside.
+    /// [`Error::BufferLength`] if `counts` is shorter than [`Equalised::counts`] of the largest count
+    /// outside.
     pub fn new<F>(picture: &F, counts: &'a mut [u32], palette: P) -> Result<Self, Error>
     where
         F: Field,

@@ -4,8 +4,9 @@
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
+use super::level::{Level, Leveled};
+use super::palette::Palette;
 use crate::Error;
-use crate::draw::{Level, Leveled, Palette};
 
 /// A palette that runs through `N` colours.
 ///
@@ -48,7 +49,8 @@ impl<const N: usize> Gradient<N> {
     /// Through colours at strictly increasing levels.
     ///
     /// # Errors
-    /// [`Error::TooFew`] without a stop, [`Error::NotIncreasing`] where a level is not above the one before it.
+    /// [`Error::TooFew`] without a stop, [`Error::NotIncreasing`] where a level is not above the one before
+    /// it.
     pub const fn new(colors: [(Level, Rgb888); N]) -> Result<Self, Error> {
         if N == 0 {
             return Err(Error::TooFew { what: "stops of a gradient", given: 0, at_least: 1 });
@@ -72,7 +74,8 @@ impl<const N: usize> Gradient<N> {
         Ok(Self { stops })
     }
 
-    /// Through colours at equal distances, the first at 0 and the last at 1. `N` from 1 to 256 is checked at compile time.
+    /// Through colours at equal distances, the first at 0 and the last at 1. `N` from 1 to 256 is checked at
+    /// compile time.
     pub const fn evenly(colors: [Rgb888; N]) -> Self {
         const { assert!(N >= 1 && N <= 256, "a gradient has 1 to 256 colours") };
         let mut stops = [Stop { at: 0, rgb: Rgb888::new(0, 0, 0), slope: 0 }; N];

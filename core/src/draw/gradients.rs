@@ -1,9 +1,11 @@
 //! Gradients that come with the crate.
 //!
-//! Their stops lie on curves in the Oklab space (B. Ottosson, "A perceptual color space for image processing", 2020), evenly in level.
-//! Lightness never falls, so each also reads on a display without colour; [`PORCELAIN`] alone rises and falls, for cycles.
+//! Their stops lie on curves in the Oklab space (B. Ottosson, "A perceptual color space for image
+//! processing", 2020), evenly in level. Lightness never falls, so each also reads on a display without
+//! colour; [`PORCELAIN`] alone rises and falls, for cycles.
 
-use crate::draw::{Gradient, hex};
+use super::gradient::Gradient;
+use super::palette::hex;
 
 /// Night indigo through plum and rose to a pale evening sky: for mirrors and shaded surfaces.
 ///
@@ -69,7 +71,8 @@ pub const MOSS: Gradient<9> = Gradient::evenly([
     hex(0xfafbcc),
 ]);
 
-/// Violet, blue, green, yellow in perceptually even steps: equal differences of level look equal, and lightness alone tells them apart.
+/// Violet, blue, green, yellow in perceptually even steps: equal differences of level look equal, and
+/// lightness alone tells them apart.
 ///
 /// <div style="height:1.5em;background:linear-gradient(90deg,#120027,#200946,#2b1d64,#23377d,#04528e,
 /// #036b8e,#018490,#009d8e,#13b384,#5cc56e,#97d457,#c8e45b,#f6f367)"></div>

@@ -9,16 +9,17 @@ use embedded_graphics_core::geometry::{Dimensions, OriginDimensions, Point, Size
 use embedded_graphics_core::image::{GetPixel, ImageDrawable};
 use embedded_graphics_core::primitives::Rectangle;
 
+use super::ink::Ink;
+use super::palette::Palette;
 use crate::draw::clip::visible;
-use crate::draw::{Ink, Palette};
 use crate::plane::Field;
 
 /// A [`Field`] seen through a [`Palette`] in the colour type `C`, which follows from the display.
 ///
-/// It is an [`ImageDrawable`]: `Image::new(&picture, position)` puts it anywhere, `picture.sub_image(&area)` shows a part, both
-/// evaluate nothing but the pixels that the target can show, row by row with one `fill_contiguous` a row. Dithering follows the
-/// picture's own coordinates: a part shows the same pixels as the whole. [`Picture::with_dither_origin`] lets
-/// it follow a pan instead.
+/// It is an [`ImageDrawable`]: `Image::new(&picture, position)` puts it anywhere, `picture.sub_image(&area)`
+/// shows a part, both evaluate nothing but the pixels that the target can show, row by row with one
+/// `fill_contiguous` a row. Dithering follows the picture's own coordinates: a part shows the same pixels as
+/// the whole. [`Picture::with_dither_origin`] lets it follow a pan instead.
 ///
 /// ```
 /// use attractor::draw::{Picture, hex};
@@ -86,7 +87,8 @@ impl<F, P, C> Picture<F, P, C> {
 }
 
 impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
-    /// The colours of row `y` in the columns `x`, from left to right, as far as they lie inside the picture; none of a row outside.
+    /// The colours of row `y` in the columns `x`, from left to right, as far as they lie inside the picture;
+    /// none of a row outside.
     ///
     /// `nth` evaluates only the pixel it returns, as far as the field keeps that promise of [`Field::row`].
     ///

@@ -1,4 +1,5 @@
-//! A level: where a value lies on a scale from 0 to 1. Palettes are functions of a level, so that one palette serves every kernel.
+//! A level: where a value lies on a scale from 0 to 1. Palettes are functions of a level, so that one palette
+//! serves every kernel.
 //!
 //! Format: 16 bits, `0..=65535` for `0..=1`.
 
@@ -78,15 +79,16 @@ pub trait Leveled {
     /// The place on the scale from 0 to 1.
     fn level(&self) -> Level;
 
-    /// The place on an open scale of counts, which [`Cycled`](crate::draw::Cycled) and [`Ramp`](crate::draw::Ramp) wind round.
-    /// Without an implementation of its own: the level's 16 bits.
+    /// The place on an open scale of counts, which [`Cycled`](crate::draw::Cycled) and
+    /// [`Ramp`](crate::draw::Ramp) wind round. Without an implementation of its own: the level's 16 bits.
     #[inline]
     fn count(&self) -> u32 {
         u32::from(self.level().0)
     }
 
-    /// Whether the value lies off the scale because the point belongs to the set: an orbit that never escaped.
-    /// The palettes of this crate paint it black; [`Inside`](crate::draw::Inside) paints it otherwise.
+    /// Whether the value lies off the scale because the point belongs to the set: an orbit that never
+    /// escaped. The palettes of this crate paint it black; [`Inside`](crate::draw::Inside) paints it
+    /// otherwise.
     #[inline]
     fn is_inside(&self) -> bool {
         false
@@ -145,7 +147,8 @@ impl Leveled for Dwell {
     }
 }
 
-/// The level is the share of the limit; the count is in steps of `1 / FractionalDwell::STEPS`, so that a palette that comes round shows no bands.
+/// The level is the share of the limit; the count is in steps of `1 / FractionalDwell::STEPS`, so that a
+/// palette that comes round shows no bands.
 impl Leveled for FractionalDwell {
     #[inline]
     fn level(&self) -> Level {
@@ -165,7 +168,8 @@ impl Leveled for FractionalDwell {
     }
 }
 
-/// The level is the share of the longest period; a point without one is off the scale, and black. Use it with [`Ramp`](crate::draw::Ramp).
+/// The level is the share of the longest period; a point without one is off the scale, and black. Use it with
+/// [`Ramp`](crate::draw::Ramp).
 impl Leveled for Option<Period> {
     #[inline]
     fn level(&self) -> Level {
@@ -209,7 +213,8 @@ impl Leveled for u16 {
     }
 }
 
-/// The scale is the range of the type: use a count with [`Cycled`](crate::draw::Cycled) or [`Ramp`](crate::draw::Ramp).
+/// The scale is the range of the type: use a count with [`Cycled`](crate::draw::Cycled) or
+/// [`Ramp`](crate::draw::Ramp).
 impl Leveled for u32 {
     #[inline]
     fn level(&self) -> Level {

@@ -47,7 +47,8 @@ impl Line {
         twice_n: 0,
     };
 
-    /// The pixels from `from` to `to`, without the first `skip` of them, as far as they lie inside `window`, whose coordinates fit 32 bits.
+    /// The pixels from `from` to `to`, without the first `skip` of them, as far as they lie inside `window`,
+    /// whose coordinates fit 32 bits.
     pub(super) fn new(from: (i64, i64), to: (i64, i64), skip: i64, window: &Spans) -> Self {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let steep = dy.abs() > dx.abs();

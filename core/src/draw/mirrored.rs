@@ -1,7 +1,8 @@
 //! A symmetric picture: a row is computed once and drawn twice, itself and its mirror image, from a lent row.
 //!
-//! Rows are drawn from below. Mirror images of successive rows are successive, and lie above them: the range of those
-//! that have been drawn is all that is remembered. What has no mirror image in sight is drawn as ever.
+//! Rows are drawn from below. Mirror images of successive rows are successive, and lie above them: the range
+//! of those that have been drawn is all that is remembered. What has no mirror image in sight is drawn as
+//! ever.
 
 use core::cell::Cell;
 use core::fmt;
@@ -13,15 +14,18 @@ use embedded_graphics_core::image::ImageDrawable;
 use embedded_graphics_core::pixelcolor::Rgb888;
 use embedded_graphics_core::primitives::Rectangle;
 
+use super::image::Picture;
+use super::ink::Ink;
+use super::palette::Palette;
 use crate::Error;
 use crate::draw::clip::visible;
-use crate::draw::{Ink, Palette, Picture};
 use crate::plane::{Field, Symmetric};
 
 /// A [`Picture`] of a [`Symmetric`] field, half of it computed. [`Picture::mirrored`] makes it.
 ///
-/// It is an [`ImageDrawable`] and shows the same pixels as its picture, in another order: from the last row upwards,
-/// with one `fill_contiguous` a row. Dithering, which is not symmetric, follows the place of each pixel.
+/// It is an [`ImageDrawable`] and shows the same pixels as its picture, in another order: from the last row
+/// upwards, with one `fill_contiguous` a row. Dithering, which is not symmetric, follows the place of each
+/// pixel.
 ///
 /// Memory: the lent row of 3 bytes a pixel; beyond that 12 bytes on a 32-bit machine.
 pub struct Mirrored<'a, F, P, C> {
@@ -32,9 +36,9 @@ pub struct Mirrored<'a, F, P, C> {
 impl<F: Symmetric, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
     /// The same picture, where rows that are equal are computed once, with a row to keep one in.
     ///
-    /// Exact where [`Symmetric::mirror_image`] says so: for the Mandelbrot set in a view whose rows come in conjugate
-    /// pairs, such as [`View::home`](crate::escape::View::home) of any size. Elsewhere each row is computed as ever
-    /// (`the_mirror_changes_no_pixel_and_computes_each_pair_once`).
+    /// Exact where [`Symmetric::mirror_image`] says so: for the Mandelbrot set in a view whose rows come in
+    /// conjugate pairs, such as [`View::home`](crate::escape::View::home) of any size. Elsewhere each row is
+    /// computed as ever (`the_mirror_changes_no_pixel_and_computes_each_pair_once`).
     ///
     /// ```
     /// use attractor::draw::{CourseUnit, Picture};

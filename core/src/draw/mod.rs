@@ -10,9 +10,10 @@
 //! | field, symmetric in a row | [`Mirrored`] | the same rows, one of each pair computed, in a lent row |
 //! | field, for a driver of one's own | [`Strips`] | a lent line buffer: colours, bytes, words, packed bits |
 //!
-//! Colour has two halves. A [`Palette`] turns a value into a display-independent colour, [`Ink`] turns that colour into what one display
-//! can show at one position: the nearest colour, or ordered dithering where there are few levels. Both are open: a closure is a
-//! palette, and a colour type of your own becomes usable with one `impl Ink`.
+//! Colour has two halves. A [`Palette`] turns a value into a display-independent colour, [`Ink`] turns that
+//! colour into what one display can show at one position: the nearest colour, or ordered dithering where
+//! there are few levels. Both are open: a closure is a palette, and a colour type of your own becomes usable
+//! with one `impl Ink`.
 //!
 //! ```
 //! use attractor::draw::{Grey, Picture};

@@ -3,7 +3,7 @@
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
-use crate::draw::Palette;
+use super::palette::Palette;
 use crate::num::formats::UQ16;
 
 /// Another palette as greys in linear light: dithered to dots of one bit, they give off as much light as its

@@ -56,8 +56,8 @@ pub trait Packing<C> {
     /// How many elements a strip of a picture `width` pixels wide takes.
     fn length(width: u32) -> usize;
 
-    /// Puts row `row` of the strip (`0..ROWS`, in this order) into `strip`, which has exactly [`Packing::length`] elements.
-    /// The strip's old content means nothing: row 0 clears it.
+    /// Puts row `row` of the strip (`0..ROWS`, in this order) into `strip`, which has exactly
+    /// [`Packing::length`] elements. The strip's old content means nothing: row 0 clears it.
     fn pack(row: u32, colors: impl Iterator<Item = C>, strip: &mut [Self::Unit]);
 }
 
@@ -164,7 +164,8 @@ impl<C: IntoStorage<Storage = u16>> Packing<C> for PixelWords {
     }
 }
 
-/// 1, 2 or 4 bits a pixel, the leftmost pixel in the most significant bits, one row. `On` is 1; bits beyond the picture are 0.
+/// 1, 2 or 4 bits a pixel, the leftmost pixel in the most significant bits, one row. `On` is 1; bits beyond
+/// the picture are 0.
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture};
@@ -206,8 +207,8 @@ where
     }
 }
 
-/// One bit a pixel, 8 rows a strip, a byte for each column with the top row in the least significant bit. `On` is 1; rows beyond the
-/// picture are 0.
+/// One bit a pixel, 8 rows a strip, a byte for each column with the top row in the least significant bit.
+/// `On` is 1; rows beyond the picture are 0.
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture};

@@ -3,7 +3,11 @@
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
-use crate::draw::{Cycled, Equalised, Gradient, Inverted, Level, Leveled, Luminance, Ramp};
+use super::cycle::{Cycled, Ramp};
+use super::equalised::Equalised;
+use super::gradient::Gradient;
+use super::level::{Level, Leveled};
+use super::mono::{Inverted, Luminance};
 
 /// Turns a value into a display-independent colour.
 ///
@@ -29,8 +33,8 @@ use crate::draw::{Cycled, Equalised, Gradient, Inverted, Level, Leveled, Luminan
 /// assert_eq!(stripes.rgb(2), hex(0x000000));
 /// ```
 ///
-/// The palettes of this crate accept every [`Leveled`] value, paint values inside the set black, and are `Copy`. They also work by reference,
-/// and `&dyn Palette<V>` is a palette, for a choice at run time.
+/// The palettes of this crate accept every [`Leveled`] value, paint values inside the set black, and are
+/// `Copy`. They also work by reference, and `&dyn Palette<V>` is a palette, for a choice at run time.
 pub trait Palette<V> {
     /// The colour of `value`.
     fn rgb(&self, value: V) -> Rgb888;
@@ -50,7 +54,8 @@ impl<V> Palette<V> for &dyn Palette<V> {
     }
 }
 
-/// A reference to a palette is a palette. (Not a blanket `impl for &P`: it would overlap with the one for closures.)
+/// A reference to a palette is a palette. (Not a blanket `impl for &P`: it would overlap with the one for
+/// closures.)
 macro_rules! by_reference {
     ($([$($generics:tt)*] $name:ty, $value:ty;)*) => {$(
         impl<$($generics)*> Palette<$value> for &$name

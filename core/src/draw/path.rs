@@ -12,12 +12,13 @@ use crate::plane::{PathElement, Window};
 
 /// Draws an iterator of [`PathElement`], one pixel wide, as seen through a [`Window`].
 ///
-/// Lines run from pixel to pixel, so any coordinates of the plane are welcome; they are clipped to the window and to the target without
-/// moving a pixel. A point where two lines meet is drawn once, a line that ends in the pixel where it began draws nothing more; where a
-/// path crosses, touches or retraces itself, and where a closed path meets its start, pixels are drawn again. A `LineTo` without a step
-/// before it only moves there. The pixels of a line are the same in both directions: a path that is drawn
-/// again from its end leaves nothing under XOR. The iterator is cloned for each drawing, or used up by
-/// [`Stroke::draw_once`]; the output is the number of pixels drawn.
+/// Lines run from pixel to pixel, so any coordinates of the plane are welcome; they are clipped to the window
+/// and to the target without moving a pixel. A point where two lines meet is drawn once, a line that ends in
+/// the pixel where it began draws nothing more; where a path crosses, touches or retraces itself, and where a
+/// closed path meets its start, pixels are drawn again. A `LineTo` without a step before it only moves there.
+/// The pixels of a line are the same in both directions: a path that is drawn again from its end leaves
+/// nothing under XOR. The iterator is cloned for each drawing, or used up by [`Stroke::draw_once`]; the
+/// output is the number of pixels drawn.
 ///
 /// ```
 /// use attractor::draw::Stroke;

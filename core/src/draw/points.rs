@@ -8,7 +8,8 @@ use embedded_graphics_core::pixelcolor::PixelColor;
 use embedded_graphics_core::primitives::Rectangle;
 use embedded_graphics_core::{Drawable, Pixel};
 
-use crate::draw::{Ink, Palette};
+use super::ink::Ink;
+use super::palette::Palette;
 use crate::plane::{Point2, Window};
 
 /// Draws an iterator of [`Point2`] in one colour, as seen through a [`Window`].
@@ -119,7 +120,8 @@ impl<I: Iterator<Item = Point2> + Clone, C: PixelColor> Drawable for Dots<I, C> 
     }
 }
 
-/// Draws an iterator of points with a value each (the index of the map, the age of the point) in the colours of a palette.
+/// Draws an iterator of points with a value each (the index of the map, the age of the point) in the colours
+/// of a palette.
 ///
 /// Otherwise as [`Dots`]. On displays with few levels the dithering follows the position in the window.
 ///

@@ -11,9 +11,12 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Point;
 use embedded_graphics_core::primitives::Rectangle;
 
+use super::image::Picture;
+use super::ink::Ink;
+use super::packing::{Lines, LsbPages, MsbRows, Packing, PixelBytes, PixelWords};
+use super::palette::Palette;
 use crate::Error;
 use crate::draw::clip::part;
-use crate::draw::{Ink, Lines, LsbPages, MsbRows, Packing, Palette, Picture, PixelBytes, PixelWords};
 use crate::plane::Field;
 
 impl<F: Field, P: Palette<F::Value>, C: Ink> Picture<F, P, C> {
@@ -143,8 +146,9 @@ fn front<'b, C, K: Packing<C>>(
 
 /// The strips of a picture or of a part of it from the top down, each in the same lent buffer.
 ///
-/// Not an `Iterator`, since each strip borrows the buffer: `while let Some((y, strip)) = strips.next_strip()`. The loop is the
-/// caller's and may `await`, `break` and return errors of any kind; [`Strips::for_each`] is the short form.
+/// Not an `Iterator`, since each strip borrows the buffer:
+/// `while let Some((y, strip)) = strips.next_strip()`. The loop is the caller's and may `await`, `break` and
+/// return errors of any kind; [`Strips::for_each`] is the short form.
 ///
 /// ```
 /// use attractor::draw::{Grey, MsbRows, Picture, Strips};

@@ -50,7 +50,8 @@ impl Field for Counted {
     }
 }
 
-/// A frame buffer that shows only the part `window` of itself, reports that part as its bounding box, and ignores what lies beside it.
+/// A frame buffer that shows only the part `window` of itself, reports that part as its bounding box, and
+/// ignores what lies beside it.
 pub(super) struct Frame<C> {
     size: Size,
     pub(super) window: Rectangle,
@@ -102,7 +103,8 @@ pub(super) enum Manner {
     FailAt(i32),
 }
 
-/// A driver that accepts nothing but `fill_contiguous` with areas inside its bounding box, and writes down what it was given.
+/// A driver that accepts nothing but `fill_contiguous` with areas inside its bounding box, and writes down
+/// what it was given.
 pub(super) struct Driver<C> {
     pub(super) area: Rectangle,
     pub(super) manner: Manner,

@@ -4,7 +4,8 @@
 use embedded_graphics::transform::Transform;
 use embedded_graphics_core::geometry::Point;
 
-use crate::draw::{ColoredDots, Dots, Stroke};
+use super::path::Stroke;
+use super::points::{ColoredDots, Dots};
 
 macro_rules! transform {
     ($([$($generic:ident),*] $name:ty;)*) => {$(

@@ -1,14 +1,15 @@
-//! What the tests of this room compare with: dwell in `f64`, and in 248 fractional bits; the orbits of the 32-bit dwell in exact integers.
+//! What the tests of this room compare with: dwell in `f64`, and in 248 fractional bits; the orbits of the
+//! 32-bit dwell in exact integers.
 
 extern crate std;
 
 use embedded_graphics_core::geometry::Size;
 use std::vec::Vec;
 
-use crate::escape::Arithmetic;
-use crate::escape::Distance;
-use crate::escape::FractionalDwell;
-use crate::escape::Smooth;
+use super::coloring::distance::Distance;
+use super::coloring::smooth::FractionalDwell;
+use super::coloring::smooth::Smooth;
+use super::orbit::arithmetic::Arithmetic;
 use crate::escape::orbit::dwell::tests::orbit;
 use crate::escape::orbit::narrow::narrow;
 use crate::escape::set::julia::Julia;
@@ -32,7 +33,8 @@ pub(crate) struct Pixel {
     pub(crate) gain: f64,
 }
 
-/// Every pixel of the home view and others, of the Mandelbrot set and of a Julia set, in both arithmetics, about the limit where the default changes.
+/// Every pixel of the home view and others, of the Mandelbrot set and of a Julia set, in both arithmetics,
+/// about the limit where the default changes.
 pub(crate) fn every_pixel(mut check: impl FnMut(&Pixel)) {
     let point = |re: f64, im: f64| Complex::new(Wide::from_num(re), Wide::from_num(im));
     let view = |re, im, width| View::new(point(re, im), Wide::from_num(width), Size::new(96, 72)).unwrap();

@@ -2,10 +2,11 @@
 //!
 #![doc = include_str!("../../docs/escape.md")]
 //!
-//! A [`View`] says which point of the plane each pixel shows; [`Mandelbrot`] and [`Julia`] are [`Field`](crate::plane::Field)s whose
-//! value is a [`Dwell`]. Orbits run in 32-bit words with 29 fractional bits; a view finer than that is refused;
-//! [`DeepView`] and [`DeepMandelbrot`] go on from there, with 64 bits, 128 bits, and perturbation. All three are [`EscapeTime`] pictures, which [`Smooth`],
-//! [`Distance`] and [`Interior`] colour, [`Buffered`] mirrors and pans, and [`Filled`] fills in.
+//! A [`View`] says which point of the plane each pixel shows; [`Mandelbrot`] and [`Julia`] are
+//! [`Field`](crate::plane::Field)s whose value is a [`Dwell`]. Orbits run in 32-bit words with 29 fractional
+//! bits; a view finer than that is refused; [`DeepView`] and [`DeepMandelbrot`] go on from there, with 64
+//! bits, 128 bits, and perturbation. All three are [`EscapeTime`] pictures, which [`Smooth`], [`Distance`]
+//! and [`Interior`] colour, [`Buffered`] mirrors and pans, and [`Filled`] fills in.
 
 mod buffer;
 mod coloring;

@@ -1,4 +1,5 @@
-//! What follows from the maps of a function: its values at the ends, the range of all its values, the length of its longest address.
+//! What follows from the maps of a function: its values at the ends, the range of all its values, the length
+//! of its longest address.
 //!
 //! A map is summed up without its polynomial, so that the rest is there once for all degrees.
 
@@ -20,7 +21,8 @@ pub(super) struct Image {
     /// 63 fractional bits.
     scaling: i64,
     width: u64,
-    /// Ends of the range of its polynomial, its values at the ends, the sum of its coefficients' magnitudes: 55 fractional bits.
+    /// Ends of the range of its polynomial, its values at the ends, the sum of its coefficients' magnitudes:
+    /// 55 fractional bits.
     low: i64,
     high: i64,
     first: i64,
@@ -132,12 +134,12 @@ fn hull(images: &[Image], largest: u64, steepest: u64) -> (i64, i64) {
     (min.saturating_mul(1 << COARSE), max.saturating_mul(1 << COARSE))
 }
 
-/// No walk takes more maps: an evaluation lasts at most 2 ms on a desktop. Every address has settled its value by then where all scalings are below
-/// 0.9991, or all intervals narrower than 0.9986 of the domain.
+/// No walk takes more maps: an evaluation lasts at most 2 ms on a desktop. Every address has settled its
+/// value by then where all scalings are below 0.9991, or all intervals narrower than 0.9986 of the domain.
 pub(super) const LEVELS: u32 = 1 << 15;
 
-/// After how many maps an address has settled the value: the product of the horizontal factors is below `2^-63` or that of the scalings
-/// below `2^-40`. `r^k <= e^(-k (1 - r))`.
+/// After how many maps an address has settled the value: the product of the horizontal factors is below
+/// `2^-63` or that of the scalings below `2^-40`. `r^k <= e^(-k (1 - r))`.
 fn levels(widest: u64, steepest: u64) -> u32 {
     let steps = |nepers: u64, r: u64| {
         let k = ratio(nepers, 63, ONE_UQ63.saturating_sub(r));
@@ -237,7 +239,8 @@ mod tests {
         }
     }
 
-    /// Against the ends that iterating the hull in rationals tends to: `low = min(alpha_j end) + low_j`, outward by what 16 fractional bits lose.
+    /// Against the ends that iterating the hull in rationals tends to: `low = min(alpha_j end) + low_j`,
+    /// outward by what 16 fractional bits lose.
     #[test]
     fn a_hull_is_outward_by_three_units_over_one_less_the_scaling() {
         for k in 0..300_i32 {
@@ -273,7 +276,8 @@ mod tests {
         }
     }
 
-    /// `44 / (1 - a)` maps or `28 / (1 - alpha)`, and one: for the widest and the steepest, wherever they stand.
+    /// `44 / (1 - a)` maps or `28 / (1 - alpha)`, and one: for the widest and the steepest, wherever they
+    /// stand.
     #[test]
     fn levels_count_the_widest_and_the_steepest_map() {
         assert_eq!((levels(ONE_UQ63 / 2, ONE_UQ63 - 1), levels(ONE_UQ63 - 1, ONE_UQ63 / 2)), (89, 57));

@@ -1,10 +1,12 @@
 //! Integral and derivative: both are fractal interpolation functions over the same knots.
 //!
-//! Integral (eq. 29-33, with the erratum that the inner integral of eq. 31 runs over the whole domain), in the unit abscissa and with
-//! `w = x_N - x_0`: `F(L_j u) = a_j alpha_j F(u) + Y_(j-1) - a_j alpha_j Y_0 + w a_j (integral of q_j from 0 to u)`.
+//! Integral (eq. 29-33, with the erratum that the inner integral of eq. 31 runs over the whole domain), in
+//! the unit abscissa and with `w = x_N - x_0`:
+//! `F(L_j u) = a_j alpha_j F(u) + Y_(j-1) - a_j alpha_j Y_0 + w a_j (integral of q_j from 0 to u)`.
 //! Derivative (eq. 34-36): scalings `alpha_j / a_j`, polynomials `q_j' / (w a_j)`.
 //!
-//! Source: Cochran, Lewis, Hart, section 3; M. F. Barnsley, A. N. Harrington, "The calculus of fractal interpolation functions", 1989.
+//! Source: Cochran, Lewis, Hart, section 3; M. F. Barnsley, A. N. Harrington, "The calculus of fractal
+//! interpolation functions", 1989.
 
 use heapless::Vec;
 
@@ -22,7 +24,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// the error of `f` itself (`an_integral_is_within_its_bound`). Repeatable.
     ///
     /// # Errors
-    /// [`Error::Capacity`] if `E` is not above the degree of `f`; [`Error::OutOfRange`] if the integral leaves the format.
+    /// [`Error::Capacity`] if `E` is not above the degree of `f`; [`Error::OutOfRange`] if the integral
+    /// leaves the format.
     pub fn integral<const E: usize>(&self, initial: Wide) -> Result<Fif<N, E>, Error> {
         let degree = self.degree() + 1;
         if degree > E {
@@ -56,8 +59,9 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The derivative, a function of its own kind where every map is less steep than narrow.
     ///
     /// # Errors
-    /// [`Error::NotDifferentiable`] if `|alpha_j| >= a_j`, [`Error::NotJoined`] if the maps of the derivative disagree at a knot by more than
-    /// `2^-22`, [`Error::OutOfRange`] if it leaves the format, [`Error::Capacity`] if its degree is above `E`.
+    /// [`Error::NotDifferentiable`] if `|alpha_j| >= a_j`, [`Error::NotJoined`] if the maps of the derivative
+    /// disagree at a knot by more than `2^-22`, [`Error::OutOfRange`] if it leaves the format,
+    /// [`Error::Capacity`] if its degree is above `E`.
     pub fn derivative<const E: usize>(&self) -> Result<Fif<N, E>, Error> {
         let degree = self.degree().saturating_sub(1);
         if degree > E {
@@ -135,8 +139,9 @@ mod tests {
         off.abs() <= i128::from(denominator * units)
     }
 
-    /// `a = (1/4, 3/4)`, `alpha = (1/2, -1/4)`: the mean is `(sum of a mean(q)) / (1 - sum of a alpha) = (77/32) / (17/16)`, and the integral over the
-    /// first part `a_1 w (alpha_1 mean + mean(q_1)) = 77/68 + 13/4`.
+    /// `a = (1/4, 3/4)`, `alpha = (1/2, -1/4)`: the mean is
+    /// `(sum of a mean(q)) / (1 - sum of a alpha) = (77/32) / (17/16)`, and the integral over the first part
+    /// `a_1 w (alpha_1 mean + mean(q_1)) = 77/68 + 13/4`.
     #[test]
     fn an_integral_is_the_exact_one_at_its_knots() {
         let f = through(&[(1, 2), (2, 5), (5, -1)], [0.5, -0.25]);
@@ -144,7 +149,8 @@ mod tests {
         for initial in [0, 3, -5] {
             let integral = f.integral::<2>(Wide::from_num(initial)).unwrap();
             let start = 1088 * i64::from(initial);
-            // 1 + 1/4 is the image of the middle knot under the first map: a_1 (alpha_1 149/34 + 25/16) = 1021/1088
+            // 1 + 1/4 is the image of the middle knot under the first map: a_1 (alpha_1 149/34 + 25/16) =
+            // 1021/1088
             for (x, numerator) in [(1.0, 0), (1.25, 1021), (2.0, 149 * 32), (5.0, 154 * 64)] {
                 let got = integral.at_wide(Wide::from_num(x));
                 assert!(is(got, (start + numerator, 1088), 1), "{initial} + {numerator}/1088: {got}");
@@ -170,7 +176,8 @@ mod tests {
         assert!(is(f.at_wide(Wide::from_num(1.25)), (103, 32), 1), "{}", f.at_wide(Wide::from_num(1.25)));
     }
 
-    /// `x^3` over two parts of `[-1, 3]`: `f(L(x))` is the cube of `(x - 1) / 2` and of `(x + 3) / 2`; its derivative is `3 x^2`.
+    /// `x^3` over two parts of `[-1, 3]`: `f(L(x))` is the cube of `(x - 1) / 2` and of `(x + 3) / 2`; its
+    /// derivative is `3 x^2`.
     fn cube() -> Fif<2, 3> {
         let eighths = |cs: [i32; 4]| cs.map(|c| Wide::from_num(c) / 8);
         let (left, right) = (eighths([-1, 3, -3, 1]), eighths([27, 27, 9, 1]));

@@ -1,7 +1,8 @@
 //! The chaos game for the graph of a fractal interpolation function (Algorithm 1).
 //!
-//! A random map is applied to the last point again and again; every point lies on the graph. Maps are drawn in proportion to their intervals,
-//! so that the points spread evenly along the abscissa (for equal intervals this is the paper's uniform choice).
+//! A random map is applied to the last point again and again; every point lies on the graph. Maps are drawn
+//! in proportion to their intervals, so that the points spread evenly along the abscissa (for equal intervals
+//! this is the paper's uniform choice).
 //!
 //! Source: Cochran, Lewis, Hart, Algorithm 1.
 
@@ -85,7 +86,8 @@ mod tests {
         }
     }
 
-    /// Parts of a quarter, a half and a quarter; every point against integers, `u` with 63 fractional bits and `y` with 55 and 31 more.
+    /// Parts of a quarter, a half and a quarter; every point against integers, `u` with 63 fractional bits
+    /// and `y` with 55 and 31 more.
     #[test]
     fn a_word_draws_the_part_it_lies_in_and_its_map_sends_the_point() {
         let knots =

@@ -1,7 +1,8 @@
 //! Evaluation by composition of maps (Algorithm 2, eq. 24-28).
 //!
-//! The composite of an address `j1 j2 ... jk` sends the whole graph onto its part above one small interval. It evaluates a function as the paper
-//! does; the boxes of a ray caster are images under composites. For plain values the forward walk of [`Fif::at`] is faster.
+//! The composite of an address `j1 j2 ... jk` sends the whole graph onto its part above one small interval.
+//! It evaluates a function as the paper does; the boxes of a ray caster are images under composites. For
+//! plain values the forward walk of [`Fif::at`] is faster.
 
 use super::function::Fif;
 use super::map::Map;
@@ -44,7 +45,8 @@ impl<const D: usize> Composite<D> {
         twice_high(y, self.scaling).wrapping_add(self.q.at(u))
     }
 
-    /// The image of a point of the graph (unit abscissa, value): another point of the graph, truncated and rounded to the format.
+    /// The image of a point of the graph (unit abscissa, value): another point of the graph, truncated and
+    /// rounded to the format.
     pub fn image(&self, point: Point2) -> Point2 {
         let u = (point.x.to_bits().clamp(0, 1 << 24) as u64) << 39;
         let x =
@@ -53,7 +55,8 @@ impl<const D: usize> Composite<D> {
         Point2::new(Real::from_bits((x >> 39) as i32), real_from(y, FRACTION_Q55))
     }
 
-    /// The interval that the whole domain is sent to, in the unit abscissa, truncated to the format (figure 2).
+    /// The interval that the whole domain is sent to, in the unit abscissa, truncated to the format (figure
+    /// 2).
     pub fn interval(&self) -> (Real, Real) {
         let end = self.start.wrapping_add(self.width);
         (Real::from_bits((self.start >> 39) as i32), Real::from_bits((end >> 39) as i32))
@@ -66,7 +69,8 @@ impl<const D: usize> Composite<D> {
 }
 
 impl<const N: usize, const D: usize> Fif<N, D> {
-    /// The composition of the maps of an address (0 for the first map), the first digit outermost. Digits beyond the last map count as it.
+    /// The composition of the maps of an address (0 for the first map), the first digit outermost. Digits
+    /// beyond the last map count as it.
     pub fn composite(&self, address: impl IntoIterator<Item = usize>) -> Composite<D> {
         address.into_iter().fold(Composite::IDENTITY, |composite, digit| {
             let digit = digit.min(self.maps.len().saturating_sub(1));
@@ -74,12 +78,14 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         })
     }
 
-    /// The value near `x` by composition (Algorithm 2): maps are composed until the horizontal factor is at most `epsilon`, then the median knot is sent
-    /// through the composite.
+    /// The value near `x` by composition (Algorithm 2): maps are composed until the horizontal factor is at
+    /// most `epsilon`, then the median knot is sent through the composite.
     ///
-    /// Result: the value at some abscissa within `epsilon (x_N - x_0)` of `x` (at least `2^-40` of the domain). Error: there
-    /// below [`Fif::error_bound`] for degree 1 (row `Fif::at_by_composition (integral of g)`). Cost: `D^2` products of 64 bits a level, at most 32,768 levels: where a map takes more than 0.9995 of the
-    /// domain, they may end at an interval wider than `epsilon`.
+    /// Result: the value at some abscissa within `epsilon (x_N - x_0)` of `x` (at least `2^-40` of the
+    /// domain). Error: there below [`Fif::error_bound`] for degree 1 (row
+    /// `Fif::at_by_composition (integral of g)`). Cost: `D^2` products of 64 bits a level, at most 32,768
+    /// levels: where a map takes more than 0.9995 of the domain, they may end at an interval wider than
+    /// `epsilon`.
     pub fn at_by_composition(&self, x: Wide, epsilon: Real) -> Real {
         let composite = self.composite_at(x, epsilon, self.levels);
         let median = self.maps.get(self.maps.len() / 2).map_or(0, |m| m.start);
@@ -90,8 +96,9 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         real_from(composite.value(median, y), FRACTION_Q55)
     }
 
-    /// The composition of the first maps of the address of `x`, as many as it takes until the horizontal factor is at most `epsilon` (at least
-    /// `2^-40`), and no more than `most`. Cost: as [`Fif::at_by_composition`].
+    /// The composition of the first maps of the address of `x`, as many as it takes until the horizontal
+    /// factor is at most `epsilon` (at least `2^-40`), and no more than `most`. Cost: as
+    /// [`Fif::at_by_composition`].
     pub fn composite_at(&self, x: Wide, epsilon: Real, most: u32) -> Composite<D> {
         let epsilon = (epsilon.to_bits().max(0) as u64).saturating_mul(1 << 39).clamp(1 << 23, ONE_UQ63);
         let mut u = self.unit(x);
@@ -121,7 +128,8 @@ mod tests {
         Fif::interpolating(&knots, &[0.5, -0.75, 0.25].map(Scaling::from_num)).unwrap()
     }
 
-    /// `1 - x^2 / 2 + x^3` and a line below it, with scalings: both maps have powers that the other's are composed with.
+    /// `1 - x^2 / 2 + x^3` and a line below it, with scalings: both maps have powers that the other's are
+    /// composed with.
     fn cubic() -> Fif<2, 3> {
         let wide = |cs: [f64; 4]| cs.map(Wide::from_num);
         // q_1(2) + f(2) / 2 = q_2(0) - f(0) / 4 for f(0) = 2 q_1(0) = 2, f(2) = q_2(2) / (5/4) = 4
@@ -130,7 +138,8 @@ mod tests {
         Fif::from_polynomials(&knots, &[0.5, -0.25].map(Scaling::from_num), &[&left, &right]).unwrap()
     }
 
-    /// Start and width in 256ths, the scaling in 256ths: the product of the widths and of the scalings, the first digit outermost.
+    /// Start and width in 256ths, the scaling in 256ths: the product of the widths and of the scalings, the
+    /// first digit outermost.
     #[test]
     fn an_address_is_an_interval() {
         let f = function();
@@ -154,7 +163,8 @@ mod tests {
         }
     }
 
-    /// The image of a point of the graph is one map after the other, from the last digit on: in integers, `y` and `q` with 80 fractional bits.
+    /// The image of a point of the graph is one map after the other, from the last digit on: in integers, `y`
+    /// and `q` with 80 fractional bits.
     #[test]
     fn an_image_is_that_of_one_map_after_the_other() {
         let f = cubic();
@@ -210,7 +220,8 @@ mod tests {
         assert_eq!(f.composite_at(x, Real::MIN, 99).width, ONE_UQ63 >> 40);
     }
 
-    /// The value is that of the middle knot's image: here a dyadic place, where the walk along the address gives the same.
+    /// The value is that of the middle knot's image: here a dyadic place, where the walk along the address
+    /// gives the same.
     #[test]
     fn composition_and_walk_agree_at_the_image_of_the_middle_knot() {
         for x in (0..=64).map(|k| Wide::from_num(1) + Wide::from_num(k) / 16) {

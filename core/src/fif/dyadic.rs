@@ -1,9 +1,11 @@
 //! A function on a uniform dyadic partition, compiled to 32-bit words: the address walk is a shift.
 //!
-//! With `N = 2^b` equal intervals the digits of an abscissa are its bits. Several digits are taken at once where there is room for the composites of all
-//! their maps (eq. 24-28), which are a system for the same function. The value is built from the last digit to the first,
-//! `y <- alpha_j y + q_j(u)`, `u <- (j + u) / N`: no polynomial is composed, and each step contracts the error of the last. Words have as many fractional bits
-//! as the range of the function allows (24 to 30), products add up in 64 bits and are rounded once a level.
+//! With `N = 2^b` equal intervals the digits of an abscissa are its bits. Several digits are taken at once
+//! where there is room for the composites of all their maps (eq. 24-28), which are a system for the same
+//! function. The value is built from the last digit to the first, `y <- alpha_j y + q_j(u)`,
+//! `u <- (j + u) / N`: no polynomial is composed, and each step contracts the error of the last. Words have
+//! as many fractional bits as the range of the function allows (24 to 30), products add up in 64 bits and are
+//! rounded once a level.
 
 use heapless::Vec;
 
@@ -24,7 +26,8 @@ struct Words<const D: usize> {
     powers: [i32; D],
 }
 
-/// A [`Fif`] on `2^b` equal intervals, ready for fast evaluation at dyadic abscissae of up to 32 bits, with room for `M` maps.
+/// A [`Fif`] on `2^b` equal intervals, ready for fast evaluation at dyadic abscissae of up to 32 bits, with
+/// room for `M` maps.
 ///
 /// ```
 /// use attractor::fif::{Fif, Knot};
@@ -61,7 +64,8 @@ struct Errors {
 }
 
 impl Errors {
-    /// The powers' bits beyond a word, a unit for each product of Horner's scheme that is cut, the scaling's bits beyond 31 at the largest value.
+    /// The powers' bits beyond a word, a unit for each product of Horner's scheme that is cut, the scaling's
+    /// bits beyond 31 at the largest value.
     fn add<const D: usize>(&mut self, map: &Composite<D>, words: &Words<D>) {
         let lost =
             |exact: i64, word: i32, unit: u64| exact.abs_diff(i64::from(word).wrapping_mul(unit as i64));
@@ -73,8 +77,8 @@ impl Errors {
         self.steepest = self.steepest.max(words.scaling.unsigned_abs());
     }
 
-    /// With half a unit for a step's rounding, over `1 - max|alpha|`, and the result's. A composite of `digits` maps has coefficients that are off by less
-    /// than `4 D + 4` for each.
+    /// With half a unit for a step's rounding, over `1 - max|alpha|`, and the result's. A composite of
+    /// `digits` maps has coefficients that are off by less than `4 D + 4` for each.
     fn bound(&self, coefficients: u64, digits: u64) -> Real {
         let composed = digits * coefficients * 4 * coefficients;
         let step = self.step.saturating_add(self.unit / 2).saturating_add(composed);
@@ -86,8 +90,8 @@ impl Errors {
 }
 
 impl<const N: usize, const D: usize> Fif<N, D> {
-    /// The function compiled for its dyadic partition, with room for `M` maps: the more, the more digits are taken at once. With two intervals
-    /// `M` = 2 takes one binary digit a step, 16 takes four.
+    /// The function compiled for its dyadic partition, with room for `M` maps: the more, the more digits are
+    /// taken at once. With two intervals `M` = 2 takes one binary digit a step, 16 takes four.
     ///
     /// None if the intervals are not `2^b` equal ones, `1 <= b <= 8`, or `M` is less than `2^b`.
     pub fn dyadic<const M: usize>(&self) -> Option<Dyadic<M, D>> {
@@ -104,7 +108,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         {
             return None;
         }
-        // as many digits a step as there is room for: the composites of all addresses of that length are again such a system
+        // as many digits a step as there is room for: the composites of all addresses of that length are
+        // again such a system
         let (mut bits, mut digits) = (digit, 1);
         while bits + digit <= 8 && M >> (bits + digit) > 0 {
             bits += digit;
@@ -113,7 +118,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         let composite = |address: usize| {
             self.composite((0..digits).rev().map(|k| (address >> (k * digit)) & (count - 1)))
         };
-        // the largest number that a word must hold: a value, or a partial sum of Horner's scheme without the constant
+        // the largest number that a word must hold: a value, or a partial sum of Horner's scheme without the
+        // constant
         let mut largest = self.range.0.saturating_abs().max(self.range.1.saturating_abs());
         let value = largest.unsigned_abs();
         for address in 0..1_usize << bits {
@@ -154,16 +160,18 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 impl<const M: usize, const D: usize> Dyadic<M, D> {
     /// The value at the place `u` of the domain, a fraction in `[0, 1)`.
     ///
-    /// Error: at most [`Dyadic::error_bound`] (`an_error_bound_is_less_than_four_times_the_worst_error`). Cost: 7.2 Cortex-M4 instructions
-    /// (kernel `fif dyadic level`) a level for degree 1; as many levels as `u` has digits before its trailing zeros.
+    /// Error: at most [`Dyadic::error_bound`] (`an_error_bound_is_less_than_four_times_the_worst_error`).
+    /// Cost: 7.2 Cortex-M4 instructions (kernel `fif dyadic level`) a level for degree 1; as many levels as
+    /// `u` has digits before its trailing zeros.
     #[inline]
     pub fn at(&self, u: Angle) -> Real {
         real(self.word(u.to_bits()), self.fraction)
     }
 
-    /// A bound on the error of [`Dyadic::at`] for the maps of the function as it was compiled, scalings of 31 bits among them, rounded up: over
-    /// `1 - max|alpha|` half a unit of a word, one for each power above the first, and what coefficients and scalings lose as
-    /// words; beside it half a unit of the result. Hard cases reach half of it and more.
+    /// A bound on the error of [`Dyadic::at`] for the maps of the function as it was compiled, scalings of 31
+    /// bits among them, rounded up: over `1 - max|alpha|` half a unit of a word, one for each power above the
+    /// first, and what coefficients and scalings lose as words; beside it half a unit of the result. Hard
+    /// cases reach half of it and more.
     pub fn error_bound(&self) -> Real {
         self.error
     }
@@ -247,7 +255,8 @@ mod tests {
         }
     }
 
-    /// Digits that are taken one, two, three, four at a time make one function, addresses whose length is no multiple of them too.
+    /// Digits that are taken one, two, three, four at a time make one function, addresses whose length is no
+    /// multiple of them too.
     #[test]
     fn the_digits_a_step_do_not_change_the_function() {
         let knots = [(0, 1), (1, 3), (2, -2)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
@@ -307,8 +316,8 @@ mod tests {
         (*state >> 1) as i64 ^ (*state >> 33) as i64
     }
 
-    /// The value of the function of these maps with 80 fractional bits, from the last digit to the first: the abscissa is exact, a value loses less
-    /// than `D + 1` of its units a step.
+    /// The value of the function of these maps with 80 fractional bits, from the last digit to the first: the
+    /// abscissa is exact, a value loses less than `D + 1` of its units a step.
     fn exact<const D: usize>(f: &Fif<2, D>, u: u32) -> i128 {
         let mut y = i128::from(f.first) << 25;
         let mut t = 0_i128; // 32 fractional bits
@@ -323,8 +332,8 @@ mod tests {
         y
     }
 
-    /// The largest error over the bound, for functions of the degree whose values are below `2^height`, taking as many digits a step as there is room
-    /// for `M` maps. `gap` is `1 - max|alpha|` in sixteenths.
+    /// The largest error over the bound, for functions of the degree whose values are below `2^height`,
+    /// taking as many digits a step as there is room for `M` maps. `gap` is `1 - max|alpha|` in sixteenths.
     fn nearest<const M: usize, const D: usize>(height: u32, gap: i64) -> f64 {
         let mut state = u64::from(height) << 32 | gap as u64;
         let mut nearest = 0.0_f64;
@@ -342,7 +351,8 @@ mod tests {
                 c.iter_mut().take(D + 1).for_each(|c| *c = next(state) >> (18 - height + D as u32));
             }
             let join = |q: &mut [[i64; 5]; 2]| {
-                // f(2) = q_2(2) / (1 - alpha_2), f(0) = q_1(0) / (1 - alpha_1); q_1(2) + alpha_1 f(2) = q_2(0) + alpha_2 f(0)
+                // f(2) = q_2(2) / (1 - alpha_2), f(0) = q_1(0) / (1 - alpha_1); q_1(2) + alpha_1 f(2) =
+                // q_2(0) + alpha_2 f(0)
                 let at = |c: &[i64; 5], x: f64| c.iter().rev().fold(0.0, |sum, c| sum * x + *c as f64);
                 let [a, b] = scalings.map(|s| s.to_num::<f64>());
                 let (last, first) = (at(&q[1], 2.0) / (1.0 - b), at(&q[0], 0.0) / (1.0 - a));
@@ -371,7 +381,8 @@ mod tests {
         nearest
     }
 
-    /// Against integers with 80 fractional bits: none beyond the bound, and for each height and slope one above two fifths of it.
+    /// Against integers with 80 fractional bits: none beyond the bound, and for each height and slope one
+    /// above two fifths of it.
     #[test]
     fn an_error_bound_is_less_than_four_times_the_worst_error() {
         for height in [0, 2, 4, 6] {
@@ -388,7 +399,8 @@ mod tests {
         }
     }
 
-    /// Digits of an address that no step takes evenly: 32 bits, three or five or seven a step, the last one set.
+    /// Digits of an address that no step takes evenly: 32 bits, three or five or seven a step, the last one
+    /// set.
     #[test]
     fn an_address_of_32_digits_is_filled_up() {
         let knots = [(0, 1), (1, 3), (2, -2)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
@@ -430,7 +442,8 @@ mod tests {
         assert_eq!(halves.dyadic::<511>().map(|fast| fast.bits), Some(8));
     }
 
-    /// Against its formula in integers with 55 fractional bits: never below, and above by less than a unit of the result.
+    /// Against its formula in integers with 55 fractional bits: never below, and above by less than a unit of
+    /// the result.
     #[test]
     fn an_error_bound_is_that_of_its_formula() {
         let mut state = 11;

@@ -1,13 +1,16 @@
 //! How far a value can be from the exact one.
 //!
-//! Two things differ. The arithmetic: scalings have 31 bits, coefficients and products 55, the result 24. And the abscissa: places and knots of the unit
-//! interval have 63 bits and a pre-image is low by up to `2^-60`, so that elsewhere than on a dyadic partition the value is that of a point near `x`.
-//! Traced back along the address it lies within `2^-60 (1 + a + a a' + ...)` of `x`, `a, a', ...` the widths of the maps; there a rough function may
-//! differ much.
+//! Two things differ. The arithmetic: scalings have 31 bits, coefficients and products 55, the result 24. And
+//! the abscissa: places and knots of the unit interval have 63 bits and a pre-image is low by up to `2^-60`,
+//! so that elsewhere than on a dyadic partition the value is that of a point near `x`. Traced back along the
+//! address it lies within `2^-60 (1 + a + a a' + ...)` of `x`, `a, a', ...` the widths of the maps; there a
+//! rough function may differ much.
 //!
-//! How much follows from the maps. Over a cell of width `W` values differ by at most `C W^h` for any `h` in `(0, 1]` with `a_j^h > |alpha_j|`
-//! and `C` no less than `max f - min f` and `max|q_j'| / (a_j^h - |alpha_j|)`: by induction, `|alpha_j| C W^h + max|q_j'| W <= C (a_j W)^h`. Points `d` apart
-//! lie in one or two neighbouring cells less than `d / min a_j` wide, hence `|f(u) - f(v)| <= 2 C (d / min a_j)^h`.
+//! How much follows from the maps. Over a cell of width `W` values differ by at most `C W^h` for any `h` in
+//! `(0, 1]` with `a_j^h > |alpha_j|` and `C` no less than `max f - min f` and
+//! `max|q_j'| / (a_j^h - |alpha_j|)`: by induction, `|alpha_j| C W^h + max|q_j'| W <= C (a_j W)^h`. Points
+//! `d` apart lie in one or two neighbouring cells less than `d / min a_j` wide, hence
+//! `|f(u) - f(v)| <= 2 C (d / min a_j)^h`.
 //!
 //! Source: M. F. Barnsley, "Fractal functions and interpolation", 1986, on Hölder exponents.
 
@@ -22,31 +25,34 @@ const HALVING: u32 = 1 << 24;
 const EXPONENTIAL: u32 = 9;
 
 impl<const N: usize, const D: usize> Fif<N, D> {
-    /// A bound on the error of [`Fif::at`] at the abscissa that it has evaluated: `2^-32 max|f| / (1 - max|alpha|)` for scalings rounded to 31 bits, and
-    /// `2^-25` for the result's rounding, with all smaller terms and what a walk of 32,768 maps leaves out, rounded up.
+    /// A bound on the error of [`Fif::at`] at the abscissa that it has evaluated:
+    /// `2^-32 max|f| / (1 - max|alpha|)` for scalings rounded to 31 bits, and `2^-25` for the result's
+    /// rounding, with all smaller terms and what a walk of 32,768 maps leaves out, rounded up.
     ///
-    /// That abscissa is `x` on a dyadic partition of a domain as wide as a power of two, elsewhere one within `2^-40` of the domain from `x`:
-    /// for the value at `x` there is [`Fif::error_bound_at_x`].
+    /// That abscissa is `x` on a dyadic partition of a domain as wide as a power of two, elsewhere one within
+    /// `2^-40` of the domain from `x`: for the value at `x` there is [`Fif::error_bound_at_x`].
     pub fn error_bound(&self) -> Real {
         let steepest = self.steepest();
         let rest = ((ONE_UQ63 - steepest) >> 32).max(1);
         let largest = self.range.0.unsigned_abs().max(self.range.1.unsigned_abs());
-        // with 55 fractional bits: scalings 2^-32 max|f|, products and coefficients 2^-47, places the slope times their shift, for each level
+        // with 55 fractional bits: scalings 2^-32 max|f|, products and coefficients 2^-47, places the slope
+        // times their shift, for each level
         let per_level = (largest >> 32) + (1 << (FRACTION_Q55 - 47)) + (self.slope() >> self.shift());
         let sum = ratio(per_level, 31, rest).saturating_add(self.left_out(steepest));
         up(sum.saturating_add(1 << (FRACTION_Q55 - 25)).saturating_add(1 << (FRACTION_Q55 - 30)))
     }
 
-    /// A bound on the error of [`Fif::at`] against the value at `x` itself, whatever the partition: [`Fif::error_bound`] and, where the abscissa
-    /// is not exact, [`Fif::oscillation`] over the distance by which it may be off.
+    /// A bound on the error of [`Fif::at`] against the value at `x` itself, whatever the partition:
+    /// [`Fif::error_bound`] and, where the abscissa is not exact, [`Fif::oscillation`] over the distance by
+    /// which it may be off.
     pub fn error_bound_at_x(&self) -> Real {
         let exact = self.width.is_power_of_two() && self.maps.iter().all(|m| m.width.is_power_of_two());
         let moved = if exact { Real::ZERO } else { self.oscillation(self.shift()) };
         self.error_bound().saturating_add(moved)
     }
 
-    /// A bound on how far the values at two abscissae differ that are at most `2^-halvings` of the domain apart, rounded up: of Hölder's type, or the
-    /// range of the function where that is less.
+    /// A bound on how far the values at two abscissae differ that are at most `2^-halvings` of the domain
+    /// apart, rounded up: of Hölder's type, or the range of the function where that is less.
     ///
     /// Cost: 64 exponentials a map.
     pub fn oscillation(&self, halvings: u32) -> Real {
@@ -93,7 +99,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         60_u32.saturating_sub(64 - (sum - 1).leading_zeros())
     }
 
-    /// What is left of the function after the longest walk: `max|alpha|^levels (max f - min f)`, 55 fractional bits.
+    /// What is left of the function after the longest walk: `max|alpha|^levels (max f - min f)`, 55
+    /// fractional bits.
     fn left_out(&self, steepest: u64) -> u64 {
         if self.levels < LEVELS {
             return 0;
@@ -106,7 +113,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 
 /// At most so many halvings lead from 1 to a width with 63 fractional bits, 24 fractional bits.
 fn halvings_to(width: u64) -> u32 {
-    // a width is off by less than a unit, and none is below half of one; a logarithm by less than one of its own
+    // a width is off by less than a unit, and none is below half of one; a logarithm by less than one of its
+    // own
     if width < 2 { 64 * HALVING } else { 63 * HALVING + 1 - log2(width - 1) }
 }
 
@@ -144,7 +152,8 @@ mod tests {
         Fif::interpolating(&knots, &[scaling; 2]).unwrap()
     }
 
-    /// Near a third of the tent all terms are `2/3` of the height: a scaling that is half a unit off moves the value as far as it can.
+    /// Near a third of the tent all terms are `2/3` of the height: a scaling that is half a unit off moves
+    /// the value as far as it can.
     #[test]
     fn an_error_bound_is_less_than_four_times_the_worst_error() {
         let scaling = Scaling::from_num(0.95);
@@ -196,14 +205,16 @@ mod tests {
         assert_eq!(halvings_to(1), 64 * HALVING);
     }
 
-    /// The tent over halves: over a distance of `2^-k` its values differ by what is left after `k` maps at least.
+    /// The tent over halves: over a distance of `2^-k` its values differ by what is left after `k` maps at
+    /// least.
     #[test]
     fn an_oscillation_is_that_of_hoelders_exponent() {
         for (scaling, looseness) in [(0.5_f64, 16.0), (0.75, 8.0), (0.9375, 8.0)] {
             let f = tent(1, Scaling::from_num(scaling));
             let highest = 2.0 / 3.0 / (1.0 - scaling);
             for k in [1, 4, 10, 20, 40] {
-                // from 0 up to the highest place of the first cell of level k: alpha^k of the function, and the straight part
+                // from 0 up to the highest place of the first cell of level k: alpha^k of the function, and
+                // the straight part
                 let at_least = highest * scaling.powi(k);
                 let got = f.oscillation(k as u32).to_num::<f64>();
                 assert!(got >= at_least.min(highest), "{scaling} {k}: {got} below {at_least}");
@@ -271,7 +282,8 @@ mod tests {
         }
     }
 
-    /// Against its formula in integers with 95 fractional bits: never below, and above by less than a unit of the result.
+    /// Against its formula in integers with 95 fractional bits: never below, and above by less than a unit of
+    /// the result.
     #[test]
     fn an_error_bound_is_that_of_its_formula() {
         let mut state = 3_u64;
@@ -291,7 +303,8 @@ mod tests {
             assert!(f.levels < LEVELS);
             let largest = u128::from(f.range.0.unsigned_abs().max(f.range.1.unsigned_abs()));
             let slope = f.maps.iter().map(|m| u128::from(m.q.powers[0].unsigned_abs())).max().unwrap();
-            // a quarter, a quarter, a half: 1 + 1/2 + ... is below 3, so that the abscissa moves by less than 3 2^-60
+            // a quarter, a quarter, a half: 1 + 1/2 + ... is below 3, so that the abscissa moves by less than
+            // 3 2^-60
             let shares = [largest << 8, 1 << 48, slope >> 18]
                 .map(|share| ((share << 24) / u128::from((1 << 31) - steepest)) << 7);
             let exact = shares.iter().sum::<u128>() + (1 << 70) + (1 << 65);

@@ -1,9 +1,11 @@
 //! The value at an abscissa, by a forward walk along its address.
 //!
-//! `f(x) = q_j1(u_1) + alpha_j1 q_j2(u_2) + alpha_j1 alpha_j2 q_j3(u_3) + ...`, `u_k` the `k`-th pre-image of `x`. The walk ends exactly where a pre-image is
-//! an end of the domain (after finitely many maps for a dyadic abscissa on a dyadic partition), or when the product of the horizontal factors
-//! is below `2^-63` (then the value is exact at an abscissa no further away than that), or when that of the scalings is below `2^-40`,
-//! or after [`super::bounds::LEVELS`] maps. How far the value can then be from that at `x`: `error.rs`.
+//! `f(x) = q_j1(u_1) + alpha_j1 q_j2(u_2) + alpha_j1 alpha_j2 q_j3(u_3) + ...`, `u_k` the `k`-th pre-image of
+//! `x`. The walk ends exactly where a pre-image is an end of the domain (after finitely many maps for a
+//! dyadic abscissa on a dyadic partition), or when the product of the horizontal factors is below `2^-63`
+//! (then the value is exact at an abscissa no further away than that), or when that of the scalings is below
+//! `2^-40`, or after [`super::bounds::LEVELS`] maps. How far the value can then be from that at `x`:
+//! `error.rs`.
 //!
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
@@ -33,12 +35,13 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The value at `x`.
     ///
     /// Domain: abscissae outside count as the nearer end. Error: at most [`Fif::error_bound_at_x`]; at most
-    /// [`Fif::error_bound`] on a dyadic partition, elsewhere at an abscissa no further than `2^-40` of the domain from `x`
-    /// (`values_at_x_keep_their_bound_on_any_partition`, `values_are_exact_at_an_abscissa_within_two_to_the_minus_40`).
-    /// Cost: 106 Cortex-M4 instructions (kernel `fif level`) a level on two equal intervals; at most 63 levels for two equal maps, as many as it takes until the
-    /// product of the widths is below `2^-63` or that of the scalings below `2^-40` elsewhere, and
-    /// never more than 32,768;
-    /// [`super::Dyadic`] takes 7.2 (kernel `fif dyadic level`) where the partition is dyadic.
+    /// [`Fif::error_bound`] on a dyadic partition, elsewhere at an abscissa no further than `2^-40` of the
+    /// domain from `x` (`values_at_x_keep_their_bound_on_any_partition`,
+    /// `values_are_exact_at_an_abscissa_within_two_to_the_minus_40`). Cost: 106 Cortex-M4 instructions
+    /// (kernel `fif level`) a level on two equal intervals; at most 63 levels for two equal maps, as many as
+    /// it takes until the product of the widths is below `2^-63` or that of the scalings below `2^-40`
+    /// elsewhere, and never more than 32,768; [`super::Dyadic`] takes 7.2 (kernel `fif dyadic level`) where
+    /// the partition is dyadic.
     pub fn at(&self, x: Wide) -> Real {
         real_from(self.evaluate(self.unit(x)), FRACTION_Q55)
     }
@@ -120,7 +123,8 @@ mod tests {
         assert!(steepest >= 20, "{steepest}");
     }
 
-    /// The ends of walks are where the exact product of the widths is below `2^-63`, a thousandth of the maps more or less.
+    /// The ends of walks are where the exact product of the widths is below `2^-63`, a thousandth of the maps
+    /// more or less.
     #[test]
     fn a_walk_ends_with_the_product_of_its_widths() {
         let f = two(10 << 48, 10_001 << 40, [Scaling::from_num(0.999), Scaling::from_num(0.5)]).unwrap();
@@ -148,8 +152,8 @@ mod tests {
         }
     }
 
-    /// A function over `[-2^14, 2^14]`, whose abscissae have 63 digits, with halves for scalings: the value from the last digit to the first with 118
-    /// fractional bits, each of them exact.
+    /// A function over `[-2^14, 2^14]`, whose abscissae have 63 digits, with halves for scalings: the value
+    /// from the last digit to the first with 118 fractional bits, each of them exact.
     #[test]
     fn a_walk_ends_where_its_scalings_are_below_two_to_the_minus_40() {
         let knots =
@@ -220,8 +224,9 @@ mod tests {
         assert_eq!((f.at_wide(Wide::MIN), f.at_wide(Wide::MAX)), (knots[0].y, knots[2].y));
     }
 
-    /// Near the end of a wide part: a walk goes on until the product of its own widths has vanished. The distance to the end grows by 4/3 a map:
-    /// `g(d) = alpha g(4 d / 3) - c 4 d / 3` for the distance of the value from the last.
+    /// Near the end of a wide part: a walk goes on until the product of its own widths has vanished. The
+    /// distance to the end grows by 4/3 a map: `g(d) = alpha g(4 d / 3) - c 4 d / 3` for the distance of the
+    /// value from the last.
     #[test]
     fn a_walk_along_a_wide_part_is_as_long_as_its_widths_ask() {
         let knots = [(0, 0), (1, 2), (4, 1)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));

@@ -27,8 +27,8 @@ impl Knot {
 
     /// The knot `(x, y)` from decimal literals, for constants: `const TOP: Knot = Knot::lit("0.5", "1")`.
     ///
-    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
-    /// [Numbers](crate::num#numbers).
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in
+    /// `const { }` only: see [Numbers](crate::num#numbers).
     pub const fn lit(x: &str, y: &str) -> Self {
         Self::new(Wide::lit(x), Wide::lit(y))
     }
@@ -76,8 +76,9 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// The function through the knots with affine polynomials (eq. 10-11), the ordinary construction.
     ///
     /// # Errors
-    /// [`Error::TooFew`] knots (2 at least), [`Error::Capacity`] for more than `N + 1` knots or `D` = 0, [`Error::LengthMismatch`] of the scalings,
-    /// [`Error::NotIncreasing`], [`Error::OutOfRange`] for a scaling of -1, a value or a range of the function of 128 or more.
+    /// [`Error::TooFew`] knots (2 at least), [`Error::Capacity`] for more than `N + 1` knots or `D` = 0,
+    /// [`Error::LengthMismatch`] of the scalings, [`Error::NotIncreasing`], [`Error::OutOfRange`] for a
+    /// scaling of -1, a value or a range of the function of 128 or more.
     pub fn interpolating(knots: &[Knot], vertical_scaling: &[Scaling]) -> Result<Self, Error> {
         if D == 0 {
             return Err(Error::Capacity { what: POWERS, needed: 1, capacity: 0 });
@@ -107,11 +108,12 @@ impl<const N: usize, const D: usize> Fif<N, D> {
         })
     }
 
-    /// The function with given polynomials `q_j(x)`, constant coefficient first (eq. 8-9); the knots' values follow from the maps.
+    /// The function with given polynomials `q_j(x)`, constant coefficient first (eq. 8-9); the knots' values
+    /// follow from the maps.
     ///
     /// # Errors
-    /// As [`Fif::interpolating`]; [`Error::Capacity`] for a degree above `D`; [`Error::NotJoined`] if two maps disagree at their knot by more than
-    /// `2^-22`.
+    /// As [`Fif::interpolating`]; [`Error::Capacity`] for a degree above `D`; [`Error::NotJoined`] if two
+    /// maps disagree at their knot by more than `2^-22`.
     pub fn from_polynomials(
         knots_x: &[Wide],
         vertical_scaling: &[Scaling],
@@ -451,7 +453,8 @@ mod tests {
         assert_eq!((real_above(i64::MAX), real_below(i64::MIN)), (Real::MAX, Real::MIN));
     }
 
-    /// A polynomial of `x` on the unit interval: `2 - 3 x + x^2 / 2` over `[-3, 5]` is `31/2 - 48 u + 32 u^2`; halves of a unit are rounded upwards.
+    /// A polynomial of `x` on the unit interval: `2 - 3 x + x^2 / 2` over `[-3, 5]` is
+    /// `31/2 - 48 u + 32 u^2`; halves of a unit are rounded upwards.
     #[test]
     fn coefficients_are_those_of_the_unit_interval() {
         let wide = |v: f64| Wide::from_num(v);

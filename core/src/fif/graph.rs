@@ -33,8 +33,8 @@ pub struct Graph<'a, const N: usize, const D: usize> {
 }
 
 impl<const N: usize, const D: usize> Fif<N, D> {
-    /// The path through the points over `i / segments` of the domain, `i = 0 ... segments`. Between them a rough function reaches further: how far says
-    /// [`Fif::oscillation`]. Cost: one evaluation a point.
+    /// The path through the points over `i / segments` of the domain, `i = 0 ... segments`. Between them a
+    /// rough function reaches further: how far says [`Fif::oscillation`]. Cost: one evaluation a point.
     pub fn graph(&self, segments: u32) -> Graph<'_, N, D> {
         Graph { fif: self, next: 0, last: segments.clamp(1, u32::MAX - 1) }
     }

@@ -1,4 +1,5 @@
-//! One map of a function: `(u, y) -> (start + width u, scaling y + q(u))`, the shear and shrinking of the whole graph that makes one part of it.
+//! One map of a function: `(u, y) -> (start + width u, scaling y + q(u))`, the shear and shrinking of the
+//! whole graph that makes one part of it.
 
 use super::polynomial::Polynomial;
 use crate::num::Reciprocal;

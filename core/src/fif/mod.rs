@@ -2,12 +2,14 @@
 //!
 #![doc = include_str!("../../docs/fif.md")]
 //!
-//! `f(L_j(x)) = alpha_j f(x) + q_j(x)`, `L_j` the affine map of the whole domain onto the interval between knots `j - 1` and `j`.
+//! `f(L_j(x)) = alpha_j f(x) + q_j(x)`, `L_j` the affine map of the whole domain onto the interval between
+//! knots `j - 1` and `j`.
 //!
-//! Source: W. O. Cochran, R. R. Lewis, J. C. Hart, "The Normal of a Fractal Surface", 2000, sections 2 and 3; M. F. Barnsley, "Fractal
-//! functions and interpolation", 1986.
+//! Source: W. O. Cochran, R. R. Lewis, J. C. Hart, "The Normal of a Fractal Surface", 2000, sections 2 and 3;
+//! M. F. Barnsley, "Fractal functions and interpolation", 1986.
 //!
-//! Inside, the abscissa `u = (x - x_0) / (x_N - x_0)` runs over `[0, 1]` with 63 fractional bits, values have 55.
+//! Inside, the abscissa `u = (x - x_0) / (x_N - x_0)` runs over `[0, 1]` with 63 fractional bits, values
+//! have 55.
 
 mod bounds;
 mod calculus;

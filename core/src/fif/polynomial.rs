@@ -1,7 +1,9 @@
-//! Polynomials on the unit interval with 55 fractional bits, and what a fractal interpolation function asks of them.
+//! Polynomials on the unit interval with 55 fractional bits, and what a fractal interpolation function asks
+//! of them.
 //!
-//! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients stays below 256, so that no
-//! partial sum of Horner's scheme leaves 64 bits, here and on any part of the interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
+//! `p(t) = constant + c_1 t + ... + c_D t^D`, `0 <= t <= 1`. The sum of the magnitudes of the coefficients
+//! stays below 256, so that no partial sum of Horner's scheme leaves 64 bits, here and on any part of the
+//! interval: `|p(h s + t)|_1 <= |p|_1` for `h + t <= 1`.
 
 use super::value::ONE_UQ63;
 use crate::num::{mul_high, mul_high_short, mul_high_u, nth, product_u};
@@ -14,7 +16,8 @@ pub(crate) struct Polynomial<const D: usize> {
     pub(crate) powers: [i64; D],
 }
 
-/// `value * t` for an abscissa with 63 fractional bits. Error: below 2 units, towards minus infinity; exact for `t` = 1 (`products_are_low_by_less_than_they_say`).
+/// `value * t` for an abscissa with 63 fractional bits. Error: below 2 units, towards minus infinity; exact
+/// for `t` = 1 (`products_are_low_by_less_than_they_say`).
 ///
 /// Out of line: constructors ask for many.
 #[inline(never)]
@@ -51,13 +54,15 @@ pub(crate) fn by_scaling(a: i64, scaling: i64) -> i64 {
     }
 }
 
-/// `a b`, both with 63 fractional bits, for `a` below 1. Error: below a unit, downwards (`products_are_low_by_less_than_they_say`).
+/// `a b`, both with 63 fractional bits, for `a` below 1. Error: below a unit, downwards
+/// (`products_are_low_by_less_than_they_say`).
 #[inline(never)]
 pub(crate) fn part_of(a: u64, b: u64) -> u64 {
     mul_high_u(a << 1, b)
 }
 
-/// The same in the chaos game. The widths of a dyadic partition have few digits: half of the products are spared.
+/// The same in the chaos game. The widths of a dyadic partition have few digits: half of the products are
+/// spared.
 #[inline(always)]
 pub(crate) fn part_by_width(a: u64, width: u64) -> u64 {
     if width as u32 != 0 {
@@ -70,7 +75,8 @@ pub(crate) fn part_by_width(a: u64, width: u64) -> u64 {
 impl<const D: usize> Polynomial<D> {
     pub(crate) const ZERO: Self = Self { constant: 0, powers: [0; D] };
 
-    /// The value at `t`. Error: below `2 D` units (`a_polynomial_keeps_its_bounds`). Cost: `D` products of 64 bits.
+    /// The value at `t`. Error: below `2 D` units (`a_polynomial_keeps_its_bounds`). Cost: `D` products of 64
+    /// bits.
     #[inline]
     pub(crate) fn at(&self, t: u64) -> i64 {
         let mut sum = 0_i64;
@@ -97,8 +103,8 @@ impl<const D: usize> Polynomial<D> {
         self.powers.iter().rposition(|c| *c != 0).map_or(0, |i| i + 1)
     }
 
-    /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D` units a coefficient
-    /// (`a_polynomial_keeps_its_bounds`).
+    /// `p(start + width s)` as a polynomial in `s` (eq. 28), for `start + width <= 1`. Error: below `4 D`
+    /// units a coefficient (`a_polynomial_keeps_its_bounds`).
     #[inline(never)]
     pub(crate) fn part(&self, start: u64, width: u64) -> Self {
         let mut part = Self::ZERO;
@@ -132,13 +138,15 @@ impl<const D: usize> Polynomial<D> {
         derivative
     }
 
-    /// The mean over the unit interval, `sum of c_k / (k + 1)`. Error: below `D` units (`a_polynomial_keeps_its_bounds`).
+    /// The mean over the unit interval, `sum of c_k / (k + 1)`. Error: below `D` units
+    /// (`a_polynomial_keeps_its_bounds`).
     pub(crate) fn mean(&self) -> i64 {
         self.powers.iter().zip(2..).fold(self.constant, |sum, (c, n)| sum.wrapping_add(nth(*c, n)))
     }
 
-    /// Least and greatest value on the unit interval, outward: the hull of the Bernstein coefficients. Exact for degree 1, else wide by
-    /// a part of the second differences, which shrink with the square of the interval; above degree 16 the sum of all magnitudes.
+    /// Least and greatest value on the unit interval, outward: the hull of the Bernstein coefficients. Exact
+    /// for degree 1, else wide by a part of the second differences, which shrink with the square of the
+    /// interval; above degree 16 the sum of all magnitudes.
     pub(crate) fn range(&self) -> (i64, i64) {
         match self.powers.as_slice() {
             [] => (self.constant, self.constant),
@@ -212,7 +220,8 @@ mod tests {
         }
     }
 
-    /// Words of which a few are at the ends of what is allowed, by an LCG (Knuth, TAOCP vol. 2, 3.3.4, table 1, line 26).
+    /// Words of which a few are at the ends of what is allowed, by an LCG (Knuth, TAOCP vol. 2, 3.3.4, table
+    /// 1, line 26).
     fn words() -> impl Iterator<Item = i64> {
         let mut state = 7_u64;
         core::iter::repeat_with(move || {
@@ -305,7 +314,8 @@ mod tests {
         assert!((p.derivative().mean() - (p.at(ONE_UQ63) - p.at(0))).abs() < 8);
     }
 
-    /// Against exact values at eighths: none outside, and the ends of Bernstein's coefficients within the pad.
+    /// Against exact values at eighths: none outside, and the ends of Bernstein's coefficients within the
+    /// pad.
     #[test]
     fn a_range_holds_every_value() {
         for i in 1..3000_i64 {
@@ -346,7 +356,8 @@ mod tests {
         assert_eq!(p(60, [60, -60, 60, -60]).mean(), 60 + 30 - 20 + 15 - 12);
     }
 
-    /// Above degree 16 the sum of all magnitudes; at 16 still the Bernstein coefficients, whose binomials are the largest.
+    /// Above degree 16 the sum of all magnitudes; at 16 still the Bernstein coefficients, whose binomials are
+    /// the largest.
     #[test]
     fn a_range_of_a_high_degree_holds_the_ends() {
         // 2^46 (1 - t)^n: between 0 and 2^46, its coefficients C(n, k) with alternating signs

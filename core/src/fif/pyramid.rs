@@ -1,13 +1,14 @@
 //! What is known about a function above each of its cells: range, mean and mean slope, level by level.
 //!
 //! A cell of level `k` belongs to an address of `k` maps. With `I_w` the interval of the address `w`,
-//! - range: `B(j w) = alpha_j B(w) + range of q_j over I_w`, rigorous for any rigorous `B(w)`; then each parent becomes the hull of its
-//!   children and the finest level is computed again from its tightened parents, until nothing changes;
+//! - range: `B(j w) = alpha_j B(w) + range of q_j over I_w`, rigorous for any rigorous `B(w)`; then each
+//!   parent becomes the hull of its children and the finest level is computed again from its tightened
+//!   parents, until nothing changes;
 //! - mean: `m(j w) = alpha_j m(w) + mean of q_j over I_w`;
 //! - slope: `s(j w) = (alpha_j s(w) + mean of q_j' over I_w / (x_N - x_0)) / a_j`.
 //!
-//! No polynomial is ever composed. Ranges are rounded outward. After Cochran, Lewis, Hart, eq. 47-48, which need composites and give
-//! boxes two to three times as many.
+//! No polynomial is ever composed. Ranges are rounded outward. After Cochran, Lewis, Hart, eq. 47-48, which
+//! need composites and give boxes two to three times as many.
 
 use super::function::Fif;
 use super::map::Map;
@@ -26,8 +27,8 @@ pub struct Cell {
     pub max: Real,
     /// Mean value. Error: below `2^-23 / (1 - max|alpha|)` (row `Cell::mean (integral of g)`).
     pub mean: Real,
-    /// Mean slope, `(f(x1) - f(x0)) / (x1 - x0)`, saturated. Error: `2^-23 / (1 - max|alpha_j / a_j|)` where that is
-    /// positive (row `Cell::slope (integral of g)`).
+    /// Mean slope, `(f(x1) - f(x0)) / (x1 - x0)`, saturated. Error: `2^-23 / (1 - max|alpha_j / a_j|)` where
+    /// that is positive (row `Cell::slope (integral of g)`).
     pub slope: Real,
 }
 
@@ -36,7 +37,8 @@ impl Cell {
     pub const ZERO: Self = Self { min: Real::ZERO, max: Real::ZERO, mean: Real::ZERO, slope: Real::ZERO };
 }
 
-/// The cells of a function from the whole domain (level 0) down to level `depth`, in memory lent by the caller.
+/// The cells of a function from the whole domain (level 0) down to level `depth`, in memory lent by the
+/// caller.
 ///
 /// ```
 /// use attractor::fif::{Cell, Fif, Knot, Pyramid};
@@ -62,7 +64,8 @@ pub struct Pyramid<'a> {
 }
 
 impl Pyramid<'static> {
-    /// How many cells the levels 0 to `depth` of a function of `maps` maps have: the length of the memory to lend.
+    /// How many cells the levels 0 to `depth` of a function of `maps` maps have: the length of the memory to
+    /// lend.
     pub const fn cells(maps: usize, depth: u32) -> usize {
         let (offset, count) = level_at(maps, depth);
         offset.saturating_add(count)
@@ -75,11 +78,12 @@ impl Pyramid<'static> {
 impl<'a> Pyramid<'a> {
     /// The pyramid of `fif` down to level `depth`.
     ///
-    /// Cost: at most 128 passes over the finest level, one product of 64 bits for each coefficient, scaling and cell; the passes end when no bound moves
-    /// (about 20 for a function with scalings of 1/2).
+    /// Cost: at most 128 passes over the finest level, one product of 64 bits for each coefficient, scaling
+    /// and cell; the passes end when no bound moves (about 20 for a function with scalings of 1/2).
     ///
     /// # Errors
-    /// [`Error::BufferLength`] if `memory` is shorter than [`Pyramid::cells`]; [`Error::Capacity`] for a depth above [`Pyramid::MAX_DEPTH`].
+    /// [`Error::BufferLength`] if `memory` is shorter than [`Pyramid::cells`]; [`Error::Capacity`] for a
+    /// depth above [`Pyramid::MAX_DEPTH`].
     pub fn new<const N: usize, const D: usize>(
         fif: &'a Fif<N, D>,
         depth: u32,
@@ -152,14 +156,16 @@ impl<'a> Pyramid<'a> {
         (self.x0, self.width)
     }
 
-    /// Bounds of the function above `[from, to]`, outward by `2^-25` of the domain and to the cells of the finest level. Cost: `2 depth * maps` cells.
+    /// Bounds of the function above `[from, to]`, outward by `2^-25` of the domain and to the cells of the
+    /// finest level. Cost: `2 depth * maps` cells.
     pub fn bounds(&self, from: crate::num::Wide, to: crate::num::Wide) -> (Real, Real) {
         let whole = crate::num::Reciprocal::of(self.width);
         let unit = |x: crate::num::Wide| {
             let distance = if x.to_bits() < self.x0 { 0 } else { x.to_bits().wrapping_sub(self.x0) as u64 };
             whole.quotient(distance.min(self.width)) >> 32
         };
-        // Places of cells are rounded down to 2^-31, by at most two units a level: look that much to both sides.
+        // Places of cells are rounded down to 2^-31, by at most two units a level: look that much to both
+        // sides.
         const PAD: u64 = 1 << 6;
         let (from, to) = (unit(from.min(to)).saturating_sub(PAD), unit(from.max(to)) + PAD);
         let mut hull = (Real::MAX, Real::MIN);
@@ -200,7 +206,8 @@ struct Span {
 impl Span {
     const WHOLE: Self = Self { index: 0, start: 0, width: 1 << 31 };
 
-    /// The part that holds `u`; ends count to the part on their left, so that the first part of width 0 holds 0.
+    /// The part that holds `u`; ends count to the part on their left, so that the first part of width 0
+    /// holds 0.
     fn child(self, starts: &[u32], u: u64) -> Self {
         let place = |s: u32| self.start + ((u64::from(s) * self.width) >> 31);
         let j = starts.partition_point(|s| place(*s) < u).saturating_sub(1);
@@ -310,7 +317,8 @@ fn interval<const D: usize>(maps: &[Map<D>], index: usize, level: u32) -> (u64, 
     (start, width)
 }
 
-/// How a map changes mean slopes: `s -> ratio s + mean of steepness`, `ratio = alpha_j / a_j`, `steepness = q_j' / (a_j (x_N - x_0))`.
+/// How a map changes mean slopes: `s -> ratio s + mean of steepness`, `ratio = alpha_j / a_j`,
+/// `steepness = q_j' / (a_j (x_N - x_0))`.
 struct Slopes<const D: usize> {
     /// 40 fractional bits.
     ratio: i64,
@@ -368,7 +376,8 @@ mod tests {
         (scaled[0].min(scaled[1]) + ends[0].min(ends[1]), scaled[0].max(scaled[1]) + ends[0].max(ends[1]))
     }
 
-    /// Against integers: outward, by less than two units, and where the exact end lies just above or below a number of the format.
+    /// Against integers: outward, by less than two units, and where the exact end lies just above or below a
+    /// number of the format.
     #[test]
     fn a_range_is_rounded_outward_by_less_than_two_units() {
         let mut touching = 0;
@@ -433,7 +442,8 @@ mod tests {
         let cells = pyramid.level(7);
         for (index, pair) in cells.windows(2).enumerate() {
             let (start, _) = interval(&f.maps, index + 1, 7);
-            // 3 times the place, 48 fractional bits, towards minus infinity; a place is low by less than 2^-58
+            // 3 times the place, 48 fractional bits, towards minus infinity; a place is low by less than
+            // 2^-58
             let x = ((u128::from(start) * 3) >> 15) as i64;
             for (x, cell) in [(x - 4, pair[0]), (x + 4, pair[1])] {
                 let x = Wide::from_bits(x);
@@ -458,7 +468,8 @@ mod tests {
         Fif::<2, 1>::interpolating(&knots, &[0.75, -0.5].map(Scaling::from_num)).unwrap()
     }
 
-    /// Against the function and its integral at the ends of each cell: `(F(x1) - F(x0)) / (x1 - x0)` and `(f(x1) - f(x0)) / (x1 - x0)`.
+    /// Against the function and its integral at the ends of each cell: `(F(x1) - F(x0)) / (x1 - x0)` and
+    /// `(f(x1) - f(x0)) / (x1 - x0)`.
     #[test]
     fn means_and_slopes_of_cells_are_those_of_their_ends() {
         let f = rough();
@@ -524,7 +535,8 @@ mod tests {
         }
     }
 
-    /// The hull of the cells that an interval touches, 64 units of `2^-31` of the domain to either side: as many as there are.
+    /// The hull of the cells that an interval touches, 64 units of `2^-31` of the domain to either side: as
+    /// many as there are.
     #[test]
     fn bounds_are_the_hull_of_the_cells_they_touch() {
         let f = rough();

@@ -1,7 +1,8 @@
 //! Tensor-product surfaces `h(x, y) = f(x) g(y)`, their exact normals and the mean normal over a footprint.
 //!
 //! `N = (-f'(x) g(y), -f(x) g'(y), 1)` (eq. 41-45). The mean of `h_x` over `[x0, x1] x [y0, y1]` is
-//! `(f(x1) - f(x0)) (G(y1) - G(y0)) / area`, `G` the integral of `g`: one evaluation a corner instead of many samples.
+//! `(f(x1) - f(x0)) (G(y1) - G(y0)) / area`, `G` the integral of `g`: one evaluation a corner instead of many
+//! samples.
 //!
 //! Source: Cochran, Lewis, Hart, section 3.1; the mean is left as future work there (section 6.1).
 
@@ -22,7 +23,8 @@ pub struct Factor<const N: usize, const D: usize> {
 }
 
 impl<const N: usize, const D: usize> Factor<N, D> {
-    /// The factor whose derivative is `slope` (the paper models a surface by its derivative, eq. 2), with the value `initial` at `x_0`.
+    /// The factor whose derivative is `slope` (the paper models a surface by its derivative, eq. 2), with the
+    /// value `initial` at `x_0`.
     ///
     /// # Errors
     /// Those of [`Fif::integral`].
@@ -85,14 +87,14 @@ impl<'a, const N: usize, const D: usize, const M: usize, const E: usize> Surface
         Self { f, g }
     }
 
-    /// The height at `(x, y)`, saturated. Error: `|f| err(g) + |g| err(f)`, see [`Fif::error_bound_at_x`], and
-    /// `2^-25` (row `Surface::height (f x g)`).
+    /// The height at `(x, y)`, saturated. Error: `|f| err(g) + |g| err(f)`, see [`Fif::error_bound_at_x`],
+    /// and `2^-25` (row `Surface::height (f x g)`).
     pub fn height(&self, x: Wide, y: Wide) -> Real {
         product(self.f.value.evaluate(self.f.value.unit(x)), self.g.value.evaluate(self.g.value.unit(y)))
     }
 
-    /// The partial derivatives `(h_x, h_y)` at `(x, y)` (eq. 42-43), saturated. Error: below `2^-18` for factors and slopes up to 8
-    /// (row `Surface::partials (f x g)`).
+    /// The partial derivatives `(h_x, h_y)` at `(x, y)` (eq. 42-43), saturated. Error: below `2^-18` for
+    /// factors and slopes up to 8 (row `Surface::partials (f x g)`).
     pub fn partials(&self, x: Wide, y: Wide) -> (Real, Real) {
         let (u, v) = (self.f.value.unit(x), self.g.value.unit(y));
         let (f, df) = (self.f.value.evaluate(u), self.f.slope.evaluate(u));
@@ -106,8 +108,8 @@ impl<'a, const N: usize, const D: usize, const M: usize, const E: usize> Surface
         Vec3::new(hx.saturating_neg(), hy.saturating_neg(), Real::ONE)
     }
 
-    /// The mean of [`Surface::normal`] over `[x0, x1] x [y0, y1]`, in closed form. Parts outside the domain do not count; an empty interval
-    /// counts as its point.
+    /// The mean of [`Surface::normal`] over `[x0, x1] x [y0, y1]`, in closed form. Parts outside the domain
+    /// do not count; an empty interval counts as its point.
     pub fn mean_normal(&self, x: (Wide, Wide), y: (Wide, Wide)) -> Vec3 {
         let (df, f) = self.f.means(x.0, x.1);
         let (dg, g) = self.g.means(y.0, y.1);

@@ -45,10 +45,11 @@ impl Affine {
         Self { a, b, c, d, e, f }
     }
 
-    /// The map whose coefficients `[a, b, c, d, e, f]` are these numbers over a common denominator; for constants.
+    /// The map whose coefficients `[a, b, c, d, e, f]` are these numbers over a common denominator; for
+    /// constants.
     ///
-    /// Domain: the denominator positive (less counts as 1); coefficients saturate at the ends of their formats, 2 and 128.
-    /// Error: half a unit in the last place, `2^-31` in `a b c d` and `2^-25` in `e f`
+    /// Domain: the denominator positive (less counts as 1); coefficients saturate at the ends of their
+    /// formats, 2 and 128. Error: half a unit in the last place, `2^-31` in `a b c d` and `2^-25` in `e f`
     /// (`ratios_become_the_nearest_coefficients`).
     pub const fn from_ratios(numerators: [i32; 6], denominator: i32) -> Self {
         let [a, b, c, d, e, f] = numerators;
@@ -62,7 +63,8 @@ impl Affine {
         }
     }
 
-    /// [`Affine::from_ratios`] in thousandths: `from_thousandths([850, 40, -40, 850, 0, 1600])` is the fern's second map.
+    /// [`Affine::from_ratios`] in thousandths: `from_thousandths([850, 40, -40, 850, 0, 1600])` is the fern's
+    /// second map.
     pub const fn from_thousandths(coefficients: [i32; 6]) -> Self {
         Self::from_ratios(coefficients, 1_000)
     }
@@ -74,11 +76,12 @@ impl Affine {
 
     /// The image of a point.
     ///
-    /// Domain: all; a result outside [`Real`] saturates. Error: half a unit in the last place of each coordinate, from one rounding
-    /// (`a_map_is_applied_with_one_rounding`). Cost: 4 multiplications.
+    /// Domain: all; a result outside [`Real`] saturates. Error: half a unit in the last place of each
+    /// coordinate, from one rounding (`a_map_is_applied_with_one_rounding`). Cost: 4 multiplications.
     pub fn apply(&self, p: Point2) -> Point2 {
         let row = |l: Unit, m: Unit, t: Real| {
-            // The sum leaves 64 bits only for l = m = -2, x = y = -128: saturating costs one unit of 2^-54 there.
+            // The sum leaves 64 bits only for l = m = -2, x = y = -128: saturating costs one unit of 2^-54
+            // there.
             let sum = product_q54(l, p.x).saturating_add(product_q54(m, p.y)).saturating_add(translated(t));
             Real::from_bits((sum >> 30).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
         };
@@ -135,8 +138,8 @@ impl Affine {
 
     /// An upper bound of the largest singular value: distances shrink at least by this factor.
     ///
-    /// Domain: all; saturates at the end of the format, 2. Error: above the exact value by less than `2^-29`, never below
-    /// (`the_contraction_factor_bounds_the_largest_singular_value`). Cost: two square roots.
+    /// Domain: all; saturates at the end of the format, 2. Error: above the exact value by less than `2^-29`,
+    /// never below (`the_contraction_factor_bounds_the_largest_singular_value`). Cost: two square roots.
     pub fn contraction_factor(&self) -> Unit {
         if !self.is_small() {
             return Unit::MAX;
@@ -151,13 +154,15 @@ impl Affine {
 
     /// The point that the map leaves where it is: every contraction has one.
     ///
-    /// Domain: coefficients `a b c d` of at most 1. None outside it, when there is no such point or more than one, and when it lies outside [`Real`].
-    /// Error: half a unit in the last place (`a_fixed_point_stays_where_it_is`). Cost: 6 multiplications, two divisions.
+    /// Domain: coefficients `a b c d` of at most 1. None outside it, when there is no such point or more than
+    /// one, and when it lies outside [`Real`]. Error: half a unit in the last place
+    /// (`a_fixed_point_stays_where_it_is`). Cost: 6 multiplications, two divisions.
     pub fn fixed_point(&self) -> Option<Point2> {
         if !self.is_small() {
             return None;
         }
-        // (1 - a) x - b y = e, -c x + (1 - d) y = f; 60 fractional bits below, 54 above the line, both less than 2^63
+        // (1 - a) x - b y = e, -c x + (1 - d) y = f; 60 fractional bits below, 54 above the line, both less
+        // than 2^63
         let [a, b, c, d] = self.linear();
         let (e, f) = (i64::from(self.e.to_bits()), i64::from(self.f.to_bits()));
         let (p, q) = (ONE_Q30 - a, ONE_Q30 - d);

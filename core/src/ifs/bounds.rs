@@ -42,10 +42,11 @@ const ULP: Q54 = 1 << 30;
 impl<const N: usize> Ifs<N> {
     /// A box that contains the attractor and each point of each chaos game.
     ///
-    /// Error: outwards, and in each direction by less than `2^-11` of the larger extent and twice [`Ifs::deviation`]
-    /// (`bounds_are_those_of_the_textbooks`), as long as no address of more than 128 letters is needed (contraction factors up to about 0.93)
-    /// and no direction visits more than 16384 nodes; beyond that still outwards, but wider (`slow_spirals_are_bounded_all_the_same`).
-    /// Cost: a node is 15 multiplications and a square root; the catalogue's attractors visit between 212 and 5792 of them
+    /// Error: outwards, and in each direction by less than `2^-11` of the larger extent and twice
+    /// [`Ifs::deviation`] (`bounds_are_those_of_the_textbooks`), as long as no address of more than 128
+    /// letters is needed (contraction factors up to about 0.93) and no direction visits more than 16384
+    /// nodes; beyond that still outwards, but wider (`slow_spirals_are_bounded_all_the_same`). Cost: a node
+    /// is 15 multiplications and a square root; the catalogue's attractors visit between 212 and 5792 of them
     /// (`the_search_is_short_for_the_catalogue`), the fern 2616 in 693 thousand Cortex-M4 instructions
     /// (kernel `bounds`). Stack: 128 entries of 24 bytes.
     pub fn bounds(&self) -> Bounds2 {
@@ -342,8 +343,9 @@ mod tests {
         }
     }
 
-    /// Two maps that shrink each axis by a positive factor: the attractor reaches from the least fixed point to the greatest, two fractions.
-    /// Points a few units apart, so that no tolerance hides a rounding; far from the origin and near it, fast contractions and slow ones.
+    /// Two maps that shrink each axis by a positive factor: the attractor reaches from the least fixed point
+    /// to the greatest, two fractions. Points a few units apart, so that no tolerance hides a rounding; far
+    /// from the origin and near it, fast contractions and slow ones.
     #[test]
     fn the_hull_is_rounded_outwards_to_the_unit() {
         let mut rng = Xoshiro128PlusPlus::seed_from_u64(20);
@@ -407,7 +409,8 @@ mod tests {
         assert!(right - left < 1e-6 && top - bottom < 1e-6, "{left} {right} {bottom} {top}");
     }
 
-    /// Appending a map rounds both entries by half a unit at most: what that changes at the corner of a node's reach is below the widening, and reaches it.
+    /// Appending a map rounds both entries by half a unit at most: what that changes at the corner of a
+    /// node's reach is below the widening, and reaches it.
     #[test]
     fn a_letter_widens_a_node_by_what_its_rounding_may_change() {
         let ifs = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();
@@ -438,7 +441,8 @@ mod tests {
         assert_eq!(most, 1 << 29);
     }
 
-    /// What a functional reaches in disc and box, from above: the nearer of the two, and by less than a unit of the norm.
+    /// What a functional reaches in disc and box, from above: the nearer of the two, and by less than a unit
+    /// of the norm.
     #[test]
     fn the_highest_value_in_disc_and_box_is_bounded_closely() {
         let at = |x: i32, y: i32| Point2::new(Real::from_bits(x), Real::from_bits(y));

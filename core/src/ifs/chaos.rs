@@ -16,16 +16,19 @@ use super::system::Ifs;
 use crate::plane::Point2;
 
 impl<const N: usize> Ifs<N> {
-    /// The endless orbit of a random walk on the attractor, after a warm-up of as many steps as the contraction factor asks for, at most 1024.
+    /// The endless orbit of a random walk on the attractor, after a warm-up of as many steps as the
+    /// contraction factor asks for, at most 1024.
     ///
     /// Result: points within [`Ifs::deviation`] of the attractor and inside [`Ifs::bounds`]
-    /// (`a_million_points_lie_inside_the_bounds_and_reach_them`). Cost of a point: 4 multiplications and a draw; 46 Cortex-M4 instructions
-    /// (kernel `chaos game`) for the fern with xoshiro128++, in a loop that adds the coordinates up.
+    /// (`a_million_points_lie_inside_the_bounds_and_reach_them`). Cost of a point: 4 multiplications and a
+    /// draw; 46 Cortex-M4 instructions (kernel `chaos game`) for the fern with xoshiro128++, in a loop that
+    /// adds the coordinates up.
     pub fn chaos_game<R: Rng>(&self, rng: R) -> ChaosGame<'_, R, N> {
         ChaosGame { ifs: self, walk: self.walk(rng), rng: PhantomData }
     }
 
-    /// [`Ifs::chaos_game`] with a generator of its own, xoshiro128++: the same seed gives the same points on every machine.
+    /// [`Ifs::chaos_game`] with a generator of its own, xoshiro128++: the same seed gives the same points on
+    /// every machine.
     pub fn seeded_chaos_game(&self, seed: u64) -> ChaosGame<'_, Xoshiro128PlusPlus, N> {
         self.chaos_game(Xoshiro128PlusPlus::seed_from_u64(seed))
     }
@@ -110,8 +113,8 @@ impl<'a, R: Rng, const N: usize, W: BorrowMut<Walk<R>>> ChaosGame<'a, R, N, W> {
         self.walk.borrow().map as u8
     }
 
-    /// The same points, each with the index of the map that made it: for [`Density`](crate::plane::Density) and
-    /// [`ColoredDots`](crate::draw::ColoredDots).
+    /// The same points, each with the index of the map that made it: for [`Density`](crate::plane::Density)
+    /// and [`ColoredDots`](crate::draw::ColoredDots).
     pub const fn labelled(self) -> Labelled<'a, R, N, W> {
         Labelled(self)
     }
@@ -253,7 +256,8 @@ mod tests {
         }
     }
 
-    /// Mean and second moments of the invariant measure: `m = sum p_i (L_i m + t_i)`, and the same for the products.
+    /// Mean and second moments of the invariant measure: `m = sum p_i (L_i m + t_i)`, and the same for the
+    /// products.
     #[test]
     fn the_moments_of_the_fern_are_the_exact_ones() {
         let fern = catalogue::BARNSLEY_FERN;

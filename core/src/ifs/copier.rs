@@ -116,9 +116,9 @@ impl<const N: usize> Ifs<N> {
     /// The copier of this system set to `order`: images of a shape under all maps that are composed of
     /// `order` of its own. `DEPTH` is the largest order that fits.
     ///
-    /// Error: of an image below `2^-20` in each coordinate at order 12 for a shape and translations within 2 of the origin
-    /// (`curves.rs`: `an_image_of_the_copier_is_within_two_to_the_minus_20`). Cost: 212 Cortex-M4
-    /// instructions (kernel `copied point`) an image of a single point, the fern at order 5; 110
+    /// Error: of an image below `2^-20` in each coordinate at order 12 for a shape and translations within 2
+    /// of the origin (`curves.rs`: `an_image_of_the_copier_is_within_two_to_the_minus_20`). Cost: 212
+    /// Cortex-M4 instructions (kernel `copied point`) an image of a single point, the fern at order 5; 110
     /// (kernel `copied path`) a point for images of four.
     ///
     /// # Errors
@@ -155,7 +155,8 @@ impl<const N: usize> Ifs<N> {
     }
 }
 
-/// The images of a shape, one after the other. Size on a 32-bit machine: 40 bytes for each of `DEPTH` orders, and 72.
+/// The images of a shape, one after the other. Size on a 32-bit machine: 40 bytes for each of `DEPTH` orders,
+/// and 72.
 #[derive(Debug, Clone)]
 pub struct Copier<'a, const N: usize, const DEPTH: usize> {
     maps: Compositions<'a, N, DEPTH>,
@@ -272,7 +273,8 @@ mod tests {
         assert!(size_of::<CopiedPath<'_, 4, 12>>() <= 600, "{}", size_of::<CopiedPath<'_, 4, 12>>());
     }
 
-    /// In integers: entries of a composed map rounded once to the nearest, the translation exact for them, the image rounded once.
+    /// In integers: entries of a composed map rounded once to the nearest, the translation exact for them,
+    /// the image rounded once.
     #[test]
     fn an_image_of_order_3_is_rounded_once_an_entry_and_once_at_the_end() {
         let fern = catalogue::BARNSLEY_FERN.ifs::<4>().unwrap();

@@ -57,7 +57,8 @@ pub(super) struct Contractions<'a> {
 }
 
 impl Contractions<'_> {
-    /// An invariant disc that reaches no farther than 64 from the axes. Cost: 33 square roots for each map, and a division where it may decide.
+    /// An invariant disc that reaches no farther than 64 from the axes. Cost: 33 square roots for each map,
+    /// and a division where it may decide.
     #[inline(never)]
     pub(super) fn invariant_disc(&self) -> Result<Disc, Error> {
         let mut sum = [0_i64; 2];
@@ -92,7 +93,8 @@ impl Contractions<'_> {
         Ok(Disc { centre, radius: Real::from_bits(best as i32) })
     }
 
-    /// The radius of the least invariant disc about `z` that the estimate gives, rounded up, and the map that decides it.
+    /// The radius of the least invariant disc about `z` that the estimate gives, rounded up, and the map that
+    /// decides it.
     #[inline(never)]
     fn radius_about(&self, [x, y]: [Q24; 2]) -> (i64, usize) {
         let mut worst = (0, 0);
@@ -169,7 +171,8 @@ mod tests {
         }
     }
 
-    /// `gap r >= |w(z) - z| + 1` in exact integers: half a unit of rounding in each coordinate moves a point by less than one unit.
+    /// `gap r >= |w(z) - z| + 1` in exact integers: half a unit of rounding in each coordinate moves a point
+    /// by less than one unit.
     #[test]
     fn an_invariant_disc_leaves_a_unit_for_rounding() {
         let mut rng = Xoshiro128PlusPlus::seed_from_u64(12);

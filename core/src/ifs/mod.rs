@@ -1,10 +1,12 @@
-//! Affine iterated function systems: attractors by the chaos game, their exact bounds, a catalogue of the classical ones.
+//! Affine iterated function systems: attractors by the chaos game, their exact bounds, a catalogue of the
+//! classical ones.
 //!
 #![doc = include_str!("../../docs/ifs.md")]
 //!
-//! An iterated function system is a set of contractions `w_1 .. w_n` of the plane. It has exactly one attractor, the compact set with
-//! `A = w_1(A) u .. u w_n(A)` (J. E. Hutchinson, "Fractals and self similarity", 1981). The chaos game draws it: apply a map chosen at random,
-//! show the point, repeat (M. F. Barnsley, "Fractals Everywhere", 1988, chapter 3). The copier draws its iterates: all images of a shape.
+//! An iterated function system is a set of contractions `w_1 .. w_n` of the plane. It has exactly one
+//! attractor, the compact set with `A = w_1(A) u .. u w_n(A)` (J. E. Hutchinson, "Fractals and self
+//! similarity", 1981). The chaos game draws it: apply a map chosen at random, show the point, repeat (M. F.
+//! Barnsley, "Fractals Everywhere", 1988, chapter 3). The copier draws its iterates: all images of a shape.
 //!
 //! ```
 //! use attractor::ifs::{Affine, Ifs, catalogue};

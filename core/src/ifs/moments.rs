@@ -276,7 +276,8 @@ mod tests {
         }
     }
 
-    /// Two maps `a x + e`, `a x - e` with even chances: `C = e^2 / (1 - a^2)`, in both coordinates; and maps of unequal chances.
+    /// Two maps `a x + e`, `a x - e` with even chances: `C = e^2 / (1 - a^2)`, in both coordinates; and maps
+    /// of unequal chances.
     #[test]
     fn a_covariance_is_that_of_a_geometric_series() {
         let mut most = 0.0_f64;
@@ -305,7 +306,8 @@ mod tests {
         assert!(most > 0.45 && most < 0.75, "{most}");
     }
 
-    /// A mean off zero: chances of a quarter and three quarters, `C = 3/16 (e_1 - e_2)^2 / (1 - a^2)` where both maps have the same linear part.
+    /// A mean off zero: chances of a quarter and three quarters, `C = 3/16 (e_1 - e_2)^2 / (1 - a^2)` where
+    /// both maps have the same linear part.
     #[test]
     fn a_covariance_does_not_depend_on_the_mean() {
         let mut most = 0.0_f64;
@@ -344,8 +346,9 @@ mod tests {
         }
     }
 
-    /// Two maps of any linear parts, `A_1 x + t` and `A_2 x - t` with even chances: the mean is 0, and `C = (A_1 C A_1^T + A_2 C A_2^T) / 2 + t t^T` holds
-    /// for what was computed, in integers with 108 fractional bits, within the rounding of its numbers.
+    /// Two maps of any linear parts, `A_1 x + t` and `A_2 x - t` with even chances: the mean is 0, and
+    /// `C = (A_1 C A_1^T + A_2 C A_2^T) / 2 + t t^T` holds for what was computed, in integers with 108
+    /// fractional bits, within the rounding of its numbers.
     #[test]
     fn a_covariance_obeys_its_equation() {
         let mut word = 1_u64;

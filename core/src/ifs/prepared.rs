@@ -1,9 +1,10 @@
 //! A map as the chaos game applies it: what does not depend on the point is done before.
 //!
-//! The translation stands with the 54 fractional bits of a product and the half unit that rounds: both products are
-//! added to it, and a shift is left. A machine without a long product multiplies by halves, `v = vh 2^16 + vl` with
-//! `vl` signed: `l x + m y = H 2^32 + M 2^16 + L` for `H = lh xh + mh yh`, `M = lh xl + ll xh + mh yl + ml yh`,
-//! `L = ll xl + ml yl`. It keeps the coefficients in halves, and puts only the upper part of the sum together.
+//! The translation stands with the 54 fractional bits of a product and the half unit that rounds: both
+//! products are added to it, and a shift is left. A machine without a long product multiplies by halves,
+//! `v = vh 2^16 + vl` with `vl` signed: `l x + m y = H 2^32 + M 2^16 + L` for `H = lh xh + mh yh`,
+//! `M = lh xl + ll xh + mh yl + ml yh`, `L = ll xl + ml yl`. It keeps the coefficients in halves, and puts
+//! only the upper part of the sum together.
 
 use super::affine::Affine;
 #[cfg(any(test, not(no_long_product)))]
@@ -29,8 +30,8 @@ impl PreparedMap {
         Self { x: Row::new(map.a, map.b, map.e), y: Row::new(map.c, map.d, map.f) }
     }
 
-    /// The image of a point whose image is known to lie in the format: an [`super::Ifs`] proves that for the points of
-    /// its invariant disc.
+    /// The image of a point whose image is known to lie in the format: an [`super::Ifs`] proves that for the
+    /// points of its invariant disc.
     #[inline(always)]
     pub(super) fn apply(&self, p: Point2) -> Point2 {
         Point2::new(self.x.apply(p), self.y.apply(p))
@@ -88,8 +89,8 @@ impl Halves {
         Self { lh, mh, ll, ml, t }
     }
 
-    /// `|L| <= 2^31`, and `2^31` itself is not reached: no half of a coefficient is `-2^15`. A contraction has
-    /// `l^2 + m^2 <= 1`, so that `|M| <= sqrt(2) 2^14 2^15 + 2 2^14 2^15 < 2^31 - 2^17`.
+    /// `|L| <= 2^31`, and `2^31` itself is not reached: no half of a coefficient is `-2^15`. A contraction
+    /// has `l^2 + m^2 <= 1`, so that `|M| <= sqrt(2) 2^14 2^15 + 2 2^14 2^15 < 2^31 - 2^17`.
     #[inline(always)]
     fn apply(&self, p: Point2) -> Real {
         let split = |v: Real| {

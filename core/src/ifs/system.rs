@@ -24,8 +24,8 @@ pub const MAX_MAPS: usize = 256;
 /// How far the sum of the probabilities may be from 1, for each of them: `10^-6` in units of `2^-30`.
 const TOLERANCE: i64 = 1074;
 
-/// An iterated function system of at most `N <= 256` maps. Size on a 32-bit machine: 65 bytes a map, and 36; 73 a map on a
-/// machine without a long product.
+/// An iterated function system of at most `N <= 256` maps. Size on a 32-bit machine: 65 bytes a map, and 36;
+/// 73 a map on a machine without a long product.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -47,13 +47,15 @@ pub struct Ifs<const N: usize> {
 impl<const N: usize> Ifs<N> {
     /// The system of these maps, each chosen with its probability.
     ///
-    /// Cost: 35 square roots and up to 33 divisions for each map, and a few thousand instructions more: 161 thousand
-    /// Cortex-M4 instructions (kernel `ifs`) for the fern.
+    /// Cost: 35 square roots and up to 33 divisions for each map, and a few thousand instructions more: 161
+    /// thousand Cortex-M4 instructions (kernel `ifs`) for the fern.
     ///
     /// # Errors
-    /// [`Error::TooFew`] without maps, [`Error::Capacity`] for more than `N` or 256, [`Error::LengthMismatch`] unless there is one probability for each map,
-    /// [`Error::NotContractive`] with the first map that is no contraction, [`Error::OutOfRange`] for a probability of 0, which would leave a part of the
-    /// attractor out, or a negative one, or when a fixed point or the invariant disc leaves `-64 .. 64`, [`Error::Probabilities`] when they do not add up to 1 within `10^-6` each.
+    /// [`Error::TooFew`] without maps, [`Error::Capacity`] for more than `N` or 256,
+    /// [`Error::LengthMismatch`] unless there is one probability for each map, [`Error::NotContractive`] with
+    /// the first map that is no contraction, [`Error::OutOfRange`] for a probability of 0, which would leave
+    /// a part of the attractor out, or a negative one, or when a fixed point or the invariant disc leaves
+    /// `-64 .. 64`, [`Error::Probabilities`] when they do not add up to 1 within `10^-6` each.
     pub fn new(maps: &[Affine], probabilities: &[Unit]) -> Result<Self, Error> {
         Self::check_count(maps)?;
         if probabilities.len() != maps.len() {
@@ -81,8 +83,9 @@ impl<const N: usize> Ifs<N> {
         Self::build(maps, probabilities)
     }
 
-    /// The system of these maps, chosen in proportion to the areas of their images, `|a d - b c|`: the points are then spread evenly where the images
-    /// do not overlap. A map that flattens gets a thirty-second of the average all the same, so that no part of the attractor is missed.
+    /// The system of these maps, chosen in proportion to the areas of their images, `|a d - b c|`: the points
+    /// are then spread evenly where the images do not overlap. A map that flattens gets a thirty-second of
+    /// the average all the same, so that no part of the attractor is missed.
     ///
     /// # Errors
     /// As [`Ifs::new`].
@@ -163,13 +166,15 @@ impl<const N: usize> Ifs<N> {
         self.contraction_factor
     }
 
-    /// A disc that each map sends into itself: all of the attractor lies in it, and each point of each chaos game.
+    /// A disc that each map sends into itself: all of the attractor lies in it, and each point of each chaos
+    /// game.
     pub const fn invariant_disc(&self) -> Disc {
         self.disc
     }
 
-    /// How far a point of a chaos game can be from the attractor in each coordinate: what roundings of at most one unit add up to, `1 / (1 - s)`
-    /// units of `2^-24` for the contraction factor `s`. In those units, at most `2^30`.
+    /// How far a point of a chaos game can be from the attractor in each coordinate: what roundings of at
+    /// most one unit add up to, `1 / (1 - s)` units of `2^-24` for the contraction factor `s`. In those
+    /// units, at most `2^30`.
     pub fn deviation(&self) -> u32 {
         let gap = (1_u32 << 30).saturating_sub(self.contraction_factor.to_bits().unsigned_abs());
         (1_u32 << 30).checked_div(gap).map_or(1 << 30, |units| (units + 1).min(1 << 30))
@@ -196,10 +201,11 @@ impl<const N: usize> Ifs<N> {
     }
 }
 
-/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, powers rounded down to 30 bits (for slow contractions a
-/// fiftieth fewer), at most 1024. The start lies on the attractor, so that
-/// every point does; but its first successors crowd around it. The distribution of the `k`-th differs from the invariant one by no more than `s^k` times
-/// the diameter (Hutchinson's metric). 1024 steps are enough for `s <= 0.9838`.
+/// After how many steps the starting point does not matter: the least `k` with `s^k <= 2^-24`, powers rounded
+/// down to 30 bits (for slow contractions a fiftieth fewer), at most 1024. The start lies on the attractor,
+/// so that every point does; but its first successors crowd around it. The distribution of the `k`-th differs
+/// from the invariant one by no more than `s^k` times the diameter (Hutchinson's metric). 1024 steps are
+/// enough for `s <= 0.9838`.
 fn warm_up(contraction_factor: Unit) -> u32 {
     let mut power = 1_u64 << 30;
     let mut steps = 0;
@@ -285,7 +291,8 @@ mod tests {
     fn the_deviation_is_what_the_roundings_add_up_to() {
         let one = Ifs::<1>::new(&[HALF], &[Unit::ONE]).unwrap();
         assert_eq!(one.deviation(), 3);
-        // 1 - s = 1/64: the rounded orbit of x -> x - x/64 + t stops short of its fixed point by up to half of 64 units
+        // 1 - s = 1/64: the rounded orbit of x -> x - x/64 + t stops short of its fixed point by up to half
+        // of 64 units
         let slow = Affine { a: Unit::ONE - Unit::from_num(1.0 / 64.0), ..Affine::default() };
         let ifs = Ifs::<1>::new(&[slow], &[Unit::ONE]).unwrap();
         let mut p = Point2::new(Real::ONE, Real::ZERO);

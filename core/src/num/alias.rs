@@ -15,7 +15,8 @@
 //! change hands without rounding.
 
 use super::formats::UQ32;
-use super::{nth, product_by_short, ratio};
+use super::product::product_by_short;
+use super::quotient::{nth, ratio};
 use crate::Error;
 
 /// An alias table of at most `N <= 256` items. Cost of a draw: one multiplication, one comparison, two loads.
@@ -30,9 +31,11 @@ pub struct Alias<const N: usize> {
 }
 
 impl<const N: usize> Alias<N> {
-    /// A table for items with the given weights: the probability of item `i` is `weights[i]` over their sum, 0 for 0.
+    /// A table for items with the given weights: the probability of item `i` is `weights[i]` over their sum,
+    /// 0 for 0.
     ///
-    /// Error: below `2^-32` (`words_are_shared_out_in_proportion_to_the_weights`). Cost: about `n^2` comparisons.
+    /// Error: below `2^-32` (`words_are_shared_out_in_proportion_to_the_weights`). Cost: about `n^2`
+    /// comparisons.
     ///
     /// # Errors
     /// [`Error::TooFew`] without weights or when all are 0, [`Error::Capacity`] for more than `N` or 256.
@@ -129,7 +132,8 @@ mod tests {
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
     use std::vec::Vec;
 
-    /// How many of the 2^32 words stand for each item: exactly, from the last word of each slot that stands for its own item.
+    /// How many of the 2^32 words stand for each item: exactly, from the last word of each slot that stands
+    /// for its own item.
     fn words<const N: usize>(table: &Alias<N>) -> Vec<i128> {
         let n = table.len() as u64;
         let mut words = std::vec![0_i128; table.len()];

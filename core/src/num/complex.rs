@@ -22,10 +22,11 @@ impl<T> Complex<T> {
 }
 
 impl Complex<Wide> {
-    /// The number `re + i im` from decimal literals, for constants: `const SEAHORSE: Complex<Wide> = Complex::lit("-0.7453", "0.1127")`.
+    /// The number `re + i im` from decimal literals, for constants:
+    /// `const SEAHORSE: Complex<Wide> = Complex::lit("-0.7453", "0.1127")`.
     ///
-    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
-    /// [Numbers](crate::num#numbers).
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in
+    /// `const { }` only: see [Numbers](crate::num#numbers).
     pub const fn lit(re: &str, im: &str) -> Self {
         Self::new(Wide::lit(re), Wide::lit(im))
     }

@@ -9,7 +9,8 @@
 
 use core::str::FromStr;
 
-use super::{Limbs, Wide};
+use super::Wide;
+use super::limbs::Limbs;
 use crate::Error;
 
 const WHAT: &str = "decimal places of a coordinate";
@@ -47,8 +48,9 @@ pub const fn limbs_for(decimal_places: usize) -> usize {
 /// ```
 ///
 /// # Errors
-/// [`Error::Capacity`] for more decimal places than [`Limbs::DECIMAL_PLACES`] ([`limbs_for`] tells how many limbs they take), [`Error::OutOfRange`] for 8 and more in magnitude,
-/// [`Error::Malformed`] with the position of the first byte that does not belong.
+/// [`Error::Capacity`] for more decimal places than [`Limbs::DECIMAL_PLACES`] ([`limbs_for`] tells how many
+/// limbs they take), [`Error::OutOfRange`] for 8 and more in magnitude, [`Error::Malformed`] with the
+/// position of the first byte that does not belong.
 impl<const LIMBS: usize> FromStr for Limbs<LIMBS> {
     type Err = Error;
 

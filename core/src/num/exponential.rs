@@ -30,8 +30,8 @@ static POWERS: [UQ32; 64] = {
 };
 
 /// `e^-x`. Domain: `x >= 0`; less counts as 0. Error: below `2^-29`, none at 0
-/// (`e_to_the_minus_x_is_within_two_to_the_minus_29`). Cost: 32 Cortex-M4 instructions (kernel `exp_minus`), a
-/// table of 256 bytes.
+/// (`e_to_the_minus_x_is_within_two_to_the_minus_29`). Cost: 32 Cortex-M4 instructions (kernel `exp_minus`),
+/// a table of 256 bytes.
 pub fn exp_minus(x: Real) -> Unit {
     // x / ln 2 with 32 fractional bits
     const PER_LN_2: UQ30 = 0x5c55_1d95; // 1 / ln 2

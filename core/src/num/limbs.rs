@@ -117,7 +117,8 @@ impl<const LIMBS: usize> Limbs<LIMBS> {
         if self.is_negative() { self.negated() } else { self }
     }
 
-    /// `self * other`, wrapped. Error: below 2 units, towards 0 (`four_limbs_calculate_as_128_bits_do`). Cost: about `LIMBS (LIMBS + 4) / 2` products of 32 bits.
+    /// `self * other`, wrapped. Error: below 2 units, towards 0 (`four_limbs_calculate_as_128_bits_do`).
+    /// Cost: about `LIMBS (LIMBS + 4) / 2` products of 32 bits.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         let (a, b) = (self.magnitude(), other.magnitude());
@@ -323,7 +324,8 @@ mod tests {
         assert_eq!(one.plus_units(1).window(3), 1 << 28);
     }
 
-    /// Limbs of 1: whatever is cut off is seen. `Limbs<2>` against 128 bits: a product loses less than 2 units towards 0.
+    /// Limbs of 1: whatever is cut off is seen. `Limbs<2>` against 128 bits: a product loses less than 2
+    /// units towards 0.
     #[test]
     fn two_limbs_calculate_as_64_bits_do() {
         let two = |bits: i64| Limbs::<2>::from_limbs([bits as u32, (bits >> 32) as u32]);

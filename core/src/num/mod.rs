@@ -2,8 +2,8 @@
 //!
 #![doc = include_str!("../../docs/num.md")]
 //!
-//! A spiral of the Mandelbrot set, `1.2e-6` wide: on the left at the points that [`Real`] has, `2^-24` apart, on
-//! the right at those of [`Wide`], which has `2^24` steps between two of them.
+//! A spiral of the Mandelbrot set, `1.2e-6` wide: on the left at the points that [`Real`] has, `2^-24` apart,
+//! on the right at those of [`Wide`], which has `2^24` steps between two of them.
 //!
 //! | type | format | resolution | used for |
 //! | --- | --- | --- | --- |
@@ -17,9 +17,11 @@
 //!
 //! # Numbers
 //!
-//! All formats but [`Limbs`] are types of the crate [`fixed`], which is re-exported: `attractor::fixed`. There are four ways to a number.
+//! All formats but [`Limbs`] are types of the crate [`fixed`], which is re-exported: `attractor::fixed`.
+//! There are four ways to a number.
 //!
-//! **A constant: `lit`.** The decimal is read at compile time and rounded to nearest; one that is no number, or does not fit, does not compile.
+//! **A constant: `lit`.** The decimal is read at compile time and rounded to nearest; one that is no number,
+//! or does not fit, does not compile.
 //!
 //! ```
 //! use attractor::num::Complex;
@@ -45,16 +47,20 @@
 //! # let _ = TOO_LARGE;
 //! ```
 //!
-//! Outside a `const` the same call reads its text at run time: it may panic, and one such call costs 6 KB of flash on a Cortex-M4, 11 KB with a panic handler that
-//! prints (`opt-level = 3`, fat LTO). The other three ways need no text.
+//! Outside a `const` the same call reads its text at run time: it may panic, and one such call costs 6 KB of
+//! flash on a Cortex-M4, 11 KB with a panic handler that prints (`opt-level = 3`, fat LTO). The other three
+//! ways need no text.
 //!
-//! **A whole number or a ratio:** `Real::from_num(3)`, `Real::from_num(1) / 3`; coefficients by [`Affine::from_thousandths`](crate::ifs::Affine::from_thousandths).
-//! `from_num` panics for a number that does not fit; `saturating_from_num` and `checked_from_num` do not.
+//! **A whole number or a ratio:** `Real::from_num(3)`, `Real::from_num(1) / 3`; coefficients by
+//! [`Affine::from_thousandths`](crate::ifs::Affine::from_thousandths). `from_num` panics for a number that
+//! does not fit; `saturating_from_num` and `checked_from_num` do not.
 //!
-//! **Bits:** `Unit::from_bits(1 << 29)` is a half. What `attractor export` writes, and what a file or a link carries.
+//! **Bits:** `Unit::from_bits(1 << 29)` is a half. What `attractor export` writes, and what a file or a link
+//! carries.
 //!
-//! **A float:** `Real::from_num(x)` for `x: f32` works, and on a processor without an FPU costs what converting takes. On the host it is convenient; the examples
-//! in this documentation use it where the number does not matter.
+//! **A float:** `Real::from_num(x)` for `x: f32` works, and on a processor without an FPU costs what
+//! converting takes. On the host it is convenient; the examples in this documentation use it where the number
+//! does not matter.
 
 mod alias;
 mod complex;
@@ -78,9 +84,7 @@ pub use decimal::limbs_for;
 pub use exponential::exp_minus;
 pub use limbs::Limbs;
 pub use logarithm::log2;
-pub(crate) use product::{
-    high, high_of_double, high_of_square, high_u, product, product_by_short, product_u, square_u,
-};
+pub(crate) use product::{high, high_of_double, high_of_square, high_u, product, product_u, square_u};
 pub(crate) use quotient::{nth, quotient, ratio};
 pub(crate) use random_function::magnitudes;
 pub use random_function::{Deviate, Parameter, RandomFunction};

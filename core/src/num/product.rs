@@ -1,7 +1,8 @@
 //! Products of two 32-bit numbers: all 64 bits, or the upper 32 alone.
 //!
-//! A Cortex-M4 or a RISC-V core has them as one instruction or two. A Cortex-M0 has not: it keeps the lower 32 bits of a product only, and the
-//! compiler calls a library function for the rest. Such a target (`build.rs` knows which) multiplies by halves here, inline:
+//! A Cortex-M4 or a RISC-V core has them as one instruction or two. A Cortex-M0 has not: it keeps the lower
+//! 32 bits of a product only, and the compiler calls a library function for the rest. Such a target
+//! (`build.rs` knows which) multiplies by halves here, inline:
 //!
 //! `a b = ah bh 2^32 + (ah bl + al bh) 2^16 + al bl`, with `a = ah 2^16 + al`, `al` unsigned.
 //!
@@ -122,7 +123,8 @@ mod halves {
         (a >> 16, a & 0xffff)
     }
 
-    /// `ah bh`, and the two sums of the middle: `ah bl` and the carry of `al bl`; `al bh` and the lower half of the first.
+    /// `ah bh`, and the two sums of the middle: `ah bl` and the carry of `al bl`; `al bh` and the lower half
+    /// of the first.
     ///
     /// Neither leaves 32 bits: `|ah bl| <= 2^15 (2^16 - 1)`, and what is added is below `2^16`.
     #[inline(always)]
@@ -140,7 +142,8 @@ mod halves {
         top.wrapping_add(first >> 16).wrapping_add(second >> 16)
     }
 
-    /// As [`parts`], with an upper half of `b` without a sign: the second sum has none and stays below `2^32`.
+    /// As [`parts`], with an upper half of `b` without a sign: the second sum has none and stays below
+    /// `2^32`.
     #[inline(always)]
     pub(super) fn high_mixed(a: i32, b: u32) -> i32 {
         let ((ah, al), (bh, bl)) = (split(a), (b >> 16, b & 0xffff));
@@ -155,15 +158,16 @@ mod halves {
         (i64::from(high_mixed(a, b)) << 32) | i64::from((a as u32).wrapping_mul(b))
     }
 
-    /// Bit 31 of the product is bit 15 of the second sum, which has no room for half a unit more: it is halved to it first.
+    /// Bit 31 of the product is bit 15 of the second sum, which has no room for half a unit more: it is
+    /// halved to it first.
     #[inline(always)]
     pub(super) fn high_rounded(a: i32, b: i32) -> i32 {
         let (top, first, second) = parts(a, b);
         top.wrapping_add(first >> 16).wrapping_add((second >> 15).wrapping_add(1) >> 1)
     }
 
-    /// With a signed lower half of `b`, so that its upper half may be `2^16`. The compiler knows the form with unsigned halves for what it is, and would
-    /// put the call of the library back.
+    /// With a signed lower half of `b`, so that its upper half may be `2^16`. The compiler knows the form
+    /// with unsigned halves for what it is, and would put the call of the library back.
     #[inline(always)]
     pub(super) fn high_u(a: u32, b: u32) -> u32 {
         joined(a, ((b >> 16) + (b >> 15 & 1), i32::from(b as i16)))
@@ -195,7 +199,8 @@ mod halves {
         ah.wrapping_mul(ah).wrapping_add(ah.wrapping_mul(al).wrapping_add(square) >> 15)
     }
 
-    /// `a^2 = ah^2 2^32 + (ah al 2^17 + al^2)`, and the second part over `2^32` is `(ah al + al^2 / 2^17) / 2^15`.
+    /// `a^2 = ah^2 2^32 + (ah al 2^17 + al^2)`, and the second part over `2^32` is
+    /// `(ah al + al^2 / 2^17) / 2^15`.
     #[inline(always)]
     pub(super) fn high_of_square(a: i32) -> i32 {
         let (ah, al) = split(a);
@@ -203,7 +208,8 @@ mod halves {
         ah.wrapping_mul(ah).wrapping_add(ah.wrapping_mul(al).wrapping_add(square as i32) >> 15)
     }
 
-    /// `(a b + 2^30) / 2^31`: the two products in the middle, below `2^16 (|ah| + |bh|)`, are added before anything is shifted.
+    /// `(a b + 2^30) / 2^31`: the two products in the middle, below `2^16 (|ah| + |bh|)`, are added before
+    /// anything is shifted.
     #[inline(always)]
     pub(super) fn high_of_double(a: i32, b: i32) -> i32 {
         let ((ah, al), (bh, bl)) = (split(a), split(b));

@@ -40,7 +40,8 @@ pub(crate) fn quotient(v: i64, shift: u32, d: u64) -> i64 {
     (magnitude ^ sign).wrapping_sub(sign)
 }
 
-/// `v / n` towards zero, for `n` below `2^16` (0 counts as 1): four digits of 16 bits. Cost: 4 divisions of 32 bits.
+/// `v / n` towards zero, for `n` below `2^16` (0 counts as 1): four digits of 16 bits. Cost: 4 divisions of
+/// 32 bits.
 #[inline(never)]
 pub(crate) fn nth(v: i64, n: u32) -> i64 {
     let (mut rest, mut quotient) = (0, 0_i64);

@@ -102,8 +102,8 @@ impl RandomFunction {
 
     /// `R(t)`.
     ///
-    /// Domain: all. Result: one of 1024 numbers in `-3.31 .. 3.31`. Cost: 3 multiplications and a load, 16 Cortex-M4 instructions
-    /// (kernel `deviate`).
+    /// Domain: all. Result: one of 1024 numbers in `-3.31 .. 3.31`. Cost: 3 multiplications and a load, 16
+    /// Cortex-M4 instructions (kernel `deviate`).
     #[inline]
     pub fn at(self, t: Parameter) -> Deviate {
         let bits = t.to_bits();

@@ -26,7 +26,8 @@ pub(super) static SEEDS: [u16; 128] = {
     table
 };
 
-/// Seeds of `1/sqrt(m)` for `m = (i + 1/2) / 64`, 16 fractional bits. Those below `i` = 64 are never asked for: they spare a subtraction.
+/// Seeds of `1/sqrt(m)` for `m = (i + 1/2) / 64`, 16 fractional bits. Those below `i` = 64 are never asked
+/// for: they spare a subtraction.
 static RECIPROCAL_SQRT: [u16; 256] = {
     let mut table = [u16::MAX; 256];
     let mut i = 64;
@@ -49,7 +50,8 @@ static RECIPROCAL_SQRT: [u16; 256] = {
 
 /// `1/d` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
 ///
-/// Domain: `d > 0` (0 counts as 1). Error: below `2^-29` relative (`a_reciprocal_is_within_two_to_the_minus_29`). Cost: 4 multiplications, a table of 256 bytes.
+/// Domain: `d > 0` (0 counts as 1). Error: below `2^-29` relative
+/// (`a_reciprocal_is_within_two_to_the_minus_29`). Cost: 4 multiplications, a table of 256 bytes.
 #[inline]
 pub fn reciprocal(d: u32) -> (u32, u32) {
     let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(d).unwrap_or(NonZeroU32::MIN));
@@ -71,15 +73,16 @@ pub(crate) fn reciprocal_of(d: NonZeroU32) -> (Q31, u32) {
 
 /// `1/sqrt(v)` as `mantissa / 2^shift`, the mantissa with 31 fractional bits in `(1/2, 1]`.
 ///
-/// Domain: `v > 0` (0 counts as 1). Error: below `2^-29` relative (`a_reciprocal_root_is_within_two_to_the_minus_29`).
-/// Cost: 6 multiplications, a table of 512 bytes.
+/// Domain: `v > 0` (0 counts as 1). Error: below `2^-29` relative
+/// (`a_reciprocal_root_is_within_two_to_the_minus_29`). Cost: 6 multiplications, a table of 512 bytes.
 #[inline]
 pub fn reciprocal_sqrt(v: u64) -> (u32, u32) {
     let (mantissa, half) = reciprocal_sqrt_of(v);
     (mantissa as u32, 31 + half)
 }
 
-/// The mantissa of `1/sqrt(v)`, below `2^31`, and `half`, at most 31: `1/sqrt(v)` is `mantissa / 2^(31 + half)`.
+/// The mantissa of `1/sqrt(v)`, below `2^31`, and `half`, at most 31: `1/sqrt(v)` is
+/// `mantissa / 2^(31 + half)`.
 #[inline(always)]
 pub(crate) fn reciprocal_sqrt_of(v: u64) -> (Q31, u32) {
     let (m, half) = normal(v);
@@ -106,8 +109,8 @@ pub fn sqrt(v: u64) -> u32 {
     if left < 0 { root.wrapping_sub(1) } else { root.wrapping_add(u32::from(left > 2 * i64::from(root))) }
 }
 
-/// `sqrt(v)` within 1 unit, and `1/sqrt(v)` within `2^-26` of itself as `mantissa / 2^(62 - places)`: for numbers that have been scaled, at a third of
-/// the cost of [`sqrt`].
+/// `sqrt(v)` within 1 unit, and `1/sqrt(v)` within `2^-26` of itself as `mantissa / 2^(62 - places)`: for
+/// numbers that have been scaled, at a third of the cost of [`sqrt`].
 ///
 /// Domain: `2^58 <= v < 2^63`. Result: root, mantissa, places (0 to 2).
 #[inline]
@@ -224,7 +227,8 @@ mod tests {
         assert!(worst[0] >= 1 && worst[1] > 1 << 18 && worst[1] < 1 << 20, "{worst:?}");
     }
 
-    /// Against integers: `m^2 v` over `2^(2 s)` is 1 within `2^-28`, for each seed at both ends of its part and in the middle.
+    /// Against integers: `m^2 v` over `2^(2 s)` is 1 within `2^-28`, for each seed at both ends of its part
+    /// and in the middle.
     #[test]
     fn every_seed_of_a_reciprocal_root_is_good_to_the_ends_of_its_part() {
         for i in 64..256_u64 {

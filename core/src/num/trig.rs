@@ -6,12 +6,13 @@
 
 use super::Unit;
 use super::formats::Q31;
-use super::product;
+use super::product::product;
 
 /// An angle in turns: the whole range of the number is one turn, so that it wraps as angles do.
 pub type Angle = fixed::types::U0F32;
 
-/// Sine and cosine. Error: below `2^-28` (`sine_and_cosine_are_within_two_to_the_minus_28`). Cost: 11 multiplications.
+/// Sine and cosine. Error: below `2^-28` (`sine_and_cosine_are_within_two_to_the_minus_28`). Cost: 11
+/// multiplications.
 ///
 /// ```
 /// use attractor::num::{Angle, Unit, sin_cos};

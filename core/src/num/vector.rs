@@ -3,7 +3,9 @@
 //!
 //! What is computed for each ray or pixel works on plain words instead, in the kernels.
 
-use super::{Real, Unit, reciprocal_sqrt_of, scaled};
+use super::root::reciprocal_sqrt_of;
+use super::wide::scaled;
+use super::{Real, Unit};
 
 /// A vector in space; `z` points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -32,10 +34,11 @@ impl Vec3<Real> {
     /// `(0, 0, 1)`, upwards.
     pub const Z: Self = Self::new(Real::ZERO, Real::ZERO, Real::ONE);
 
-    /// The vector `(x, y, z)` from decimal literals, for constants: `const EYE: Vec3 = Vec3::lit("-4", "-3", "5")`.
+    /// The vector `(x, y, z)` from decimal literals, for constants:
+    /// `const EYE: Vec3 = Vec3::lit("-4", "-3", "5")`.
     ///
-    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
-    /// [Numbers](crate::num#numbers).
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in
+    /// `const { }` only: see [Numbers](crate::num#numbers).
     pub const fn lit(x: &str, y: &str, z: &str) -> Self {
         Self::new(Real::lit(x), Real::lit(y), Real::lit(z))
     }
@@ -49,7 +52,8 @@ impl Vec3<Real> {
         )
     }
 
-    /// The unit vector from here to `other`, however far; none if they are one point. As exact as [`Vec3::normalised`].
+    /// The unit vector from here to `other`, however far; none if they are one point. As exact as
+    /// [`Vec3::normalised`].
     pub fn towards(self, other: Self) -> Option<Vec3<Unit>> {
         let differences = [(self.x, other.x), (self.y, other.y), (self.z, other.z)]
             .map(|(a, b)| i64::from(b.to_bits()) - i64::from(a.to_bits()));
@@ -68,8 +72,8 @@ impl Vec3<Real> {
     }
 }
 
-/// The unit vector in a direction of any format. Error: below `2^-28` in each component (`a_unit_vector_is_within_two_to_the_minus_28`); the
-/// zero vector stays one.
+/// The unit vector in a direction of any format. Error: below `2^-28` in each component
+/// (`a_unit_vector_is_within_two_to_the_minus_28`); the zero vector stays one.
 #[inline]
 pub(crate) fn unit(v: [i32; 3]) -> Vec3<Unit> {
     // the reciprocal of the length is mantissa / 2^(31 + half), and 30 fractional bits are wanted

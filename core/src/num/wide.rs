@@ -6,7 +6,7 @@
 
 use super::formats::{Q31, UQ24, UQ63};
 use super::product::{self, high_mixed, product, product_mixed, product_u};
-use super::ratio;
+use super::quotient::ratio;
 
 /// `(value * factor) / 2^31`, for a factor with 31 fractional bits in `[-1, 1)`.
 ///
@@ -52,7 +52,8 @@ pub fn mul_high_u(a: u64, b: u64) -> u64 {
     product_u(ah, bh) + (cross1 >> 32) + (cross2 >> 32)
 }
 
-/// `v mantissa / 2^(half + 1)` towards minus infinity, for `half` at most 31: a number scaled by a reciprocal square root.
+/// `v mantissa / 2^(half + 1)` towards minus infinity, for `half` at most 31: a number scaled by a reciprocal
+/// square root.
 #[inline(always)]
 pub(crate) fn scaled(v: i32, (mantissa, half): (Q31, u32)) -> i32 {
     // by halves: a 64-bit shift by a variable takes twice as long
@@ -69,7 +70,8 @@ fn shifted(v: u64, shift: u32) -> u64 {
     u64::from(high << places | (low >> 1) >> (places ^ 31)) << 32 | u64::from(low << places)
 }
 
-/// `value / 2^shift`, rounded to nearest (halves up): 0 for shifts of 64 and more. Exact (`a_shift_rounds_to_nearest_at_every_width`).
+/// `value / 2^shift`, rounded to nearest (halves up): 0 for shifts of 64 and more. Exact
+/// (`a_shift_rounds_to_nearest_at_every_width`).
 #[inline]
 pub const fn round_shift(value: i64, shift: u32) -> i64 {
     if shift == 0 {
@@ -119,7 +121,8 @@ impl Reciprocal {
         if self.mantissa >> 63 > 0 { m & !1 } else { mul_high_u(m, self.mantissa) << 1 }
     }
 
-    /// `v / d` with 63 fractional bits for the `d` of which this is the reciprocal, rounded down, for `v < d`. Exact.
+    /// `v / d` with 63 fractional bits for the `d` of which this is the reciprocal, rounded down, for
+    /// `v < d`. Exact.
     pub(crate) fn exact(self, v: u64, d: u64) -> u64 {
         if self.mantissa >> 63 > 0 {
             return shifted(v, self.shift);
@@ -142,8 +145,9 @@ impl Reciprocal {
 
 /// What [`Reciprocal::halvings`] says of `m / 2^shift`, `m` with 63 fractional bits in `[1, 2)`.
 ///
-/// Digit by digit: squaring a number doubles its logarithm, and a carry beyond 2 is the next digit (Knuth, TAOCP vol. 1, 1.2.2, exercise 25). A function
-/// asks once a map: the table of [`super::log2`] would take ten times the space.
+/// Digit by digit: squaring a number doubles its logarithm, and a carry beyond 2 is the next digit (Knuth,
+/// TAOCP vol. 1, 1.2.2, exercise 25). A function asks once a map: the table of [`super::log2`] would take ten
+/// times the space.
 fn halvings(m: u64, shift: u32) -> u32 {
     let mut mantissa = (m >> 32) as u32; // 31 fractional bits
     // 25 digits behind a mark, which ends the loop
@@ -154,7 +158,8 @@ fn halvings(m: u64, shift: u32) -> u32 {
         mantissa = square << (carry ^ 1);
         digits = digits << 1 | carry;
     }
-    // to nearest; what squares leave out adds up to less than a unit, and what is left of one keeps the result low
+    // to nearest; what squares leave out adds up to less than a unit, and what is left of one keeps the
+    // result low
     (shift << 24).saturating_sub(((digits + 1) >> 1) - (1 << 24)).saturating_sub(2)
 }
 

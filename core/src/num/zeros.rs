@@ -1,11 +1,13 @@
 //! Numbers shifted to the upper end of their word, and by how many places.
 //!
-//! A Cortex-M4 counts leading zeros by an instruction. A Cortex-M0 calls a function of 35 instructions and shifts then; here it halves its
-//! way there, inline, and shifts as it goes. Such a machine is the one without a long product (`build.rs`).
+//! A Cortex-M4 counts leading zeros by an instruction. A Cortex-M0 calls a function of 35 instructions and
+//! shifts then; here it halves its way there, inline, and shifts as it goes. Such a machine is the one
+//! without a long product (`build.rs`).
 
 use core::num::NonZeroU32;
 
-/// `v` shifted by an even number of places, so that one of its two highest bits is set, and by how many. Exact.
+/// `v` shifted by an even number of places, so that one of its two highest bits is set, and by how many.
+/// Exact.
 #[inline(always)]
 pub(crate) fn shifted_up_evenly(v: NonZeroU32) -> (u32, u32) {
     if cfg!(no_long_product) {

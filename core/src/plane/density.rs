@@ -112,7 +112,8 @@ impl<'a, C: Counter> Density<'a, C> {
         Ok(Self { window, fractions, extent, width: window.size().width, counts, maps: &mut [] })
     }
 
-    /// The same count, which also keeps the last map of each pixel in one byte a pixel: use [`Density::record_from`].
+    /// The same count, which also keeps the last map of each pixel in one byte a pixel: use
+    /// [`Density::record_from`].
     ///
     /// # Errors
     /// [`Error::BufferLength`] if `maps` is shorter than [`Density::counts_of`].
@@ -190,8 +191,8 @@ impl<'a, C: Counter> Density<'a, C> {
         self.counts.iter().map(|c| c.count()).max().unwrap_or(1).max(1)
     }
 
-    /// The least count that fewer than one in `one_in` of the pixels that were hit exceed, at least 1: as the full tone it loses only so many
-    /// (`fewer_than_one_in_n_exceed_the_quantile`).
+    /// The least count that fewer than one in `one_in` of the pixels that were hit exceed, at least 1: as the
+    /// full tone it loses only so many (`fewer_than_one_in_n_exceed_the_quantile`).
     ///
     /// Cost: 17 passes over the buffer.
     pub fn quantile(&self, one_in: u32) -> u16 {
@@ -237,8 +238,8 @@ impl<'a, C: Counter> Density<'a, C> {
 
 /// Counts every point of an iterator: `density.extend(game.take(100_000))`.
 ///
-/// Cost of a point: with the chaos game of the fern 74.5 Cortex-M4 instructions (kernel `density u8`) for `u8`, 74.5
-/// (kernel `density u16`) for `u16`, 77.5 (kernel `density with maps`) with maps (64 x 64 pixels).
+/// Cost of a point: with the chaos game of the fern 74.5 Cortex-M4 instructions (kernel `density u8`) for
+/// `u8`, 74.5 (kernel `density u16`) for `u16`, 77.5 (kernel `density with maps`) with maps (64 x 64 pixels).
 impl<C: Counter> Extend<Point2> for Density<'_, C> {
     #[inline]
     fn extend<I: IntoIterator<Item = Point2>>(&mut self, points: I) {
@@ -265,7 +266,8 @@ fn one_each<'a, T>(what: &'static str, window: &Window, buffer: &'a mut [T]) -> 
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hits {
-    /// How often it was hit; where that is 0 it is no part of the attractor, and the palettes paint it as the inside of a set.
+    /// How often it was hit; where that is 0 it is no part of the attractor, and the palettes paint it as the
+    /// inside of a set.
     pub count: u16,
     /// The tone, 65535 for 1.
     pub tone: u16,
@@ -293,7 +295,8 @@ impl Scale {
                 (count * 0xffff + full / 2).checked_div(full).unwrap_or(0) as u16
             }
             Self::Logarithmic { full, mantissa, shift } if count < full => {
-                // log2 <= 16 with 24 fractional bits, below 2^28; shift is 55 to 59, the quotient has 32 fractional bits
+                // log2 <= 16 with 24 fractional bits, below 2^28; shift is 55 to 59, the quotient has 32
+                // fractional bits
                 let quotient = (u64::from(log2(u64::from(count) + 1)) * u64::from(mantissa))
                     >> (shift.wrapping_sub(32) & 63);
                 ((quotient * 0xffff + (1 << 31)) >> 32).min(0xffff) as u16
@@ -506,7 +509,8 @@ mod tests {
         }
     }
 
-    /// Halves, to the nearest step upwards: `(2 count 65535 + full) / (2 full)` in integers, for every count below.
+    /// Halves, to the nearest step upwards: `(2 count 65535 + full) / (2 full)` in integers, for every count
+    /// below.
     #[test]
     fn linear_tones_are_those_of_whole_numbers() {
         for full in [1, 2, 6, 255, 1000, 65535_u16] {

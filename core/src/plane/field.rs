@@ -10,8 +10,8 @@ use embedded_graphics_core::geometry::Size;
 
 /// A value for each pixel.
 ///
-/// [`Field::at`] is enough; a kernel that prepares something for a row, or walks along it, writes [`Field::row`] as well, with
-/// [`along`]. A closure is a field by [`from_fn`](super::from_fn()).
+/// [`Field::at`] is enough; a kernel that prepares something for a row, or walks along it, writes
+/// [`Field::row`] as well, with [`along`]. A closure is a field by [`from_fn`](super::from_fn()).
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture};
@@ -49,9 +49,9 @@ pub trait Field {
     /// The value at column `x` and row `y`, `(0, 0)` at the upper left. Both must lie inside [`Field::size`].
     fn at(&self, x: u32, y: u32) -> Self::Value;
 
-    /// The values at row `y` of the columns `x`, from left to right: what [`Field::at`] gives for each. The row must lie inside
-    /// [`Field::size`]; columns beyond it have no pixels and are left out. The iterator's `nth` must not evaluate what it skips: drivers
-    /// skip what they clip.
+    /// The values at row `y` of the columns `x`, from left to right: what [`Field::at`] gives for each. The
+    /// row must lie inside [`Field::size`]; columns beyond it have no pixels and are left out. The iterator's
+    /// `nth` must not evaluate what it skips: drivers skip what they clip.
     #[inline]
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Self::Value> {
         along(inside(x, self.size().width), move |x| self.at(x, y))
@@ -80,7 +80,8 @@ impl<F: Field> Field for &F {
 pub trait Symmetric: Field {
     /// The row above this one that has the same values, to the last bit; none where there is none.
     ///
-    /// Images of successive rows are successive: where `row` has one, that of `row - 1`, if any, is the next below it.
+    /// Images of successive rows are successive: where `row` has one, that of `row - 1`, if any, is the next
+    /// below it.
     fn mirror_image(&self, row: u32) -> Option<u32>;
 }
 
@@ -96,8 +97,8 @@ pub(crate) fn inside(columns: Range<u32>, width: u32) -> Range<u32> {
     columns.start.min(width)..columns.end.min(width)
 }
 
-/// A row: the value at each of the places, evaluated as it is asked for. Skipped places are not evaluated, as [`Field::row`] promises; the
-/// `map` of an iterator evaluates them.
+/// A row: the value at each of the places, evaluated as it is asked for. Skipped places are not evaluated, as
+/// [`Field::row`] promises; the `map` of an iterator evaluates them.
 ///
 /// ```
 /// use attractor::plane::along;

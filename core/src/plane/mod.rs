@@ -1,10 +1,12 @@
-//! What kernels show, on the plane: points, paths and fields, and the window through which a display looks at it.
+//! What kernels show, on the plane: points, paths and fields, and the window through which a display looks at
+//! it.
 //!
 //! There are three kinds of picture, each lazy and without a buffer:
 //!
 //! - *points*: an `Iterator<Item = Point2>` (chaos game, sampled attractors);
 //! - *path*: an `Iterator<Item = PathElement>` of move-to and line-to (graphs of functions, Koch curves);
-//! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster); a closure becomes one with [`from_fn()`].
+//! - *field*: a [`Field`], one value a pixel, delivered row by row (dwell, ray caster); a closure becomes one
+//!   with [`from_fn()`].
 //!
 //! A path:
 //!

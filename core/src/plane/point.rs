@@ -18,10 +18,11 @@ impl Point2 {
         Self { x, y }
     }
 
-    /// The point `(x, y)` from decimal literals, for constants: `const TIP: Point2 = Point2::lit("0.5", "0.866")`.
+    /// The point `(x, y)` from decimal literals, for constants:
+    /// `const TIP: Point2 = Point2::lit("0.5", "0.866")`.
     ///
-    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in `const { }` only: see
-    /// [Numbers](crate::num#numbers).
+    /// Text that is no number, or does not fit, is an error at compile time. Call it in a `const` or in
+    /// `const { }` only: see [Numbers](crate::num#numbers).
     pub const fn lit(x: &str, y: &str) -> Self {
         Self::new(Real::lit(x), Real::lit(y))
     }

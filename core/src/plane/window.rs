@@ -33,7 +33,8 @@ impl Window {
     /// Shows `bounds` on all of `size`, stretched if the aspect ratios differ (graphs of functions).
     ///
     /// # Errors
-    /// [`Error::Degenerate`] for an empty box, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`](super::MAX_SIDE).
+    /// [`Error::Degenerate`] for an empty box, [`Error::OutOfRange`] for a size of 0 or above
+    /// [`MAX_SIDE`](super::MAX_SIDE).
     pub fn stretch(bounds: Bounds2, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let Bounds2 { min, max } = bounds;
@@ -45,10 +46,12 @@ impl Window {
         Ok(Self { bounds, size, x, y })
     }
 
-    /// Shows all of `bounds`, centred, with square pixels: the shorter direction is widened, so that a line or a point may be shown.
+    /// Shows all of `bounds`, centred, with square pixels: the shorter direction is widened, so that a line
+    /// or a point may be shown.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] for a box that ends before it begins, [`Error::OutOfRange`] for a size of 0 or above [`MAX_SIDE`](super::MAX_SIDE).
+    /// [`Error::Degenerate`] for a box that ends before it begins, [`Error::OutOfRange`] for a size of 0 or
+    /// above [`MAX_SIDE`](super::MAX_SIDE).
     pub fn fit(bounds: Bounds2, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let axes = [(bounds.min.x, bounds.max.x, size.width), (bounds.min.y, bounds.max.y, size.height)];
@@ -105,7 +108,8 @@ impl Window {
         (rows * u64::from(self.size.width) < 1 << 32).then_some([x, y])
     }
 
-    /// Column and row of `p` in the raster continued over the whole plane: inside the window as [`Window::pixel`], below 2^47 everywhere.
+    /// Column and row of `p` in the raster continued over the whole plane: inside the window as
+    /// [`Window::pixel`], below 2^47 everywhere.
     pub fn raster(&self, p: Point2) -> (i64, i64) {
         let Bounds2 { min, max } = self.bounds;
         (
@@ -156,7 +160,8 @@ impl PixelsPerUnit {
         let fraction = pixels_q32(d, [high, low]);
         let pixel = (product_u(d, whole) + (fraction >> 32)) as i64;
         if distance < 0 {
-            // the floor of a negative quotient; where it is an integer, the fraction that is left is below 2^-32
+            // the floor of a negative quotient; where it is an integer, the fraction that is left is below
+            // 2^-32
             -pixel - i64::from(fraction as u32 != 0)
         } else {
             pixel - i64::from(distance == extent && pixel == i64::from(pixels))
@@ -215,7 +220,8 @@ mod tests {
         (i128::from(distance) * i128::from(pixels)).div_euclid(i128::from(extent)) as i64
     }
 
-    /// Distances on an axis that decide: the edges of all pixels or of as many as 40, a unit before and behind each, and beyond both ends.
+    /// Distances on an axis that decide: the edges of all pixels or of as many as 40, a unit before and
+    /// behind each, and beyond both ends.
     fn decisive((start, extent, pixels): Axis, rng: &mut Xoshiro128PlusPlus) -> Vec<i64> {
         let mut distances = vec![0, extent, i64::from(i32::MIN) - start, i64::from(i32::MAX) - start];
         let every = pixels / 40 + 1;

@@ -1,12 +1,13 @@
 //! The box test: whether a ray passes through the box of a node.
 //!
-//! The ray is cut to the part over the node already: what is left to compare are two heights and the range of `f g` (eq. 49-50). No plane of constant
-//! height is intersected. Formats: 24 fractional bits.
+//! The ray is cut to the part over the node already: what is left to compare are two heights and the range of
+//! `f g` (eq. 49-50). No plane of constant height is intersected. Formats: 24 fractional bits.
 
 use crate::fif::Cell;
 use crate::num::Real;
 
-/// Whether a ray that runs from height `z_in` to `z_out` over a part of the surface meets the part's box: the test of which a walk consists.
+/// Whether a ray that runs from height `z_in` to `z_out` over a part of the surface meets the part's box: the
+/// test of which a walk consists.
 ///
 /// Domain: heights of magnitude below 64, and so the products of the ranges' ends; others wrap.
 #[inline]
@@ -45,7 +46,8 @@ fn product(a: Real, b: Real) -> i32 {
     ((i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24) as i32
 }
 
-/// Bounds of the product of two ranges (eq. 49), 24 fractional bits, outward by at most one unit more than need be.
+/// Bounds of the product of two ranges (eq. 49), 24 fractional bits, outward by at most one unit more than
+/// need be.
 #[inline(never)]
 pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
     let ends = [product(f.min, g.min), product(f.min, g.max), product(f.max, g.min), product(f.max, g.max)];
@@ -122,7 +124,8 @@ mod tests {
         assert!(met > 1000 && missed > 1000);
     }
 
-    /// One height on the surface and one outside: the walk itself needs no more than the public name of the test.
+    /// One height on the surface and one outside: the walk itself needs no more than the public name of the
+    /// test.
     #[test]
     fn a_box_is_met_by_name_as_by_bits() {
         let cell =

@@ -6,8 +6,9 @@ use crate::num::{Angle, Real, Unit, Vec3, Wide, nth, quotient, sin_cos};
 
 /// A pinhole camera.
 ///
-/// The view's frame is `w = norm(look_at - eye)`, `r = norm(w x up)`, `u = r x w`; a ray through the picture at `(a, b)` half heights to the right of and
-/// above its centre has the direction `w + k (a r + b u)`, `k` the tangent of half the field of view.
+/// The view's frame is `w = norm(look_at - eye)`, `r = norm(w x up)`, `u = r x w`; a ray through the picture
+/// at `(a, b)` half heights to the right of and above its centre has the direction `w + k (a r + b u)`, `k`
+/// the tangent of half the field of view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Camera {
     pub(crate) eye: Vec3,
@@ -22,8 +23,8 @@ impl Camera {
     /// A camera at `eye` that looks at `look_at`, with the vertical `field_of_view` in degrees.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an eye 64 or more from the origin along an axis or a field of view outside 1 to 120 degrees;
-    /// [`Error::Degenerate`] if the eye is where it looks, or looks along `up`.
+    /// [`Error::OutOfRange`] for an eye 64 or more from the origin along an axis or a field of view outside 1
+    /// to 120 degrees; [`Error::Degenerate`] if the eye is where it looks, or looks along `up`.
     pub fn new(eye: Vec3, look_at: Vec3, up: Vec3, field_of_view: Real) -> Result<Self, Error> {
         for (index, c) in [eye.x, eye.y, eye.z].into_iter().enumerate() {
             if c.unsigned_abs().to_bits() >= 64 << 24 {
@@ -48,8 +49,9 @@ impl Camera {
         Ok(Self { eye, forward, right, up: right.cross(forward), tangent: tangent as i32 })
     }
 
-    /// The same from f32 numbers, for firmware that moves a camera about: an eye at `distance` from `look_at`, `turn` radians about the vertical, `lift` radians above
-    /// the horizon. Sines and cosines are micromath's, good to `2e-3`.
+    /// The same from f32 numbers, for firmware that moves a camera about: an eye at `distance` from
+    /// `look_at`, `turn` radians about the vertical, `lift` radians above the horizon. Sines and cosines are
+    /// micromath's, good to `2e-3`.
     ///
     /// # Errors
     /// As [`Camera::new`].

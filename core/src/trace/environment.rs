@@ -21,7 +21,8 @@ pub enum Environment {
         /// Straight down.
         nadir: Unit,
     },
-    /// A ceiling and a floor at unit height with squares of side `1 / scale`, faded to `horizon` where the sine of the elevation falls below `fade`.
+    /// A ceiling and a floor at unit height with squares of side `1 / scale`, faded to `horizon` where the
+    /// sine of the elevation falls below `fade`.
     Checkerboard {
         /// Tone of the even squares.
         bright: Unit,
@@ -72,9 +73,10 @@ impl Environment {
 
     /// The tone in direction `e`, a unit vector.
     ///
-    /// Domain: any parts; `RayCaster::with_environment` takes only those in their ranges. Result: in `[0, 1]`. Error: below `2^-29`
-    /// (row `Environment::tone (gradient)`), and a square's edge is off by less than `2^-15 (scale + d)` of a square at
-    /// the distance `d = max(|e_x|, |e_y|) / |e_z|` (`an_edge_is_where_it_should_be`).
+    /// Domain: any parts; `RayCaster::with_environment` takes only those in their ranges. Result: in
+    /// `[0, 1]`. Error: below `2^-29` (row `Environment::tone (gradient)`), and a square's edge is off by
+    /// less than `2^-15 (scale + d)` of a square at the distance `d = max(|e_x|, |e_y|) / |e_z|`
+    /// (`an_edge_is_where_it_should_be`).
     #[inline]
     pub fn tone(&self, e: Vec3<Unit>) -> Unit {
         self.seen([e.x, e.y, e.z].map(Unit::to_bits), |z| z).clamp(Unit::ZERO, Unit::ONE)
@@ -86,7 +88,8 @@ impl Environment {
         self.seen(e, |z| scaled(z, reciprocal_sqrt_of(square(e))))
     }
 
-    /// The tone in a direction that `unit` brings to length 1, component by component: a gradient asks for one alone.
+    /// The tone in a direction that `unit` brings to length 1, component by component: a gradient asks for
+    /// one alone.
     #[inline(always)]
     fn seen(&self, e: [i32; 3], unit: impl Fn(i32) -> i32) -> Unit {
         match *self {
@@ -242,7 +245,8 @@ mod tests {
         assert!(worst > 0.25, "{worst}");
     }
 
-    /// Against integers: `from + (to - from) part`, rounded down; the part of the fade, within a unit and at most 1.
+    /// Against integers: `from + (to - from) part`, rounded down; the part of the fade, within a unit and at
+    /// most 1.
     #[test]
     fn a_mixture_and_a_fade_are_exact() {
         for from in [0, 1, 1 << 29, 1 << 30] {
@@ -272,7 +276,8 @@ mod tests {
         assert!(worst > 0);
     }
 
-    /// A direction's length changes nothing but the last bits, and the square where a direction comes near its edge.
+    /// A direction's length changes nothing but the last bits, and the square where a direction comes near
+    /// its edge.
     #[test]
     fn a_tone_is_that_of_the_unit_vector() {
         let (mut worst, mut tried, mut crossed) = (0, 0, 0);

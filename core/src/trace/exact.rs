@@ -1,7 +1,8 @@
-//! The first leaf that a ray meets by the definition of a picture, in fractions: what both walks are compared with.
+//! The first leaf that a ray meets by the definition of a picture, in fractions: what both walks are compared
+//! with.
 //!
-//! A ray is above a node from its last plane of entry to its first of exit. A node's parts are tried in the order in which
-//! the ray comes above them; the first that it meets and that is small enough is the leaf.
+//! A ray is above a node from its last plane of entry to its first of exit. A node's parts are tried in the
+//! order in which the ray comes above them; the first that it meets and that is small enough is the leaf.
 
 use core::cmp::Ordering;
 use std::vec::Vec;
@@ -81,8 +82,8 @@ impl Surface {
         Hierarchy { x, y, depth: self.depth, leaves, heights: range(&x.cells[0], &y.cells[0]) }
     }
 
-    /// Rays from around, above, below and inside, most of them towards the surface; every eighth so steep that it may be 64
-    /// away where it leaves the surface.
+    /// Rays from around, above, below and inside, most of them towards the surface; every eighth so steep
+    /// that it may be 64 away where it leaves the surface.
     pub(super) fn rays(&self, seed: u64, count: usize) -> impl Iterator<Item = Ray> + '_ {
         let mut word = words(seed);
         let (low, high) = self.hierarchy().heights;
@@ -139,8 +140,8 @@ pub(super) struct Truth {
 }
 
 impl Truth {
-    /// By how much a span is off, in sixteenths of a unit of the planes that limit it: a parameter's error times the least
-    /// component of the direction.
+    /// By how much a span is off, in sixteenths of a unit of the planes that limit it: a parameter's error
+    /// times the least component of the direction.
     pub(super) fn error(&self, span: (i32, i32), ray: &Ray) -> i128 {
         let least = ray.direction.iter().map(|d| i128::from(d.unsigned_abs().max(1))).min().unwrap();
         let error = |(got, exact): (i32, Fraction)| {
@@ -170,8 +171,8 @@ struct Node {
     span: [Fraction; 2],
 }
 
-/// The first leaf of `ray`, for a footprint with 30 fractional bits. `clipped`: no part is tried beyond where the ray leaves
-/// the range of all heights.
+/// The first leaf of `ray`, for a footprint with 30 fractional bits. `clipped`: no part is tried beyond where
+/// the ray leaves the range of all heights.
 pub(super) fn first_leaf(hierarchy: &Hierarchy<'_>, ray: &Ray, per_t: i32, clipped: bool) -> Truth {
     let zero = Fraction(0, 1);
     let truth = Truth {

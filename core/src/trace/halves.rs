@@ -1,20 +1,24 @@
-//! The walk through a hierarchy whose nodes have two equal parts along each axis: a quadtree, the ordinary case.
+//! The walk through a hierarchy whose nodes have two equal parts along each axis: a quadtree, the ordinary
+//! case.
 //!
-//! It finds the first leaf that a ray meets, going from part to part in the order in which the ray passes above them, and is
-//! used wherever both factors have two maps with the knot between them in the middle; [`super::parts`] walks everything else
-//! and finds the same leaves. What is gained is that equal parts need neither a stack nor a table of planes:
+//! It finds the first leaf that a ray meets, going from part to part in the order in which the ray passes
+//! above them, and is used wherever both factors have two maps with the knot between them in the middle;
+//! [`super::parts`] walks everything else and finds the same leaves. What is gained is that equal parts need
+//! neither a stack nor a table of planes:
 //!
-//! - The number of a node along an axis, plus 1, is a 1 followed by one binary digit a level: 0 for the lower part of the node
-//!   above, 1 for the upper. So the nodes that contain a node need not be remembered: they are the number without its last digits.
-//! - A ray passes the nearer part of a node first, then the farther one, then leaves the node. When it leaves a node whose
-//!   number ends in `k` digits that say "farther", it leaves the `k` nodes around it at the same plane, and the walk rises
-//!   by `k` levels at once.
-//! - With `u` a plane's place across the surface the way the ray goes, from -1/2 to 1/2, the ray crosses it at
-//!   `t = middle + whole u`, `middle` the parameter in the middle of the surface and `whole` what the ray takes across it:
-//!   one multiplication a plane, at every level.
+//! - The number of a node along an axis, plus 1, is a 1 followed by one binary digit a level: 0 for the lower
+//!   part of the node above, 1 for the upper. So the nodes that contain a node need not be remembered: they
+//!   are the number without its last digits.
+//! - A ray passes the nearer part of a node first, then the farther one, then leaves the node. When it leaves
+//!   a node whose number ends in `k` digits that say "farther", it leaves the `k` nodes around it at the same
+//!   plane, and the walk rises by `k` levels at once.
+//! - With `u` a plane's place across the surface the way the ray goes, from -1/2 to 1/2, the ray crosses it
+//!   at `t = middle + whole u`, `middle` the parameter in the middle of the surface and `whole` what the ray
+//!   takes across it: one multiplication a plane, at every level.
 //!
-//! Of a node's four parts a ray passes at most three. Parameters have 24 fractional bits in 32. A ray so nearly parallel to a
-//! plane, or so steep, that it leaves that range above the surface is left to the general walk.
+//! Of a node's four parts a ray passes at most three. Parameters have 24 fractional bits in 32. A ray so
+//! nearly parallel to a plane, or so steep, that it leaves that range above the surface is left to the
+//! general walk.
 //!
 //! After J. Revelles, C. Urena, M. Lastra, "An efficient parametric algorithm for octree traversal", 2000.
 
@@ -102,7 +106,8 @@ impl Slab {
         }
     }
 
-    /// Over the plane at its end, into the next node, and out of the nodes that end there too. None at the end of the surface.
+    /// Over the plane at its end, into the next node, and out of the nodes that end there too. None at the
+    /// end of the surface.
     #[inline(always)]
     fn advance(
         &mut self,
@@ -387,7 +392,8 @@ mod tests {
         assert!((2..=6).contains(&worst), "{worst}");
     }
 
-    /// Nodes are small from the parameter on where the footprint is as wide, early by what the kept bits do not tell.
+    /// Nodes are small from the parameter on where the footprint is as wide, early by what the kept bits do
+    /// not tell.
     #[test]
     fn a_node_is_small_where_the_footprint_is_as_wide() {
         let (mut worst, mut tried) = (0.0_f64, 0);
@@ -424,7 +430,8 @@ mod tests {
         assert!(tried > 300 && (0.5..1.0).contains(&worst), "{worst} of {tried}");
     }
 
-    /// A ray that starts within a unit of an outer plane and goes out touches the last part; planes come up to a unit early.
+    /// A ray that starts within a unit of an outer plane and goes out touches the last part; planes come up
+    /// to a unit early.
     #[test]
     fn a_ray_may_touch_the_outer_planes() {
         let cells = [Cell { min: Real::ONE, max: Real::ONE, ..Cell::ZERO }; 3];
@@ -500,7 +507,8 @@ mod tests {
         }
     }
 
-    /// Along one axis from the first node to the last, rising and descending: numbers and planes in exact integers.
+    /// Along one axis from the first node to the last, rising and descending: numbers and planes in exact
+    /// integers.
     #[test]
     fn every_node_is_passed_in_order() {
         for from_above in [0, 1] {
@@ -569,7 +577,8 @@ mod tests {
             let leaf = hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).unwrap();
             assert!((begin - 1..=begin).contains(&leaf.span.0), "{z} {slope}: {:?}", leaf.span);
         }
-        // over 3/4 it falls by 49152 units and rises by one less: to the first height that counts, and to the one beside it
+        // over 3/4 it falls by 49152 units and rises by one less: to the first height that counts, and to the
+        // one beside it
         let walk = |z: i32, slope: i32| {
             let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 28, 1 << 27, slope]);
             hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).is_some()

@@ -1,6 +1,7 @@
 //! Where a ray meets the height field `h(x, y) = f(x) g(y)`.
 //!
-//! A walk through the hierarchy of boxes from front to back finds the first leaf that the ray meets; the part of the ray inside the leaf's box gives the hit.
+//! A walk through the hierarchy of boxes from front to back finds the first leaf that the ray meets; the part
+//! of the ray inside the leaf's box gives the hit.
 //!
 //! Formats: lengths and `t` 24 fractional bits, directions 28.
 //!
@@ -37,7 +38,8 @@ pub struct Hit {
 }
 
 impl Hit {
-    /// The mean normal of the surface over the leaf, `(-mean h_x, -mean h_y, 1)`, components saturated at ±64.
+    /// The mean normal of the surface over the leaf, `(-mean h_x, -mean h_y, 1)`, components saturated at
+    /// ±64.
     pub fn normal(&self) -> Vec3 {
         let [x, y, z] = normal(&self.cells.0, &self.cells.1).map(Real::from_bits);
         Vec3::new(x, y, z)
@@ -85,7 +87,8 @@ impl<'a> HeightField<'a> {
         Ok(Self { hierarchy: Hierarchy { x, y, depth, leaves, heights: range(&f, &g) }, halved })
     }
 
-    /// The depth of the tree, at most [`Pyramid::MAX_DEPTH`]: no more than this many frames are on the stack of a walk.
+    /// The depth of the tree, at most [`Pyramid::MAX_DEPTH`]: no more than this many frames are on the stack
+    /// of a walk.
     pub const fn depth(&self) -> u32 {
         self.hierarchy.depth
     }
@@ -106,13 +109,15 @@ impl<'a> HeightField<'a> {
         self.hierarchy.level_of_detail(footprint)
     }
 
-    /// The first leaf that the ray meets. A node is a leaf at the deepest level, or where it is no wider than `footprint` times the ray's parameter.
+    /// The first leaf that the ray meets. A node is a leaf at the deepest level, or where it is no wider than
+    /// `footprint` times the ray's parameter.
     ///
-    /// Rays that start inside the surface's box and rays parallel to a plane are handled; the smallest `t` is 0.
+    /// Rays that start inside the surface's box and rays parallel to a plane are handled; the smallest
+    /// `t` is 0.
     ///
-    /// Error: of `t` below `2^-21` over the least component of the direction, as planes are known to a unit; the leaf is the
-    /// exact one but for fewer than one ray in 500, which pass the edge of a box (row `HeightField::intersect (depth)`). Cost: 29.7
-    /// Cortex-M4 instructions (kernel `box test`) a box test.
+    /// Error: of `t` below `2^-21` over the least component of the direction, as planes are known to a unit;
+    /// the leaf is the exact one but for fewer than one ray in 500, which pass the edge of a box (row
+    /// `HeightField::intersect (depth)`). Cost: 29.7 Cortex-M4 instructions (kernel `box test`) a box test.
     pub fn intersect(&self, ray: &Ray, footprint: Unit) -> Option<Hit> {
         self.leaf(ray, &self.level_of_detail(Footprint::new(footprint)), &mut Uncounted)
             .and_then(|leaf| self.hit(ray, &leaf))

@@ -1,9 +1,11 @@
-//! The hierarchy of boxes around a height field `h(x, y) = f(x) g(y)`, which walks go through and height fields are made of.
+//! The hierarchy of boxes around a height field `h(x, y) = f(x) g(y)`, which walks go through and height
+//! fields are made of.
 //!
-//! The cells of the two pyramids span it without being stored as pairs: the node `(p, q)` has the box over the interval of
-//! `f`'s cell `p` and that of `g`'s cell `q`, and its parts are the pairs of their parts, `N M` a node. Nodes of a pyramid are
-//! numbered level by level: the parts of node `q` are `n q + 1` to `n q + n`. Two walks find the first leaf that a ray meets,
-//! [`super::halves`] where nodes have two equal parts along each axis, [`super::parts`] elsewhere.
+//! The cells of the two pyramids span it without being stored as pairs: the node `(p, q)` has the box over
+//! the interval of `f`'s cell `p` and that of `g`'s cell `q`, and its parts are the pairs of their parts,
+//! `N M` a node. Nodes of a pyramid are numbered level by level: the parts of node `q` are `n q + 1` to
+//! `n q + n`. Two walks find the first leaf that a ray meets, [`super::halves`] where nodes have two equal
+//! parts along each axis, [`super::parts`] elsewhere.
 //!
 //! Formats: lengths 24 fractional bits, places inside a node 31.
 
@@ -60,7 +62,8 @@ impl<'a> Profile<'a> {
         })
     }
 
-    /// Whether a node has two equal parts, the ordinary case, for which [`super::halves`] has a walk of its own.
+    /// Whether a node has two equal parts, the ordinary case, for which [`super::halves`] has a walk of its
+    /// own.
     pub(super) fn is_halved(&self) -> bool {
         self.starts == [0, 1 << 30]
     }

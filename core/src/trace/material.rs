@@ -78,11 +78,12 @@ impl Material {
         Ok(self)
     }
 
-    /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points away is turned round.
+    /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points
+    /// away is turned round.
     ///
-    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`. Error: below `2^-27` for
-    /// diffuse light, `2^-22` for Phong's with an exponent up to 64 (rows `Material::tone (diffuse)` and
-    /// `Material::tone (Phong, exponent 64)`).
+    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`.
+    /// Error: below `2^-27` for diffuse light, `2^-22` for Phong's with an exponent up to 64 (rows
+    /// `Material::tone (diffuse)` and `Material::tone (Phong, exponent 64)`).
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
         match self.shade(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
@@ -248,7 +249,8 @@ mod tests {
         }
     }
 
-    /// What a diffuse surface shows, in integers: the ambient part, and the nearest to its rest times the light.
+    /// What a diffuse surface shows, in integers: the ambient part, and the nearest to its rest times the
+    /// light.
     #[test]
     fn a_diffuse_tone_is_the_nearest() {
         let light = Light::ORDINARY;
@@ -290,7 +292,8 @@ mod tests {
         assert_eq!(bright.tone(up, down, &light, &Environment::SKY), quarter + half);
     }
 
-    /// A power is off by less than half a unit a product, each counted as often as it is multiplied on: its exponent.
+    /// A power is off by less than half a unit a product, each counted as often as it is multiplied on: its
+    /// exponent.
     #[test]
     fn a_power_is_within_half_a_unit_for_each_of_its_factors() {
         let mut worst: f64 = 0.0;

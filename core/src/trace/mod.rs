@@ -1,8 +1,10 @@
-//! A scanline ray caster for height fields: one row of a picture at a time, front to back through two pyramids of cells.
+//! A scanline ray caster for height fields: one row of a picture at a time, front to back through two
+//! pyramids of cells.
 //!
 #![doc = include_str!("../../docs/trace.md")]
 //!
-//! What a pixel shows is defined in CONTRIBUTING.md ("The picture of a height field, defined"); the f64 reference implements the same page.
+//! What a pixel shows is defined in CONTRIBUTING.md ("The picture of a height field, defined"); the f64
+//! reference implements the same page.
 //!
 //! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", 2000, section 4.
 

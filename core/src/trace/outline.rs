@@ -1,15 +1,16 @@
 //! Where on the picture a surface's box can be seen: no ray need be cast outside.
 //!
-//! The outline of a box is made of its edges. In a row of pixels it reaches from the leftmost to the rightmost point of the projected edges within the
-//! row, widened by two pixels; a box that reaches behind the eye covers every column.
+//! The outline of a box is made of its edges. In a row of pixels it reaches from the leftmost to the
+//! rightmost point of the projected edges within the row, widened by two pixels; a box that reaches behind
+//! the eye covers every column.
 
 use core::ops::Range;
 
-use super::Camera;
+use super::camera::Camera;
 use crate::num::{Unit, Vec3, quotient, reciprocal};
 
-/// The projected corners of a box, in pixels with 16 fractional bits, or none where one is not in front of the eye. Bit `k` of a corner's index says on
-/// which side it lies along axis `k`.
+/// The projected corners of a box, in pixels with 16 fractional bits, or none where one is not in front of
+/// the eye. Bit `k` of a corner's index says on which side it lies along axis `k`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Outline(Option<[(i32, i32); 8]>);
 
@@ -37,7 +38,8 @@ impl Outline {
     /// The columns of row `y` in which the box can be seen.
     pub(super) fn columns(&self, y: u32, cols: u32) -> Range<u32> {
         let Some(corners) = &self.0 else { return 0..cols };
-        // the row and two pixels above and below: the samples of a wide filter lie up to that outside their pixel
+        // the row and two pixels above and below: the samples of a wide filter lie up to that outside their
+        // pixel
         let (above, below) = (((y as i32) << 16) - (2 << 16), ((y as i32) << 16) + (3 << 16));
         let (mut left, mut right) = (i32::MAX, i32::MIN);
         for (a, b) in EDGES {
@@ -73,7 +75,8 @@ impl Outline {
     }
 }
 
-/// The pixel coordinates of a point, 16 fractional bits; none if it is not at least `2^-8` in front of the eye or far outside the picture.
+/// The pixel coordinates of a point, 16 fractional bits; none if it is not at least `2^-8` in front of the
+/// eye or far outside the picture.
 fn project(point: [i32; 3], camera: &Camera, cols: u32, rows: u32) -> Option<(i32, i32)> {
     let offsets = [(point[0], camera.eye.x), (point[1], camera.eye.y), (point[2], camera.eye.z)]
         .map(|(p, e)| i64::from(p) - i64::from(e.to_bits()));
@@ -126,7 +129,8 @@ mod tests {
         (half_cols + along(camera.right) / k * half_rows, half_rows - along(camera.up) / k * half_rows)
     }
 
-    /// All samples of a pixel lie within two pixels of its centre: each pixel whose samples may meet the box is inside, and none that is far off.
+    /// All samples of a pixel lie within two pixels of its centre: each pixel whose samples may meet the box
+    /// is inside, and none that is far off.
     #[test]
     fn an_outline_holds_what_samples_may_meet_and_little_more() {
         let camera = camera();
@@ -187,7 +191,8 @@ mod tests {
         Camera { eye: Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO), forward, right, up, tangent }
     }
 
-    /// Against fractions: `offset / (depth k) rows / 2`, to the right of and below the middle, 16 fractional bits.
+    /// Against fractions: `offset / (depth k) rows / 2`, to the right of and below the middle, 16 fractional
+    /// bits.
     #[test]
     fn a_projection_is_the_quotient_of_offset_and_depth() {
         let (mut worst, mut tried) = (0_i128, 0);
@@ -229,8 +234,8 @@ mod tests {
         }
     }
 
-    /// Against fractions: from the leftmost to the rightmost point of the edges above the row and two rows on either side,
-    /// widened by two columns.
+    /// Against fractions: from the leftmost to the rightmost point of the edges above the row and two rows on
+    /// either side, widened by two columns.
     #[test]
     fn columns_reach_as_far_as_the_edges_above_the_rows() {
         let mut word = super::super::exact::words(5);

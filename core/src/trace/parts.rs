@@ -1,8 +1,10 @@
-//! The walk through a height field whose nodes have any number of parts of any width: Algorithm 3 of the paper without recursion.
+//! The walk through a height field whose nodes have any number of parts of any width: Algorithm 3 of the
+//! paper without recursion.
 //!
-//! Inside a node the ray's projection walks its parts from plane to plane in the order in which it crosses them (which contains the four cases of
-//! figure 5: the walk steps up or down along each axis by the sign of the direction), so that only parts under the ray are ever tested and the first leaf
-//! found is the nearest. One frame a level holds where the walk of that level stands: the stack is as deep as the tree.
+//! Inside a node the ray's projection walks its parts from plane to plane in the order in which it crosses
+//! them (which contains the four cases of figure 5: the walk steps up or down along each axis by the sign of
+//! the direction), so that only parts under the ray are ever tested and the first leaf found is the nearest.
+//! One frame a level holds where the walk of that level stands: the stack is as deep as the tree.
 
 use heapless::Vec;
 
@@ -29,7 +31,8 @@ struct Along {
     /// The part where the walk stands, 0 at the low end, and its number.
     part: u32,
     node: u32,
-    /// Where the ray leaves the part along this axis; the greatest number for the last part, which the node's own end limits.
+    /// Where the ray leaves the part along this axis; the greatest number for the last part, which the node's
+    /// own end limits.
     next: i32,
 }
 
@@ -62,7 +65,8 @@ impl Profile<'_> {
         low + offset
     }
 
-    /// Where the ray leaves part `part` of an extent; the greatest number for the last, which the node's own end limits.
+    /// Where the ray leaves part `part` of an extent; the greatest number for the last, which the node's own
+    /// end limits.
     #[inline(never)]
     fn leaves(&self, axis: &Axis, low: i32, width: i32, part: u32) -> i32 {
         let up = axis.direction > 0;
@@ -267,8 +271,8 @@ mod tests {
         }
     }
 
-    /// The surface is closed: a ray that starts on an outer plane and goes out touches it, one that starts a unit farther on
-    /// does not. The last part is closed as well.
+    /// The surface is closed: a ray that starts on an outer plane and goes out touches it, one that starts a
+    /// unit farther on does not. The last part is closed as well.
     #[test]
     fn a_ray_may_touch_the_outer_planes() {
         let cells = [Cell { min: Real::ONE, max: Real::ONE, ..Cell::ZERO }; 3];

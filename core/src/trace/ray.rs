@@ -16,7 +16,8 @@ pub(crate) struct Axis {
     zeros: u32,
 }
 
-/// `distance / 2^zeros` for a reciprocal's `zeros` below 32 and mantissa less 2 bits: the parameter after that distance, 24 fractional bits.
+/// `distance / 2^zeros` for a reciprocal's `zeros` below 32 and mantissa less 2 bits: the parameter after
+/// that distance, 24 fractional bits.
 #[inline(always)]
 fn joined(product: i64, zeros: u32) -> i32 {
     // product >> (32 - zeros) by halves: a 64-bit shift by a variable takes twice as long
@@ -24,8 +25,8 @@ fn joined(product: i64, zeros: u32) -> i32 {
     high << zeros | ((low >> 1) >> (zeros ^ 31)) as i32
 }
 
-/// What a ray with a direction of this magnitude (28 fractional bits) takes for each distance (24 fractional bits), 24 fractional bits:
-/// the caller knows that these are less than `2^31`.
+/// What a ray with a direction of this magnitude (28 fractional bits) takes for each distance (24 fractional
+/// bits), 24 fractional bits: the caller knows that these are less than `2^31`.
 #[inline(always)]
 pub(super) fn parameters<const N: usize>(distances: [i32; N], magnitude: NonZeroU32) -> [i32; N] {
     let (mantissa, zeros) = reciprocal_of(magnitude);
@@ -33,7 +34,8 @@ pub(super) fn parameters<const N: usize>(distances: [i32; N], magnitude: NonZero
 }
 
 impl Axis {
-    /// A component of 0 counts as `2^-28`: a ray parallel to a plane leans by less than a direction's resolution, and every plane is crossed.
+    /// A component of 0 counts as `2^-28`: a ray parallel to a plane leans by less than a direction's
+    /// resolution, and every plane is crossed.
     pub(super) fn new(origin: i32, direction: i32) -> Self {
         let (mantissa, zeros) =
             reciprocal_of(NonZeroU32::new(direction.unsigned_abs()).unwrap_or(NonZeroU32::MIN));
@@ -60,7 +62,8 @@ impl Axis {
         self.origin.wrapping_add(((i64::from(self.direction) * i64::from(t)) >> 28) as i32)
     }
 
-    /// The part of `[t_in, t_out]` in which the coordinate lies between `low` and `high`; empty if `t_in > t_out` in the result.
+    /// The part of `[t_in, t_out]` in which the coordinate lies between `low` and `high`; empty if
+    /// `t_in > t_out` in the result.
     pub(crate) fn clip(&self, low: i32, high: i32, (t_in, t_out): (i32, i32)) -> (i32, i32) {
         let (near, far) = if self.direction > 0 { (low, high) } else { (high, low) };
         (t_in.max(self.crossing(near)), t_out.min(self.crossing(far)))
@@ -110,7 +113,8 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// The ray from `origin` (each coordinate inside ±64, saturated to that) along `direction` (each component inside ±4, saturated).
+    /// The ray from `origin` (each coordinate inside ±64, saturated to that) along `direction` (each
+    /// component inside ±4, saturated).
     #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
         // a plane at 64 is less than 128 away
@@ -152,7 +156,8 @@ mod tests {
                     let exact = over / i128::from(direction);
                     let got = i128::from(Axis::new(origin, direction).crossing(plane));
                     if exact.abs() < (1 << 31) - 64 {
-                        // towards 0 by the reciprocal, 2^-29, and by what 29 bits leave of it, 2^-28; then down by a unit
+                        // towards 0 by the reciprocal, 2^-29, and by what 29 bits leave of it, 2^-28; then
+                        // down by a unit
                         let (under, sign) = (i128::from(direction).abs(), i128::from(direction.signum()));
                         let off = over * sign - got * under;
                         let by_reciprocal = (3 * over * sign).div_euclid(1 << 29);

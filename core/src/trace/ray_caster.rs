@@ -7,7 +7,7 @@ use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
 
-use super::Camera;
+use super::camera::Camera;
 use super::environment::Environment;
 use super::halves::LevelOfDetail;
 use super::height_field::HeightField;
@@ -53,7 +53,8 @@ pub struct RayCaster<'a> {
     light: Light,
     environment: Environment,
     pattern: Pattern,
-    /// Direction through the centre of the top left pixel, and half a unit of what a ray uses; steps to the right and downwards: 60 fractional bits.
+    /// Direction through the centre of the top left pixel, and half a unit of what a ray uses; steps to the
+    /// right and downwards: 60 fractional bits.
     corner: [i64; 3],
     right: [i64; 3],
     down: [i64; 3],
@@ -65,10 +66,12 @@ pub struct RayCaster<'a> {
 }
 
 impl<'a> RayCaster<'a> {
-    /// A picture of `size` pixels with one sample each, diffuse, lit from the upper left front, under [`Environment::SKY`].
+    /// A picture of `size` pixels with one sample each, diffuse, lit from the upper left front, under
+    /// [`Environment::SKY`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a size of 0 or above [`crate::plane::MAX_SIDE`], or where the view is so wide that a ray's direction leaves ±4.
+    /// [`Error::OutOfRange`] for a size of 0 or above [`crate::plane::MAX_SIDE`], or where the view is so
+    /// wide that a ray's direction leaves ±4.
     pub fn new(surface: HeightField<'a>, camera: Camera, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
@@ -131,8 +134,8 @@ impl<'a> RayCaster<'a> {
     /// With these samples a pixel.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 8 samples a side, or none, or a filter outside its ranges, or so wide that a ray's direction leaves ±4
-    /// (pictures of a few pixels).
+    /// [`Error::OutOfRange`] for more than 8 samples a side, or none, or a filter outside its ranges, or so
+    /// wide that a ray's direction leaves ±4 (pictures of a few pixels).
     pub fn with_sampling(mut self, sampling: Sampling, filter: Filter) -> Result<Self, Error> {
         self.pattern = Pattern::new(sampling, filter)?;
         let (cols, rows) = (i64::from(self.size.width), i64::from(self.size.height));
@@ -227,14 +230,16 @@ impl<'a> RayCaster<'a> {
     }
 }
 
-/// A tone with 30 fractional bits, at most 1, as a part of 65535: the nearest, or the other within `2^-14` of a half.
+/// A tone with 30 fractional bits, at most 1, as a part of 65535: the nearest, or the other within `2^-14` of
+/// a half.
 #[inline(always)]
 fn rounded(tone: u32) -> Tone {
     // times 65535 / 2^30
     Tone::from_bits(((tone - (tone >> 16) + (1 << 13)) >> 14) as u16)
 }
 
-/// Checks that directions stay inside ±4 on a picture with `margin` pixels around it: `|w| + k (cols / rows |r| + |u|) < 4`.
+/// Checks that directions stay inside ±4 on a picture with `margin` pixels around it:
+/// `|w| + k (cols / rows |r| + |u|) < 4`.
 fn in_reach(camera: &Camera, cols: i64, rows: i64, margin: i64) -> Result<(), Error> {
     let sides = cols + rows + 4 * margin;
     let reach = (i64::from(camera.tangent) * sides).checked_div(rows).unwrap_or(i64::MAX);
@@ -330,7 +335,8 @@ mod tests {
         with_polygon(&tent, 4, |f| then(HeightField::new(f, f).unwrap()))
     }
 
-    /// Against fractions: `w + (2 (i + 1/2 + dx) - cols) / rows k r + (rows - 2 (j + 1/2 + dy)) / rows k u`, to nearest.
+    /// Against fractions: `w + (2 (i + 1/2 + dx) - cols) / rows k r + (rows - 2 (j + 1/2 + dy)) / rows k u`,
+    /// to nearest.
     #[test]
     fn the_ray_of_a_sample_is_the_nearest_to_its_definition() {
         let bits = |v: Vec3<Unit>| [v.x, v.y, v.z].map(|c| i128::from(c.to_bits()));
@@ -386,7 +392,8 @@ mod tests {
         assert!(beyond > 0);
     }
 
-    /// The cone of a pixel is `2 k / rows` wide, that of one of `n` samples a side an `n`-th of it, and below 2.
+    /// The cone of a pixel is `2 k / rows` wide, that of one of `n` samples a side an `n`-th of it, and
+    /// below 2.
     #[test]
     fn a_footprint_is_the_width_of_a_pixel_or_of_a_part() {
         with_surface(|surface| {
@@ -478,7 +485,8 @@ mod tests {
         });
     }
 
-    /// What is seen has the tone that material, light and surroundings give it; what is not, that of its direction.
+    /// What is seen has the tone that material, light and surroundings give it; what is not, that of its
+    /// direction.
     #[test]
     fn a_tone_is_that_of_the_leaf_or_of_the_surroundings() {
         with_surface(|surface| {

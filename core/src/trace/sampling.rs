@@ -29,7 +29,8 @@ pub enum Sampling {
 pub enum Filter {
     /// Equal weights over the pixel.
     Box,
-    /// Weights fall off with the distance `r` of a part's centre from the pixel's, `e^(-r^2 / (2 deviation^2))`, over an area `width` pixels wide.
+    /// Weights fall off with the distance `r` of a part's centre from the pixel's,
+    /// `e^(-r^2 / (2 deviation^2))`, over an area `width` pixels wide.
     Gaussian {
         /// Standard deviation in pixels, 1/8 to 4.
         deviation: Real,
@@ -55,7 +56,8 @@ const MOST: usize = 8;
 /// Samples and weights, ready for use.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Pattern {
-    /// Place of a part's centre from the pixel's centre, in pixels, 24 fractional bits, and weight of its row or column, 30 bits.
+    /// Place of a part's centre from the pixel's centre, in pixels, 24 fractional bits, and weight of its row
+    /// or column, 30 bits.
     parts: [(i32, i32); MOST],
     /// Parts a side.
     count: u8,
@@ -126,7 +128,8 @@ impl Pattern {
         self.count == 1 && self.seed.is_none()
     }
 
-    /// The samples of pixel `(x, y)`: offsets from its centre in pixels (24 fractional bits, y downwards) and weights (30 bits).
+    /// The samples of pixel `(x, y)`: offsets from its centre in pixels (24 fractional bits, y downwards) and
+    /// weights (30 bits).
     #[inline]
     pub(crate) fn samples(&self, x: u32, y: u32) -> impl Iterator<Item = (i32, i32, i32)> + '_ {
         let mut state = self.seed.map(|seed| hash(seed ^ hash(x.wrapping_add(hash(y)))));
@@ -303,7 +306,8 @@ mod tests {
         assert!((60..190).contains(&worst), "{worst}");
     }
 
-    /// What is random in a pixel has nothing to do with its neighbours, with the seed beside it or with its next sample.
+    /// What is random in a pixel has nothing to do with its neighbours, with the seed beside it or with its
+    /// next sample.
     #[test]
     fn neighbouring_samples_are_independent() {
         let pattern = |seed| Pattern::new(Sampling::Jittered { n: 2, seed }, Filter::Box).unwrap();
@@ -345,7 +349,8 @@ mod tests {
         assert_eq!(words.map(hash), [0, 0x6889_90c0, 0xd113_2181, 0x6768_824a, 0xcc4b_4124, 0xf5e7_1c96]);
     }
 
-    /// The samples of a pixel follow from seed and place alone: one word a sample, its halves from -1/2 to 1/2 of a part.
+    /// The samples of a pixel follow from seed and place alone: one word a sample, its halves from -1/2 to
+    /// 1/2 of a part.
     #[test]
     fn jitter_is_the_halves_of_one_word_a_sample() {
         for (n, seed, x, y) in

@@ -1,7 +1,8 @@
 //! How much work intersections took: rays, boxes tested, and how deep the walks went.
 //!
-//! For choosing the depth of a pyramid and for tests; a picture does not need it. A walk reports each step to a [`Count`]:
-//! [`Statistics`] adds the steps up, [`Uncounted`] does nothing and the compiler leaves the reports out of the walk.
+//! For choosing the depth of a pyramid and for tests; a picture does not need it. A walk reports each step to
+//! a [`Count`]: [`Statistics`] adds the steps up, [`Uncounted`] does nothing and the compiler leaves the
+//! reports out of the walk.
 
 /// What intersections have cost, added up: more than any picture takes fits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -12,8 +13,8 @@ pub struct Statistics {
     pub rays: u64,
     /// Boxes tested, that of the whole surface included.
     pub box_tests: u64,
-    /// Most nodes that a walk stood in at a time, one inside the other: at most the depth. Where nodes have other parts than
-    /// halves, those do not count whose last part the walk is in.
+    /// Most nodes that a walk stood in at a time, one inside the other: at most the depth. Where nodes have
+    /// other parts than halves, those do not count whose last part the walk is in.
     pub stack: u32,
 }
 

@@ -1,7 +1,7 @@
 //! Dithered greys on e-paper: `epd-waveshare` 0.6 over SPI, here the 2.9 inch V2.
 //!
-//! The driver's colours are of its own; they come from `BinaryColor`, where `On` is black. So the picture is drawn in
-//! `BinaryColor` by a palette that is turned round, and `color_converted` does the rest.
+//! The driver's colours are of its own; they come from `BinaryColor`, where `On` is black. So the picture is
+//! drawn in `BinaryColor` by a palette that is turned round, and `color_converted` does the rest.
 
 use attractor::draw::{Grey, Palette, Picture};
 use attractor::escape::{Dwell, Julia, View};

@@ -1,7 +1,8 @@
 //! A field on a colour display: `mipidsi` 0.10 over SPI, here an ST7789.
 //!
-//! Rows are computed while they are sent: there is no framebuffer. The driver collects pixels in a buffer that you lend,
-//! the larger the fewer transfers. A field is drawn by `fill_contiguous`, so `mipidsi`'s feature `batch` is not needed.
+//! Rows are computed while they are sent: there is no framebuffer. The driver collects pixels in a buffer
+//! that you lend, the larger the fewer transfers. A field is drawn by `fill_contiguous`, so `mipidsi`'s
+//! feature `batch` is not needed.
 
 use attractor::draw::{Picture, gradients};
 use attractor::escape::{Mandelbrot, View};

@@ -1,7 +1,7 @@
 //! Points on a one-bit OLED: `ssd1306` 0.10 over I2C.
 //!
-//! The driver keeps a buffer of 1 KiB and sends on `flush` what has changed. A chaos game draws points without order:
-//! that is what the buffer is for.
+//! The driver keeps a buffer of 1 KiB and sends on `flush` what has changed. A chaos game draws points
+//! without order: that is what the buffer is for.
 
 use attractor::draw::Dots;
 use attractor::ifs::catalogue;

@@ -12,12 +12,14 @@ use embedded_graphics::geometry::{Point, Size};
 pub(crate) struct Area<'a> {
     size: Size,
     corner: Point,
-    /// Whether the inside begins or ends at this column: a bit for each of the window's columns and one more, row by row.
+    /// Whether the inside begins or ends at this column: a bit for each of the window's columns and one more,
+    /// row by row.
     turns: &'a mut [u32],
     inner: Size,
 }
 
-/// How many words the ground under a path takes on a display of this size: a bit for each pixel and one more a row.
+/// How many words the ground under a path takes on a display of this size: a bit for each pixel and one more
+/// a row.
 pub const fn ground_words(size: Size) -> usize {
     ((size.width as usize + 1) * size.height as usize).div_ceil(32)
 }

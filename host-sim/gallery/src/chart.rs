@@ -18,7 +18,8 @@ use crate::nested::Nested;
 use crate::page::{Display, PAPER, Watch, draw_field};
 use crate::plot::{Plot, value};
 
-/// A pyramid for the range of a function has about as many cells at its finest level: halves of halves, seven times.
+/// A pyramid for the range of a function has about as many cells at its finest level: halves of halves, seven
+/// times.
 pub const CELLS_ACROSS: u32 = 128;
 
 /// Axes and the lines through the knots.
@@ -42,11 +43,13 @@ pub struct Chart<'a, const N: usize, const D: usize> {
 }
 
 impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
-    /// The chart of a function on all of `size`; below it the intervals of the maps of an address, the outermost first, at most 16 (figure 2).
-    /// `cells` has room for a pyramid of the depth that [`CELLS_ACROSS`] takes; afterwards it is free again.
+    /// The chart of a function on all of `size`; below it the intervals of the maps of an address, the
+    /// outermost first, at most 16 (figure 2). `cells` has room for a pyramid of the depth that
+    /// [`CELLS_ACROSS`] takes; afterwards it is free again.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] with the cells needed, and what the function's range or the size may be wrong with.
+    /// [`Error::BufferLength`] with the cells needed, and what the function's range or the size may be wrong
+    /// with.
     pub fn new(
         fif: &'a Fif<N, D>,
         size: Size,
@@ -105,8 +108,9 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
         Ok(())
     }
 
-    /// The graph, eight points a column. A rough function reaches further within an eighth of a column than at any abscissa with the bits of a number: each point
-    /// brings the extremes of its cell along, the images of those of the whole.
+    /// The graph, eight points a column. A rough function reaches further within an eighth of a column than
+    /// at any abscissa with the bits of a number: each point brings the extremes of its cell along, the
+    /// images of those of the whole.
     fn graph(&self, columns: u32) -> impl Iterator<Item = PathElement> + Clone {
         let steps = columns.saturating_mul(8).max(1);
         let (from, to) = self.fif.domain();
@@ -140,7 +144,8 @@ impl<'a, const N: usize, const D: usize> Chart<'a, N, D> {
     }
 }
 
-/// The smallest and largest values, rigorous and tight, with the axis if it is near; and where these values lie, from left to right.
+/// The smallest and largest values, rigorous and tight, with the axis if it is near; and where these values
+/// lie, from left to right.
 fn range<const N: usize, const D: usize>(
     fif: &Fif<N, D>,
     cells: &mut [Cell],

@@ -1,4 +1,5 @@
-//! A polyline and its images under all compositions of the maps, order by order, as small multiples on one picture.
+//! A polyline and its images under all compositions of the maps, order by order, as small multiples on one
+//! picture.
 
 use attractor::Error;
 use attractor::ifs::{CopiedPath, Ifs};

@@ -43,7 +43,8 @@ impl<'a, const S: usize, const DEPTH: usize> CurvePicture<'a, S, DEPTH> {
         }
     }
 
-    /// How many points it then has, and the window that shows it. The path is walked, not kept: it takes more room than what is known of it.
+    /// How many points it then has, and the window that shows it. The path is walked, not kept: it takes more
+    /// room than what is known of it.
     #[inline(never)]
     fn measured(&self, limit: Limit, size: Size) -> Result<(Limit, u32, Window), Error> {
         let extent = Extent::of(self.walk(limit)?)?;

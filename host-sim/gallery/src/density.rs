@@ -32,7 +32,8 @@ impl Field for Framed<'_> {
     }
 }
 
-/// How often each pixel of `window`, which lies within a margin of `size`, was hit by `points`; then shown by `show`. `counts` has room for the window's pixels.
+/// How often each pixel of `window`, which lies within a margin of `size`, was hit by `points`; then shown by
+/// `show`. `counts` has room for the window's pixels.
 pub(crate) fn counted<R>(
     points: impl Iterator<Item = Point2>,
     window: Window,
@@ -48,7 +49,8 @@ pub(crate) fn counted<R>(
     Ok(show(Framed { density: hits.linear(hits.quantile(50)), size, margin }))
 }
 
-/// The square root of the tone, twice: neither the trunk nor the finest leaves are lost. None where no point fell.
+/// The square root of the tone, twice: neither the trunk nor the finest leaves are lost. None where no point
+/// fell.
 fn level(hits: Hits) -> Option<Level> {
     let root = |level: u32| (level * u32::from(u16::MAX)).isqrt();
     (hits.count > 0).then(|| Level::from_bits(root(root(u32::from(hits.level().to_bits()))) as u16))

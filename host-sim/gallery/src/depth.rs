@@ -2,7 +2,8 @@
 
 use attractor::fif::Pyramid;
 
-/// The depth at which a pyramid has at least `cells` cells at its finest level, and no more than about a million in all.
+/// The depth at which a pyramid has at least `cells` cells at its finest level, and no more than about a
+/// million in all.
 pub const fn depth_for(maps: usize, cells: u32) -> u32 {
     let mut depth = 0;
     let mut finest = 1_usize;
@@ -17,8 +18,8 @@ pub const fn depth_for(maps: usize, cells: u32) -> u32 {
     depth
 }
 
-/// The depth of both pyramids of a surface whose factors have so many maps, on a display whose longer side has `side` pixels: as deep as wanted, else
-/// cells as fine as a pixel.
+/// The depth of both pyramids of a surface whose factors have so many maps, on a display whose longer side
+/// has `side` pixels: as deep as wanted, else cells as fine as a pixel.
 pub const fn surface_depth(maps: [usize; 2], wanted: Option<u32>, side: u32) -> u32 {
     let [f, g] = maps;
     let (fewest, most) = if f < g { (f, g) } else { (g, f) };

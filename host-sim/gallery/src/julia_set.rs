@@ -61,7 +61,8 @@ impl JuliaSetPicture {
         self.set.seeded_backward_iteration(seed)
     }
 
-    /// The set in every pixel of a display, with the margin that the window leaves: the view, and what is in it.
+    /// The set in every pixel of a display, with the margin that the window leaves: the view, and what is in
+    /// it.
     ///
     /// # Errors
     /// As [`JuliaSetPicture::window`].
@@ -88,7 +89,8 @@ impl JuliaSetPicture {
         match self.method {
             Method::Cover => {
                 let (_, cover) = self.cover(size)?;
-                // where dots would be scattered, a pixel is lit for a quarter of its sixteenths: what only touches it would make lines thick
+                // where dots would be scattered, a pixel is lit for a quarter of its sixteenths: what only
+                // touches it would make lines thick
                 let coarse = paper == Rgb888::BLACK;
                 let color = |sixteenths: u8| match sixteenths {
                     0 => paper,

@@ -1,7 +1,8 @@
-//! What the built-in scenes look like: margins, paper, a line whose colour changes along it, the ground under a graph.
+//! What the built-in scenes look like: margins, paper, a line whose colour changes along it, the ground under
+//! a graph.
 //!
-//! The command `attractor` and the images for the target draw with this code, so that they show the same pixels. It does what firmware would do: no allocation,
-//! buffers are lent, colours are those of any display.
+//! The command `attractor` and the images for the target draw with this code, so that they show the same
+//! pixels. It does what firmware would do: no allocation, buffers are lent, colours are those of any display.
 #![no_std]
 #![deny(missing_docs)]
 

@@ -1,4 +1,5 @@
-//! Figure 2: the intervals of `L_1`, `L_1 o L_2`, ... one below the other, closing in on the evaluation point.
+//! Figure 2: the intervals of `L_1`, `L_1 o L_2`, ... one below the other, closing in on the evaluation
+//! point.
 
 use core::ops::Range;
 

@@ -56,7 +56,8 @@ pub(crate) fn paper<D: Display>(size: Size, target: &mut D) {
     let Ok(()) = target.fill_solid(&Rectangle::new(Point::zero(), size), paper);
 }
 
-/// The display without a margin of a twenty-fourth of the shorter side, at least of `least` pixels; the smallest displays have none.
+/// The display without a margin of a twenty-fourth of the shorter side, at least of `least` pixels; the
+/// smallest displays have none.
 pub(crate) fn inner(size: Size, least: u32) -> Rectangle {
     let side = size.width.min(size.height);
     let margin = if side < 32 { 0 } else { (side / 24).max(least) };

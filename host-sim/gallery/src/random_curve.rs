@@ -34,7 +34,8 @@ impl<'a, L: Displacement + Clone, const LEVELS: usize> RandomCurvePicture<'a, L,
         Subdivision::new(self.law, self.knots, stop)
     }
 
-    /// What it then takes, and the window that shows it. The path is walked, not kept: it takes more room than what is known of it.
+    /// What it then takes, and the window that shows it. The path is walked, not kept: it takes more room
+    /// than what is known of it.
     #[inline(never)]
     fn measured(&self, stop: Stop, size: Size) -> Result<(Stop, Extent, Window), Error> {
         let extent = Extent::of(self.walk(stop)?)?;

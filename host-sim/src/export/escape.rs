@@ -1,4 +1,5 @@
-//! Orbits: views of the Mandelbrot set and of filled-in Julia sets, with their colours, and Julia sets themselves.
+//! Orbits: views of the Mandelbrot set and of filled-in Julia sets, with their colours, and Julia sets
+//! themselves.
 
 use attractor::draw::Level;
 use attractor::escape::{DeepMandelbrot, FractionalDwell, View};

@@ -1,7 +1,7 @@
 //! `attractor export`: a scene as a Rust module, for firmware that has no TOML.
 //!
-//! Constants, and functions that build core's objects of them, whose bits are those that the command draws with. With `--gallery` also what
-//! `attractor-gallery` needs to draw the picture on the command's page.
+//! Constants, and functions that build core's objects of them, whose bits are those that the command draws
+//! with. With `--gallery` also what `attractor-gallery` needs to draw the picture on the command's page.
 
 mod curve;
 mod escape;

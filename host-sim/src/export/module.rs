@@ -1,4 +1,5 @@
-//! A Rust module as text: constants and the functions that build core's objects of them, each formatted as rustfmt leaves it.
+//! A Rust module as text: constants and the functions that build core's objects of them, each formatted as
+//! rustfmt leaves it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -66,7 +67,8 @@ impl Module {
         self.array(doc, name, "Point2", all.iter().map(|p| lits("Point2", [p.x, p.y])));
     }
 
-    /// A function: its head without the brace, and its lines. `errors` is what it may fail with, as a part of its documentation.
+    /// A function: its head without the brace, and its lines. `errors` is what it may fail with, as a part of
+    /// its documentation.
     pub(crate) fn function(&mut self, doc: &str, errors: &str, head: &str, lines: &[String]) {
         let doc = if errors.is_empty() { doc.to_owned() } else { format!("{doc}\n\n# Errors\n{errors}") };
         let body: String = lines.iter().map(|line| format!("    {line}\n")).collect();

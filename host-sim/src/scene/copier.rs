@@ -1,4 +1,5 @@
-//! `kind = "copier"`: a polyline and its images under all compositions of the maps, order by order, as small multiples on one picture.
+//! `kind = "copier"`: a polyline and its images under all compositions of the maps, order by order, as small
+//! multiples on one picture.
 
 use std::convert::Infallible;
 use std::io::Write;

@@ -1,8 +1,10 @@
 //! Knots from a table of measurements, and the vertical scalings that suit it best.
 //!
-//! For the interval `j` of width `h` between two knots the data suggest the parabola `rho(t) = -t (1 - t) / 2 * h^2 c` above the chord, `c` the mean of the second
-//! divided differences at both ends. The map `F_j` sends the whole graph there: above the chord it puts `alpha_j r`, `r` the data above their own chord from first to last.
-//! Least squares over the data's own abscissae give `alpha_j = sum r rho(t) / sum r^2` in closed form.
+//! For the interval `j` of width `h` between two knots the data suggest the parabola
+//! `rho(t) = -t (1 - t) / 2 * h^2 c` above the chord, `c` the mean of the second divided differences at both
+//! ends. The map `F_j` sends the whole graph there: above the chord it puts `alpha_j r`, `r` the data above
+//! their own chord from first to last. Least squares over the data's own abscissae give
+//! `alpha_j = sum r rho(t) / sum r^2` in closed form.
 
 use attractor::num::{Scaling, Wide};
 use csv::{ReaderBuilder, Trim};
@@ -128,7 +130,8 @@ mod tests {
 
     #[test]
     fn a_parabola_is_its_own_copy_a_quarter_as_high() {
-        // y = x (4 - x) / 4 on 0..4 in unit steps: half the domain is a parabola a quarter as high, a quarter one of a sixteenth
+        // y = x (4 - x) / 4 on 0..4 in unit steps: half the domain is a parabola a quarter as high, a quarter
+        // one of a sixteenth
         let point = |x: i32| (Wide::from_num(x), Wide::from_num(x * (4 - x)) / 4);
         let scalings = fitted(&(0..=4).map(point).collect::<Vec<_>>());
         assert_eq!(scalings.len(), 4);

@@ -136,7 +136,8 @@ fn from_data(source: &Source, table: &Spanned<Table>) -> Result<Function, Fail> 
     Ok(Function { fixed: Box::new(fixed), reference, parts })
 }
 
-/// `from + i (to - from) / (points - 1)`, rounded to a multiple of `2^-48` and, beyond 32, to the 53 bits of the `f64` that the reference takes.
+/// `from + i (to - from) / (points - 1)`, rounded to a multiple of `2^-48` and, beyond 32, to the 53 bits of
+/// the `f64` that the reference takes.
 pub(super) fn abscissa(from: Wide, to: Wide, i: u32, points: u32) -> Wide {
     // the ends are exact, whatever an f64 makes of them
     if i == 0 || i + 1 >= points.max(2) {

@@ -1,4 +1,5 @@
-//! A fractal interpolation function of a scene file, in fixed point and as the reference: knots, vertical scalings, polynomials, integrals.
+//! A fractal interpolation function of a scene file, in fixed point and as the reference: knots, vertical
+//! scalings, polynomials, integrals.
 
 use attractor::Error;
 use attractor::fif::{Fif, Knot};
@@ -127,7 +128,8 @@ impl Description {
         Ok(())
     }
 
-    /// Knots that differ in the format may be one and the same `f64`, of which the reference could make nothing.
+    /// Knots that differ in the format may be one and the same `f64`, of which the reference could make
+    /// nothing.
     fn check_abscissae(&self, source: &Source, prefix: &str, knots: &[Knot]) -> Result<(), Fail> {
         for (i, pair) in knots.windows(2).enumerate() {
             if let [a, b] = pair
@@ -141,8 +143,9 @@ impl Description {
         Ok(())
     }
 
-    /// The same in `f64`, through the knots that the kernel has: beside a decimal number that the format does not have, a rough function is another one.
-    /// Scalings are the file's decimal numbers; the fixed-point function has checked everything.
+    /// The same in `f64`, through the knots that the kernel has: beside a decimal number that the format does
+    /// not have, a rough function is another one. Scalings are the file's decimal numbers; the fixed-point
+    /// function has checked everything.
     fn reference(&self, source: &Source, knots: &[Knot], rows: Option<&[Vec<Wide>]>) -> reference::Fif {
         let float = |n: &Num| number::float(source.digits(n));
         let scalings: Vec<f64> = self.vertical_scaling.get_ref().iter().map(float).collect();

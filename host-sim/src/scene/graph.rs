@@ -49,7 +49,8 @@ impl<'a> Graph<'a> {
         })
     }
 
-    /// Ordinates at equal distances, `2^k + 1` of each function: `most` at most in all, or as many as there are.
+    /// Ordinates at equal distances, `2^k + 1` of each function: `most` at most in all, or as many as there
+    /// are.
     pub(crate) fn ordinates(&self, most: u32) -> Vec<Vec<f64>> {
         match &self.functions {
             Functions::One(fixed) => {

@@ -1,10 +1,14 @@
-//! Laws of random curves as measurements see them: 64 curves of each, and what theory says about their halves.
+//! Laws of random curves as measurements see them: 64 curves of each, and what theory says about their
+//! halves.
 //!
 //! A part of length 1 becomes two of random length `r = |1/2 + g|`, alike in distribution. With that:
-//! - Carpenter's ratio is the mean of `2 r`, and his dimension `D = ln 2 / ln(2 / ratio)`: `2^k` chords of mean length `(ratio / 2)^k`;
-//! - the mean square of a chord falls as `2^(1 - beta)` a halving, so that `beta = 1 - log2(mean of r^2)` and `D = 2 / (beta - 1)` by mean squares;
-//! - the dimension of the limit set is the solution of `2 mean(r^D) = 1` (R. D. Mauldin, S. C. Williams, "Random recursive constructions", 1986; K. Falconer,
-//!   "Random fractals", 1986), where the parts do not overlap. It lies above Carpenter's: few long parts count for more than many short ones.
+//! - Carpenter's ratio is the mean of `2 r`, and his dimension `D = ln 2 / ln(2 / ratio)`: `2^k` chords of
+//!   mean length `(ratio / 2)^k`;
+//! - the mean square of a chord falls as `2^(1 - beta)` a halving, so that `beta = 1 - log2(mean of r^2)` and
+//!   `D = 2 / (beta - 1)` by mean squares;
+//! - the dimension of the limit set is the solution of `2 mean(r^D) = 1` (R. D. Mauldin, S. C. Williams,
+//!   "Random recursive constructions", 1986; K. Falconer, "Random fractals", 1986), where the parts do not
+//!   overlap. It lies above Carpenter's: few long parts count for more than many short ones.
 
 use attractor::curve::{Stop, Subdivision};
 use attractor::num::Parameter;
@@ -26,7 +30,8 @@ pub(crate) struct Chords {
 }
 
 impl Law {
-    /// `2^levels + 1` points at equal parameters of each of 64 curves, independent of one another, each from `(0, 0)` to `(1, 0)`.
+    /// `2^levels + 1` points at equal parameters of each of 64 curves, independent of one another, each from
+    /// `(0, 0)` to `(1, 0)`.
     pub(crate) fn curves(&self, levels: u32) -> Result<Vec<Vec<(f64, f64)>>, Fail> {
         // what lies between two knots is a curve of its own
         let first = -(CURVES as i32) / 2;

@@ -10,7 +10,8 @@ use embedded_graphics::geometry::{Point, Size};
 pub(crate) enum Motion {
     /// To look at what lies so many pixels to the right and up.
     Pan { right: i32, up: i32 },
-    /// To see everything twice as large, or half as large; the point under this pixel stays where it is, else the middle of the display.
+    /// To see everything twice as large, or half as large; the point under this pixel stays where it is, else
+    /// the middle of the display.
     Zoom { about: Option<Point>, closer: bool },
     /// Twice as many iterations, or half as many.
     Iterate { more: bool },
@@ -24,7 +25,8 @@ pub(crate) struct Sight<const LIMBS: usize> {
 }
 
 impl<const LIMBS: usize> Sight<LIMBS> {
-    /// The view on a display of this size after a motion, within a pixel. None where it would leave the format's `-8 .. 8`.
+    /// The view on a display of this size after a motion, within a pixel. None where it would leave the
+    /// format's `-8 .. 8`.
     pub(super) fn after(&self, motion: Motion, size: Size) -> Option<Self> {
         let (half_pitch, _) = self.width.divided(2 * size.width);
         let moved = |right: i32, up: i32, step: &Limbs<LIMBS>| {

@@ -34,7 +34,8 @@ impl Orbit {
         }
     }
 
-    /// After a motion on a display of this size: a display's width is a quarter of a turn, twice as large is half as far.
+    /// After a motion on a display of this size: a display's width is a quarter of a turn, twice as large is
+    /// half as far.
     pub(super) fn after(&self, motion: Motion, size: Size) -> Self {
         /// Short of the zenith, where there is no up.
         const STEEPEST: f32 = 1.5;

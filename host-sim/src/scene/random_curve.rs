@@ -1,4 +1,5 @@
-//! `kind = "random-curve"`: a curve through knots whose midpoints a law displaces at random; the seed repeats it.
+//! `kind = "random-curve"`: a curve through knots whose midpoints a law displaces at random; the seed repeats
+//! it.
 
 use std::convert::Infallible;
 use std::io::Write;

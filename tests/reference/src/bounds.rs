@@ -1,13 +1,17 @@
-//! The cells of a profile: for every address of up to `depth` maps an interval, a rigorous range, the mean and the mean slope.
+//! The cells of a profile: for every address of up to `depth` maps an interval, a rigorous range, the mean
+//! and the mean slope.
 //!
-//! Let `j.w` be the cell whose address is map `j` followed by the address `w`, and `I_w` the interval of `w`. Then
-//! - the range follows from `B(j.w) = alpha_j B(w) + range of q_j over I_w`, starting at any rigorous root; parents become the
-//!   hull of their children, and the finest level is computed again from its tightened parents, until nothing changes;
-//! - `mean(j.w) = alpha_j mean(w) + mean of q_j over I_w`, and the rise `f(x1) - f(x0)` obeys the same recursion: both hold
-//!   exactly, and neither subtracts values that are nearly equal.
+//! Let `j.w` be the cell whose address is map `j` followed by the address `w`, and `I_w` the interval of `w`.
+//! Then
+//! - the range follows from `B(j.w) = alpha_j B(w) + range of q_j over I_w`, starting at any rigorous root;
+//!   parents become the hull of their children, and the finest level is computed again from its tightened
+//!   parents, until nothing changes;
+//! - `mean(j.w) = alpha_j mean(w) + mean of q_j over I_w`, and the rise `f(x1) - f(x0)` obeys the same
+//!   recursion: both hold exactly, and neither subtracts values that are nearly equal.
 //!
-//! Source: CONTRIBUTING.md, "The picture of a height field, defined"; Cochran, Lewis and Hart, "The Normal of a Fractal
-//! Surface", section 4, eq. 47-48 (which these bounds replace: min and max over both polynomials, alpha may be negative).
+//! Source: CONTRIBUTING.md, "The picture of a height field, defined"; Cochran, Lewis and Hart, "The Normal of
+//! a Fractal Surface", section 4, eq. 47-48 (which these bounds replace: min and max over both polynomials,
+//! alpha may be negative).
 
 use crate::double_double::DoubleDouble;
 use crate::fif::Fif;
@@ -59,8 +63,9 @@ struct Node {
 impl Bounds {
     /// The pyramid of `f` with `depth + 1` levels, the whole domain first.
     ///
-    /// The ranges are the tightest that the recursion gives at this depth (up to 1e-12, or to 400 rounds at each level); they do
-    /// not depend on the first root. Where the maps do not join, ends belong to the cell: its rise is that of one-sided limits.
+    /// The ranges are the tightest that the recursion gives at this depth (up to 1e-12, or to 400 rounds at
+    /// each level); they do not depend on the first root. Where the maps do not join, ends belong to the
+    /// cell: its rise is that of one-sided limits.
     pub fn new(f: &Fif, depth: usize) -> Bounds {
         let mut levels = vec![vec![root(f)]];
         for _ in 0..depth {

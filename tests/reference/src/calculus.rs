@@ -1,19 +1,22 @@
-//! The integral and the derivative of a fractal interpolation function, which are fractal interpolation functions again.
+//! The integral and the derivative of a fractal interpolation function, which are fractal interpolation
+//! functions again.
 //!
-//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 3, eq. 29-36. In eq. 31 the inner integral
-//! runs over the whole domain, `x_0` to `x_N`.
+//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 3, eq. 29-36. In eq. 31 the
+//! inner integral runs over the whole domain, `x_0` to `x_N`.
 //!
-//! In the normalised abscissa `u` the integral of `q_j` over `x` is the length of the domain times that over `u`, and
-//! `a_j` times the length is the width of the interval of map `j`.
+//! In the normalised abscissa `u` the integral of `q_j` over `x` is the length of the domain times that over
+//! `u`, and `a_j` times the length is the width of the interval of map `j`.
 
 use crate::double_double::DoubleDouble;
 use crate::fif::Fif;
 
-/// Two maps join at a knot when their values there differ by no more than this, relative to the largest knot or 1.
+/// Two maps join at a knot when their values there differ by no more than this, relative to the largest knot
+/// or 1.
 const JOIN: f64 = 1e-9;
 
 impl Fif {
-    /// `first + integral of f from x_0 to x` (eq. 29), with the same horizontal maps and vertical scalings `a_j alpha_j`.
+    /// `first + integral of f from x_0 to x` (eq. 29), with the same horizontal maps and vertical scalings
+    /// `a_j alpha_j`.
     pub fn integral(&self, first: f64) -> Fif {
         let n = self.maps.len();
         let length = self.offset(n);
@@ -26,7 +29,8 @@ impl Fif {
         // Eq. 30: y^_N - y^_0. Eq. 31: y^_j - y^_0.
         let rise = sum(&area, n) / (DoubleDouble::ONE - sum(&scaling, n));
         let knot = |j: usize| sum(&|i| scaling(i) * rise + area(i), j);
-        // Eq. 33; the integral of q_j starts at x_0, so its constant is the whole of y^_(j-1) - a_j alpha_j y^_0.
+        // Eq. 33; the integral of q_j starts at x_0, so its constant is the whole of y^_(j-1) - a_j alpha_j
+        // y^_0.
         let first = DoubleDouble::from(first);
         let q = |j: usize| {
             let constant = first + knot(j) - scaling(j) * first;
@@ -39,7 +43,8 @@ impl Fif {
     /// `f'`, with vertical scalings `alpha_j / a_j` and polynomials `q_j' / a_j` (eq. 34-36).
     ///
     /// # Errors
-    /// When some `|alpha_j|` is not below `a_j`, or when the maps do not join at a knot: `f` is then no integral.
+    /// When some `|alpha_j|` is not below `a_j`, or when the maps do not join at a knot: `f` is then no
+    /// integral.
     pub fn derivative(&self) -> Result<Fif, String> {
         let n = self.maps.len();
         let length = self.offset(n);
@@ -104,7 +109,8 @@ mod tests {
 
     #[test]
     fn the_integral_is_the_limit_of_sums_of_values() {
-        // A midpoint sum over 4^k cells; f is Hölder, so it converges slowly, but it knows nothing of eq. 29-33.
+        // A midpoint sum over 4^k cells; f is Hölder, so it converges slowly, but it knows nothing of eq.
+        // 29-33.
         let f = Fif::interpolating(&[(-1.0, 2.0), (0.0, -1.0), (3.0, 1.5)], &[0.3, -0.4]);
         let (cells, width) = (1 << 14, 4.0 / f64::from(1 << 14));
         let sum: f64 = (0..cells).map(|i| f.at(-1.0 + (f64::from(i) + 0.5) * width) * width).sum();

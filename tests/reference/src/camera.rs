@@ -1,7 +1,7 @@
 //! The camera: from a sample in a picture to a ray in space.
 //!
-//! Source: CONTRIBUTING.md, "The picture of a height field, defined", Camera; Cochran, Lewis and Hart, "The Normal of a Fractal
-//! Surface", section 4, eq. 46.
+//! Source: CONTRIBUTING.md, "The picture of a height field, defined", Camera; Cochran, Lewis and Hart, "The
+//! Normal of a Fractal Surface", section 4, eq. 46.
 
 use crate::vector::{Vector, along, cross, normalised};
 
@@ -35,7 +35,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The ray of the sample at offset `(dx, dy)` from the centre of pixel `(i, j)` (column, row from the top).
+    /// The ray of the sample at offset `(dx, dy)` from the centre of pixel `(i, j)` (column, row from the
+    /// top).
     ///
     /// # Panics
     /// When the eye looks at itself or straight along `up`.
@@ -49,7 +50,8 @@ impl Camera {
         Ray { origin: self.eye, direction: along(along(w, right, r), upwards, u) }
     }
 
-    /// The footprint at depth 1 of one of `samples_per_axis` squared samples of a pixel: `2 k / rows / samples_per_axis`.
+    /// The footprint at depth 1 of one of `samples_per_axis` squared samples of a pixel:
+    /// `2 k / rows / samples_per_axis`.
     pub fn footprint(&self, rows: usize, samples_per_axis: usize) -> f64 {
         2.0 * self.half_height() / rows as f64 / samples_per_axis as f64
     }

@@ -1,16 +1,19 @@
-//! Evaluation by composing maps: Algorithm 2 of Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 2.1.
+//! Evaluation by composing maps: Algorithm 2 of Cochran, Lewis and Hart, "The Normal of a Fractal Surface",
+//! section 2.1.
 //!
-//! The composite of the maps along the address of `x` is one map again, `(x, y) -> (a x + b, alpha y + q(x))`, eq. 24-28.
-//! The algorithm stops on the horizontal factor `a`, so its result is exact for *some* abscissa within `epsilon` times the
-//! domain's width of `x`. It does not bound the error in `y` when `|alpha|` is large: 0.85^24 is still 0.02.
-//! In eq. 28 the inner powers are `x^(m-k)`, as in the pseudo-code under it.
+//! The composite of the maps along the address of `x` is one map again,
+//! `(x, y) -> (a x + b, alpha y + q(x))`, eq. 24-28. The algorithm stops on the horizontal factor `a`, so its
+//! result is exact for *some* abscissa within `epsilon` times the domain's width of `x`. It does not bound
+//! the error in `y` when `|alpha|` is large: 0.85^24 is still 0.02. In eq. 28 the inner powers are `x^(m-k)`,
+//! as in the pseudo-code under it.
 
 use crate::fif::Fif;
 
 /// The longest composition; a single map never contracts horizontally.
 const LEVELS: usize = 4000;
 
-/// A composition of maps in the normalised abscissa `u`, `L(u) = a u + b` and `F(u, y) = vertical_scaling y + q(u)`.
+/// A composition of maps in the normalised abscissa `u`, `L(u) = a u + b` and
+/// `F(u, y) = vertical_scaling y + q(u)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Composite {
     /// The horizontal factor (eq. 24).

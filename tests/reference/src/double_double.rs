@@ -1,8 +1,9 @@
-//! Arithmetic with the unevaluated sum of two `f64`, about 106 bits: what keeps the reference's own rounding out of sight.
+//! Arithmetic with the unevaluated sum of two `f64`, about 106 bits: what keeps the reference's own rounding
+//! out of sight.
 //!
-//! A fractal function with a vertical scaling of 0.99 multiplies every rounding error of its maps by 100, so plain `f64`
-//! is no yardstick. Source: T. J. Dekker, "A floating-point technique for extending the available precision", 1971
-//! (two-product by splitting); D. E. Knuth, TAOCP vol. 2, 4.2.2, theorem B (two-sum).
+//! A fractal function with a vertical scaling of 0.99 multiplies every rounding error of its maps by 100, so
+//! plain `f64` is no yardstick. Source: T. J. Dekker, "A floating-point technique for extending the available
+//! precision", 1971 (two-product by splitting); D. E. Knuth, TAOCP vol. 2, 4.2.2, theorem B (two-sum).
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -106,7 +107,8 @@ impl Mul for DoubleDouble {
 
 impl Div for DoubleDouble {
     type Output = Self;
-    /// Long division, three digits of 53 bits: exact whenever the quotient is a double-double of an `f64` divisor.
+    /// Long division, three digits of 53 bits: exact whenever the quotient is a double-double of an `f64`
+    /// divisor.
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self - other * Self::from(first);

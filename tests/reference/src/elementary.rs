@@ -1,8 +1,10 @@
-//! Sine, cosine, exponential and logarithm of every input of a 32-bit kernel, within `2^-60`: the truth of `cargo xtask exhaust`.
+//! Sine, cosine, exponential and logarithm of every input of a 32-bit kernel, within `2^-60`: the truth of
+//! `cargo xtask exhaust`.
 //!
-//! The argument is split in two. What belongs to its upper part stands in a table of double-doubles, made by one recurrence; the lower part is so
-//! small that its share, computed in `f64`, is below `2^-8` with an error below `2^-60`. Formulas: `sin(a + b)`, `cos(a + b)`, `e^(a + b)`,
-//! `log(a b)`; `ln((n + 1) / n) = 2 artanh(1 / (2 n + 1))`.
+//! The argument is split in two. What belongs to its upper part stands in a table of double-doubles, made by
+//! one recurrence; the lower part is so small that its share, computed in `f64`, is below `2^-8` with an
+//! error below `2^-60`. Formulas: `sin(a + b)`, `cos(a + b)`, `e^(a + b)`, `log(a b)`;
+//! `ln((n + 1) / n) = 2 artanh(1 / (2 n + 1))`.
 
 use std::f64::consts::{LN_2, PI};
 
@@ -20,7 +22,8 @@ const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
 /// A value and how far `near` lies above it: `near - value`.
 ///
-/// The difference is what the kernels' errors are measured by: `near` is exact, and the table's two parts are taken off one after the other.
+/// The difference is what the kernels' errors are measured by: `near` is exact, and the table's two parts are
+/// taken off one after the other.
 fn above(near: f64, table: DoubleDouble, rest: f64) -> f64 {
     (near - table.value()) - (table.low() + rest)
 }

@@ -1,15 +1,18 @@
 //! Dwell of the orbits of `z^2 + c`: Mandelbrot and filled-in Julia sets.
 //!
-//! Source: course unit V, "Fractals", 5.4.2-5.4.3 and 5.5.1-5.5.2, eq. 1-3. The printed loop returns Num + 1 for points that
-//! never escape; the definition in the text stands: the dwell is min(number of iterations until |d_k| exceeds 2, Num).
-//! Plain `f64`, every product and sum rounded: near the boundary an orbit is chaotic and the dwell is that of the rounded one.
+//! Source: course unit V, "Fractals", 5.4.2-5.4.3 and 5.5.1-5.5.2, eq. 1-3. The printed loop returns Num + 1
+//! for points that never escape; the definition in the text stands: the dwell is min(number of iterations
+//! until |d_k| exceeds 2, Num). Plain `f64`, every product and sum rounded: near the boundary an orbit is
+//! chaotic and the dwell is that of the rounded one.
 
-/// The dwell of `c`: the orbit of 0 from `d_1 = c` on. 0 means that `|c| > 2` already; `max` that it did not escape.
+/// The dwell of `c`: the orbit of 0 from `d_1 = c` on. 0 means that `|c| > 2` already; `max` that it did not
+/// escape.
 pub fn dwell(c: (f64, f64), max: u32) -> u32 {
     iterations(c, c, max)
 }
 
-/// The dwell of the starting point `z` for a fixed `c`: the orbit from `d_0 = z` on. 0 means that `|z| > 2` already.
+/// The dwell of the starting point `z` for a fixed `c`: the orbit from `d_0 = z` on. 0 means that `|z| > 2`
+/// already.
 ///
 /// An orbit that passes 2 is certain to escape only for `|c| <= 2`.
 pub fn julia_dwell(z: (f64, f64), c: (f64, f64), max: u32) -> u32 {
@@ -26,16 +29,16 @@ fn iterations((mut x, mut y): (f64, f64), c: (f64, f64), max: u32) -> u32 {
     count
 }
 
-/// Whether `c` lies in the main cardioid, where the orbit of 0 tends to a fixed point: `c = w/2 - w^2/4` with `|w| <= 1`
-/// (`w = 2 p` is the derivative at the fixed point `p = 1/2 - sqrt(1/4 - c)`, eq. 4 as corrected).
+/// Whether `c` lies in the main cardioid, where the orbit of 0 tends to a fixed point: `c = w/2 - w^2/4` with
+/// `|w| <= 1` (`w = 2 p` is the derivative at the fixed point `p = 1/2 - sqrt(1/4 - c)`, eq. 4 as corrected).
 pub fn in_cardioid((x, y): (f64, f64)) -> bool {
     let (from_cusp, y_squared) = (x - 0.25, y * y);
     let q = from_cusp * from_cusp + y_squared;
     q * (q + from_cusp) <= y_squared / 4.0
 }
 
-/// Whether `c` lies in the disc `|c + 1| <= 1/4`, where the orbit of 0 tends to a cycle of period 2: the derivative along
-/// that cycle is `4 (c + 1)`.
+/// Whether `c` lies in the disc `|c + 1| <= 1/4`, where the orbit of 0 tends to a cycle of period 2: the
+/// derivative along that cycle is `4 (c + 1)`.
 pub fn in_period_2_bulb((x, y): (f64, f64)) -> bool {
     (x + 1.0) * (x + 1.0) + y * y <= 0.0625
 }

@@ -1,9 +1,10 @@
-//! Fractal interpolation functions: `f(L_j(x)) = alpha_j f(x) + q_j(x)`, evaluated by walking the address of `x`.
+//! Fractal interpolation functions: `f(L_j(x)) = alpha_j f(x) + q_j(x)`, evaluated by walking the address of
+//! `x`.
 //!
-//! `f(x) = q_j1(x_1) + alpha_j1 q_j2(x_2) + alpha_j1 alpha_j2 q_j3(x_3) + ...`, where `x_k` is the k-th pre-image of `x`
-//! and `j1 j2 j3 ...` its address.
-//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 2, eq. 3-17.
-//! The calculus is in `calculus.rs`, evaluation by composing maps in `compose.rs`.
+//! `f(x) = q_j1(x_1) + alpha_j1 q_j2(x_2) + alpha_j1 alpha_j2 q_j3(x_3) + ...`, where `x_k` is the k-th
+//! pre-image of `x` and `j1 j2 j3 ...` its address. Source: Cochran, Lewis and Hart, "The Normal of a Fractal
+//! Surface", section 2, eq. 3-17. The calculus is in `calculus.rs`, evaluation by composing maps in
+//! `compose.rs`.
 
 use crate::double_double::DoubleDouble;
 use crate::polynomial::Polynomial;
@@ -13,7 +14,8 @@ const NEGLIGIBLE: f64 = 1e-20;
 /// The longest walk: 0.99^4000 is 3e-18.
 const LEVELS: usize = 4000;
 
-/// One map: `F_j(x, y) = vertical_scaling y + q(x)` (Cochran et al., eq. 8). Its `L_j` follows from the knots (eq. 6-7).
+/// One map: `F_j(x, y) = vertical_scaling y + q(x)` (Cochran et al., eq. 8). Its `L_j` follows from the knots
+/// (eq. 6-7).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
     /// `alpha_j`, between -1 and 1.
@@ -24,8 +26,8 @@ pub struct Map {
 
 /// A fractal interpolation function on `[x_0, x_N]` (Cochran et al., section 2).
 ///
-/// The fields are for reading. Values are computed from polynomials in `u = (x - x_0) / (x_N - x_0)`, which lose nothing on
-/// domains far from the origin; the `q` of `maps` are the same polynomials in `x`, rounded.
+/// The fields are for reading. Values are computed from polynomials in `u = (x - x_0) / (x_N - x_0)`, which
+/// lose nothing on domains far from the origin; the `q` of `maps` are the same polynomials in `x`, rounded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fif {
     /// The abscissae `x_0 < x_1 < ... < x_N`.
@@ -44,7 +46,8 @@ impl Fif {
     /// The function through `knots` with affine `q_j`, fixed by eq. 10-11.
     ///
     /// # Panics
-    /// With fewer than two knots, abscissae that do not increase, or scalings that are not one a map and inside (-1, 1).
+    /// With fewer than two knots, abscissae that do not increase, or scalings that are not one a map and
+    /// inside (-1, 1).
     pub fn interpolating(knots: &[(f64, f64)], vertical_scaling: &[f64]) -> Self {
         assert_eq!(
             knots.len(),
@@ -62,12 +65,15 @@ impl Fif {
         Self::from_unit(&knots_x, vertical_scaling, unit_q, first.value(), last.value())
     }
 
-    /// The function of given maps. `y_0` and `y_N` are the fixed points of the first and of the last map at their ends.
+    /// The function of given maps. `y_0` and `y_N` are the fixed points of the first and of the last map at
+    /// their ends.
     ///
-    /// The maps need not join at the inner knots; where they do not, `f` takes the value of the map on the left.
+    /// The maps need not join at the inner knots; where they do not, `f` takes the value of the map on the
+    /// left.
     ///
     /// # Panics
-    /// With abscissae that do not increase, or maps that are not one an interval and of scalings inside (-1, 1).
+    /// With abscissae that do not increase, or maps that are not one an interval and of scalings inside (-1,
+    /// 1).
     pub fn from_polynomials(knots_x: &[f64], maps: Vec<Map>) -> Self {
         check(knots_x, maps.len());
         let start = DoubleDouble::from(knots_x[0]);
@@ -100,8 +106,9 @@ impl Fif {
 
     /// `f(x)`, for `x` in `[x_0, x_N]`: better than 1e-12 for values up to 100 and scalings up to 0.99.
     ///
-    /// The address is exact wherever the pre-images are numbers of at most 106 bits (dyadic abscissae on dyadic partitions,
-    /// or on partitions by integers); elsewhere the result is that of an abscissa within about 2^-100 of the domain's width.
+    /// The address is exact wherever the pre-images are numbers of at most 106 bits (dyadic abscissae on
+    /// dyadic partitions, or on partitions by integers); elsewhere the result is that of an abscissa within
+    /// about 2^-100 of the domain's width.
     ///
     /// # Panics
     /// When `x` is outside.
@@ -143,7 +150,8 @@ impl Fif {
         self.maps.iter().fold(0.0, |max, map| map.vertical_scaling.abs().max(max))
     }
 
-    /// The interval that holds the abscissa `x_0 + rest`; a knot belongs to the interval on its left, as in Algorithm 2.
+    /// The interval that holds the abscissa `x_0 + rest`; a knot belongs to the interval on its left, as in
+    /// Algorithm 2.
     fn interval(&self, rest: DoubleDouble) -> usize {
         let last = self.maps.len() - 1;
         (0..last).find(|&j| rest <= self.offset(j + 1)).unwrap_or(last)
@@ -219,7 +227,8 @@ mod tests {
 
     #[test]
     fn large_scalings_agree_with_exact_integer_arithmetic() {
-        // alpha = 127/128 and -127/128, knots 0, 90, -50 on [0, 1], x = i / 2^9: everything is an integer over 2^(8 k).
+        // alpha = 127/128 and -127/128, knots 0, 90, -50 on [0, 1], x = i / 2^9: everything is an integer
+        // over 2^(8 k).
         let f =
             Fif::interpolating(&[(0.0, 0.0), (0.5, 90.0), (1.0, -50.0)], &[127.0 / 128.0, -127.0 / 128.0]);
         let exact = |i: i128| {

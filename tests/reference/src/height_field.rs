@@ -1,8 +1,9 @@
-//! Where a ray meets the height field `h(x, y) = f(x) g(y)`: depth first through boxes that shrink towards the surface.
+//! Where a ray meets the height field `h(x, y) = f(x) g(y)`: depth first through boxes that shrink towards
+//! the surface.
 //!
-//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 4, eq. 46-51, figure 5 and Algorithm 3;
-//! CONTRIBUTING.md, "The picture of a height field, defined", Hit and Normal. A ray that starts inside a box has
-//! `t_0 < 0 < t_1` and is handled as if it entered at 0.
+//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 4, eq. 46-51, figure 5 and
+//! Algorithm 3; CONTRIBUTING.md, "The picture of a height field, defined", Hit and Normal. A ray that starts
+//! inside a box has `t_0 < 0 < t_1` and is handled as if it entered at 0.
 
 use crate::bounds::Bounds;
 use crate::camera::Ray;
@@ -32,14 +33,16 @@ pub struct Trace {
 
 /// Follows `ray` to the first leaf of the height field with the profiles `x` and `y`.
 ///
-/// A node is a leaf on the finest level that both pyramids have, and where it is not wider than `t_in footprint`.
+/// A node is a leaf on the finest level that both pyramids have, and where it is not wider than
+/// `t_in footprint`.
 pub fn trace(x: &Bounds, y: &Bounds, ray: &Ray, footprint: f64) -> Trace {
     let mut search = Search { x, y, ray, footprint, depth: x.depth().min(y.depth()), box_tests: 0 };
     let hit = search.node(0, 0, 0);
     Trace { hit, box_tests: search.box_tests }
 }
 
-/// The mean normal over the leaf of a hit, `(-slope_i mean_j, -mean_i slope_j, 1)`, turned round to face the ray.
+/// The mean normal over the leaf of a hit, `(-slope_i mean_j, -mean_i slope_j, 1)`, turned round to face the
+/// ray.
 pub fn leaf_normal(x: &Bounds, y: &Bounds, ray: &Ray, hit: &Hit) -> Vector {
     let (f, g) = (x.levels[hit.level][hit.i], y.levels[hit.level][hit.j]);
     let n = [-f.slope * g.mean, -f.mean * g.slope, 1.0];

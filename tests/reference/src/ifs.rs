@@ -1,8 +1,9 @@
 //! Affine maps of the plane and the moments of the measure that the chaos game draws.
 //!
-//! A system of maps `T_i` with probabilities `p_i` has one invariant measure: the distribution of a point `P` that is that of
-//! `T_i(P)`, `i` chosen with `p_i`. Its mean and covariance solve linear systems, so a chaos game has exact values to meet.
-//! Source: course unit V, "Fractals", 5.3.1-5.3.4 (maps, attractor, chaos game); the moments are derived here.
+//! A system of maps `T_i` with probabilities `p_i` has one invariant measure: the distribution of a point `P`
+//! that is that of `T_i(P)`, `i` chosen with `p_i`. Its mean and covariance solve linear systems, so a chaos
+//! game has exact values to meet. Source: course unit V, "Fractals", 5.3.1-5.3.4 (maps, attractor, chaos
+//! game); the moments are derived here.
 
 /// The map `x' = a x + b y + e`, `y' = c x + d y + f`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +46,8 @@ impl Affine {
         (x, y)
     }
 
-    /// The factor by which the map stretches the most: the largest singular value of its matrix. A contraction is below 1.
+    /// The factor by which the map stretches the most: the largest singular value of its matrix. A
+    /// contraction is below 1.
     pub fn contraction(&self) -> f64 {
         // Every matrix is a rotation with scaling plus a reflection with scaling; the two factors add up.
         let rotation = libm::hypot(self.a + self.d, self.c - self.b) / 2.0;
@@ -59,7 +61,8 @@ impl Affine {
 /// From `m = sum p_i T_i(m)` and, with `s_i = T_i(m) - m`, `C = sum p_i (A_i C A_i^T + s_i s_i^T)`.
 ///
 /// # Panics
-/// When the probabilities are not one a map, not negative and of sum 1 within 1e-9, or when the systems are singular.
+/// When the probabilities are not one a map, not negative and of sum 1 within 1e-9, or when the systems are
+/// singular.
 pub fn moments(maps: &[Affine], probabilities: &[f64]) -> Moments {
     assert_eq!(maps.len(), probabilities.len(), "one probability for each map");
     assert!(probabilities.iter().all(|&p| p >= 0.0), "no probability is negative");
@@ -178,7 +181,8 @@ mod tests {
 
     #[test]
     fn the_gasket_of_the_text_balances_at_its_centroid() {
-        // Corners (0,0), (1,0), (1/2,1): C = C/4 + (covariance of the corners) / 4, so C is a third of theirs.
+        // Corners (0,0), (1,0), (1/2,1): C = C/4 + (covariance of the corners) / 4, so C is a third of
+        // theirs.
         let moments = moments(&[half(0.0, 0.0), half(0.5, 0.0), half(0.25, 0.5)], &[1.0 / 3.0; 3]);
         assert!((moments.mean.0 - 0.5).abs() < 1e-15 && (moments.mean.1 - 1.0 / 3.0).abs() < 1e-15);
         let (xx, xy, yy) = moments.covariance;

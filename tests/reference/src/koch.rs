@@ -3,7 +3,8 @@
 //! Source: course unit V, sections 5.1.1 and 5.1.2. The text errs here: the turns of `drawKoch` are +60,
 //! -120, +60 degrees.
 
-/// The Koch curve of order `n` from `(0, 0)` to `(1, 0)` as `drawKoch` draws it: a turtle that adds relative lines up.
+/// The Koch curve of order `n` from `(0, 0)` to `(1, 0)` as `drawKoch` draws it: a turtle that adds relative
+/// lines up.
 pub fn draw_koch(n: u32) -> Vec<(f64, f64)> {
     fn draw(points: &mut Vec<(f64, f64)>, direction: &mut f64, length: f64, n: u32) {
         if n == 0 {
@@ -22,7 +23,8 @@ pub fn draw_koch(n: u32) -> Vec<(f64, f64)> {
     points
 }
 
-/// One segment of a generator: from which vertex to which, whether the copy is walked from its end, whether it lies on the other side.
+/// One segment of a generator: from which vertex to which, whether the copy is walked from its end, whether
+/// it lies on the other side.
 #[derive(Debug, Clone, Copy)]
 pub struct Segment {
     /// Its end in the frame in which the generator leads from `(0, 0)` to `(1, 0)`.

@@ -1,6 +1,7 @@
 //! L-systems with brackets: the word is written down and then drawn.
 //!
-//! Source: P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990, sections 1.2, 1.3 and 1.6.1.
+//! Source: P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990, sections 1.2, 1.3
+//! and 1.6.1.
 
 /// The word after `order` rewritings: each letter that has a rule becomes its word, the others stay.
 pub fn rewritten(axiom: &str, rules: &[(char, &str)], order: u32) -> String {
@@ -17,7 +18,8 @@ pub fn rewritten(axiom: &str, rules: &[(char, &str)], order: u32) -> String {
     word
 }
 
-/// The strokes that a turtle draws, each a polyline of at least two points; steps of length 1 from the origin, angles in degrees.
+/// The strokes that a turtle draws, each a polyline of at least two points; steps of length 1 from the
+/// origin, angles in degrees.
 pub fn strokes(word: &str, degrees: f64, heading: f64) -> Vec<Vec<(f64, f64)>> {
     let (mut x, mut y, mut turns, mut rounds) = (0.0, 0.0, 0_i64, 0_i64);
     let mut remembered = Vec::new();

@@ -1,7 +1,8 @@
-//! The fractals of attractor in `f64`, written for clarity from the source texts and independent of the fixed-point kernel:
-//! the yardstick that says how wrong every fixed-point result is.
+//! The fractals of attractor in `f64`, written for clarity from the source texts and independent of the
+//! fixed-point kernel: the yardstick that says how wrong every fixed-point result is.
 //!
-//! Every transcendental comes from `libm`, so the bits are the same on every platform. Functions assert on bad input.
+//! Every transcendental comes from `libm`, so the bits are the same on every platform. Functions assert on
+//! bad input.
 
 mod backward;
 mod bounds;

@@ -1,7 +1,7 @@
 //! The picture of a height field: a tone for every pixel.
 //!
-//! Source: CONTRIBUTING.md, "The picture of a height field, defined"; Cochran, Lewis and Hart, "The Normal of a Fractal
-//! Surface", section 5, eq. 52-53 (a pixel is a weighted sum of samples).
+//! Source: CONTRIBUTING.md, "The picture of a height field, defined"; Cochran, Lewis and Hart, "The Normal of
+//! a Fractal Surface", section 5, eq. 52-53 (a pixel is a weighted sum of samples).
 
 use crate::bounds::Bounds;
 use crate::camera::{Camera, Ray};
@@ -49,8 +49,8 @@ impl Scene {
     }
 }
 
-/// The tones of a picture, row by row from the top: for each pixel the sum of weight times tone over `samples`, given as
-/// `(dx, dy, weight)` with offsets in pixels from the pixel's centre.
+/// The tones of a picture, row by row from the top: for each pixel the sum of weight times tone over
+/// `samples`, given as `(dx, dy, weight)` with offsets in pixels from the pixel's centre.
 ///
 /// # Panics
 /// When the weights do not add up to 1 within 1e-9.

@@ -63,7 +63,8 @@ impl Polynomial {
         self.0.iter().skip(1).fold(DoubleDouble::ZERO, |sum, &c| sum + c)
     }
 
-    /// A range that holds every value over `[0, 1]`: exact up to degree 2, the hull of the Bernstein coefficients above.
+    /// A range that holds every value over `[0, 1]`: exact up to degree 2, the hull of the Bernstein
+    /// coefficients above.
     pub(crate) fn range(&self) -> (f64, f64) {
         let c = &self.0;
         let candidates = match c.len() {
@@ -85,7 +86,8 @@ impl Polynomial {
         (low.value(), high.value())
     }
 
-    /// The Bernstein coefficients over `[0, 1]`: `b_i = sum over k <= i of binomial(i, k) / binomial(n, k) c_k`.
+    /// The Bernstein coefficients over `[0, 1]`:
+    /// `b_i = sum over k <= i of binomial(i, k) / binomial(n, k) c_k`.
     fn bernstein(&self) -> Vec<DoubleDouble> {
         let n = self.0.len() - 1;
         let coefficient = |i: usize| {

@@ -1,4 +1,5 @@
-//! Random curves: the recursive procedures of Carpenter and of the course unit, with the random function as an argument.
+//! Random curves: the recursive procedures of Carpenter and of the course unit, with the random function as
+//! an argument.
 //!
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980; course unit V, section
 //! 5.6, with signs and `factor` put right.
@@ -14,7 +15,8 @@ pub enum Law<'a> {
     TwoVariable(f64, &'a dyn Fn(f64) -> f64),
 }
 
-/// The curve from `a` to `b` over the parameters `t`, halved while `goes_on(level, p_1, p_2)`; all its points.
+/// The curve from `a` to `b` over the parameters `t`, halved while `goes_on(level, p_1, p_2)`; all its
+/// points.
 pub fn curve(
     law: &Law<'_>,
     random: &dyn Fn(f64) -> f64,
@@ -54,8 +56,9 @@ fn halve(
     halve(points, law, random, goes_on, level + 1, (t, t2), (m, p2));
 }
 
-/// The deviations `sigma_k` of an elbow whose spectrum falls as `1/f^beta`, from mean squares that are followed level by level: the displacement's is to fall
-/// by `2^(1 - beta)`, the length's is a quarter of the one before plus the displacement's.
+/// The deviations `sigma_k` of an elbow whose spectrum falls as `1/f^beta`, from mean squares that are
+/// followed level by level: the displacement's is to fall by `2^(1 - beta)`, the length's is a quarter of the
+/// one before plus the displacement's.
 pub fn elbow_deviations(first: f64, beta: f64, levels: usize) -> Vec<f64> {
     let (mut length, mut displacement) = (1.0, first * first);
     let mut deviations = Vec::new();

@@ -1,8 +1,9 @@
 //! The tone of a surface: its material, the light and the environment that it reflects.
 //!
-//! Source: CONTRIBUTING.md, "The picture of a height field, defined", Tone and Environment; Cochran, Lewis and Hart, "The
-//! Normal of a Fractal Surface", section 5 (diffuse, Phong and mirror surfaces). The mirror direction is
-//! `m = d - 2 (d . n^) n^`, which the course unit V prints with an error. Tones are clamped to `[0, 1]`.
+//! Source: CONTRIBUTING.md, "The picture of a height field, defined", Tone and Environment; Cochran, Lewis
+//! and Hart, "The Normal of a Fractal Surface", section 5 (diffuse, Phong and mirror surfaces). The mirror
+//! direction is `m = d - 2 (d . n^) n^`, which the course unit V prints with an error. Tones are clamped to
+//! `[0, 1]`.
 
 use crate::vector::{Vector, along, dot, normalised};
 
@@ -85,7 +86,8 @@ impl Environment {
 }
 
 impl Material {
-    /// The tone of a surface with the normal `n`, seen by a ray of direction `d`, lit from `light` (none of them of unit length).
+    /// The tone of a surface with the normal `n`, seen by a ray of direction `d`, lit from `light` (none of
+    /// them of unit length).
     ///
     /// # Panics
     /// When one of the three vectors is zero.

@@ -1,13 +1,14 @@
 //! The fractal surface `h(x, y) = f(x) g(y)`, its normal and the mean of its normal over a rectangle.
 //!
-//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 3.1, eq. 41-45. The mean of the normal has a
-//! closed form, which the paper leaves as future work: the mean of `h_x = f'(x) g(y)` over `[x0, x1] x [y0, y1]` is
-//! `(f(x1) - f(x0)) (G(y1) - G(y0)) / area`, with `G` the integral of `g`.
+//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 3.1, eq. 41-45. The mean of
+//! the normal has a closed form, which the paper leaves as future work: the mean of `h_x = f'(x) g(y)` over
+//! `[x0, x1] x [y0, y1]` is `(f(x1) - f(x0)) (G(y1) - G(y0)) / area`, with `G` the integral of `g`.
 
 use crate::fif::Fif;
 use crate::vector::Vector;
 
-/// A differentiable profile with its derivative and its integral, all of them fractal interpolation functions.
+/// A differentiable profile with its derivative and its integral, all of them fractal interpolation
+/// functions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factor {
     /// The profile `f`.

@@ -1,8 +1,8 @@
-//! Calls every public kernel with inputs the compiler knows nothing about, and links only when none of them can panic; those that make pictures are in
-//! `nopanic_pictures`.
+//! Calls every public kernel with inputs the compiler knows nothing about, and links only when none of them
+//! can panic; those that make pictures are in `nopanic_pictures`.
 //!
-//! `panic_never` refers to a symbol that does not exist from its panic handler. The feature `deliberate-panic` adds an indexing that may
-//! panic: the link must fail then, which proves that it could.
+//! `panic_never` refers to a symbol that does not exist from its panic handler. The feature
+//! `deliberate-panic` adds an indexing that may panic: the link must fail then, which proves that it could.
 #![no_std]
 #![no_main]
 

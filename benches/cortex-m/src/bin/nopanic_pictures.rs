@@ -1,4 +1,5 @@
-//! As `nopanic`, for what makes pictures: escape-time sets, the ray caster, drawing. An image of its own, so that each fits the flash of a Cortex-M0.
+//! As `nopanic`, for what makes pictures: escape-time sets, the ray caster, drawing. An image of its own, so
+//! that each fits the flash of a Cortex-M0.
 #![no_std]
 #![no_main]
 

@@ -1,6 +1,8 @@
-//! The built-in scenes of the command `attractor`: a table that pairs the numbers of each, as `attractor export` writes them, with what draws its kind.
+//! The built-in scenes of the command `attractor`: a table that pairs the numbers of each, as
+//! `attractor export` writes them, with what draws its kind.
 //!
-//! `tests/built_in.rs` holds each to the picture of that name, pixel for pixel: to the checksums of `host-sim/tests/goldens.txt`.
+//! `tests/built_in.rs` holds each to the picture of that name, pixel for pixel: to the checksums of
+//! `host-sim/tests/goldens.txt`.
 
 #[macro_use]
 mod rows;
@@ -16,7 +18,8 @@ use embedded_graphics::pixelcolor::{BinaryColor, Rgb565};
 use crate::exported as of;
 use crate::scene::{COLOUR, MONO, Scene, colour, mono, roomy};
 
-/// Even the picture in black and white takes more than 16 KiB, or a path of its own that the flash of the Cortex-M0 image has no room for.
+/// Even the picture in black and white takes more than 16 KiB, or a path of its own that the flash of the
+/// Cortex-M0 image has no room for.
 const fn both_roomy([colour, mono]: [Scene; 2]) -> [Scene; 2] {
     [colour, roomy(mono)]
 }

@@ -19,7 +19,8 @@ pub(super) const fn ground(size: Size) -> usize {
     ground_words(size)
 }
 
-/// `WORDS` are lent for the ground of a closed curve. There is code for one size of generators only: for each its own would not fit the smallest flash.
+/// `WORDS` are lent for the ground of a closed curve. There is code for one size of generators only: for each
+/// its own would not fit the smallest flash.
 pub(super) fn refined<C: Colour + Ink, const WORDS: usize>(
     stage: &mut Stage<'_>,
     generator: fn() -> Result<Generator<LARGEST>, Error>,

@@ -1,6 +1,7 @@
 //! The two rows of a scene of each kind: how its numbers reach what draws it.
 
-/// Both pictures of a scene: in colour, for machines with room, and in black and white. `$size` is that of the picture.
+/// Both pictures of a scene: in colour, for machines with room, and in black and white. `$size` is that of
+/// the picture.
 macro_rules! both {
     ($name:literal, |$stage:ident, $color:ident, $size:ident| $show:expr) => {
         [

@@ -20,7 +20,8 @@ const fn within_margin(size: Size) -> usize {
     ((size.width - margin) * (size.height - margin)) as usize
 }
 
-/// Room for maps where nothing is counted. One for all: code for each number of them would not fit the smallest flash.
+/// Room for maps where nothing is counted. One for all: code for each number of them would not fit the
+/// smallest flash.
 const ROOM: usize = 8;
 
 /// Room for so many maps.

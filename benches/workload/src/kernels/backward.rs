@@ -1,4 +1,5 @@
-//! Points of Julia sets by backward iteration, the complex square root that each of them takes, and their covers.
+//! Points of Julia sets by backward iteration, the complex square root that each of them takes, and their
+//! covers.
 
 use core::hint::black_box;
 

@@ -1,4 +1,5 @@
-//! Vertices of refined curves, points of L-systems, and subdivisions of random ones: each with the point that it yields.
+//! Vertices of refined curves, points of L-systems, and subdivisions of random ones: each with the point that
+//! it yields.
 
 use core::hint::black_box;
 
@@ -155,7 +156,8 @@ pub(super) fn two_variable(watch: &mut Watch<'_>) -> Tally {
     random(watch, TwoVariable::new(OFFSET, SEED), BY_NORM)
 }
 
-/// The elbow with the same random function and the same stack. Only the points are floating-point numbers: the parameter is an integer anyway.
+/// The elbow with the same random function and the same stack. Only the points are floating-point numbers:
+/// the parameter is an integer anyway.
 macro_rules! elbow {
     ($name:ident, $length:ident, $float:ty, $fused:expr, $fold:expr) => {
         #[inline(never)]

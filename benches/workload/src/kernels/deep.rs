@@ -1,6 +1,7 @@
 //! The deep formats, the orbit that perturbation follows, and what colours a pixel.
 //!
-//! As in [`super::escape`] what is counted are iterations: orbits are long, escape, and nothing shortens them but jumps, which a row of its own has.
+//! As in [`super::escape`] what is counted are iterations: orbits are long, escape, and nothing shortens them
+//! but jumps, which a row of its own has.
 
 use core::hint::black_box;
 

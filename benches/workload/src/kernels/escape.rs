@@ -1,7 +1,8 @@
 //! One iteration of the Mandelbrot orbit.
 //!
-//! The points lie near the edge of the set, escape, and do so after 200 to 999 iterations: neither the interior tests nor a period
-//! shortens the work, so that what is counted are iterations. The set-up finds them; it is not counted.
+//! The points lie near the edge of the set, escape, and do so after 200 to 999 iterations: neither the
+//! interior tests nor a period shortens the work, so that what is counted are iterations. The set-up finds
+//! them; it is not counted.
 
 use core::convert::Infallible;
 use core::hint::black_box;
@@ -153,7 +154,8 @@ impl DrawTarget for Sum {
     }
 }
 
-/// The frame that was published for the RP2040, the half below its axis computed; the scene `mandelbrot rp2040`.
+/// The frame that was published for the RP2040, the half below its axis computed; the scene
+/// `mandelbrot rp2040`.
 #[inline(never)]
 pub(super) fn rp2040(watch: &mut Watch<'_>) -> Tally {
     let Ok(frame) = Rp2040::new() else { return Tally::default() };

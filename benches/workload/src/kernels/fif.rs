@@ -93,10 +93,11 @@ macro_rules! game {
 game!(game_f32, f32, mul_add, f32::to_bits);
 game!(game_f64, f64, |a: f64, b: f64, c: f64| a * b + c, fold);
 
-/// The same two walks in floating point: from the last digit to the first for 24 digits, and forwards along the pre-images for any abscissa,
-/// until the horizontal factor is below the resolution of the type.
+/// The same two walks in floating point: from the last digit to the first for 24 digits, and forwards along
+/// the pre-images for any abscissa, until the horizontal factor is below the resolution of the type.
 ///
-/// `f`: `q_1 = u`, `q_2 = 1 - u`, `alpha = 1/2`; its integral (eq. 37-38, in `u`): `q_1 = u^2 / 2`, `q_2 = 1 + u - u^2 / 2`, `alpha = 1/4`.
+/// `f`: `q_1 = u`, `q_2 = 1 - u`, `alpha = 1/2`; its integral (eq. 37-38, in `u`): `q_1 = u^2 / 2`,
+/// `q_2 = 1 + u - u^2 / 2`, `alpha = 1/4`.
 macro_rules! walks {
     ($dyadic:ident, $any:ident, $integral:ident, $float:ty, $fused:expr, $fold:expr, $levels:literal) => {
         #[inline(never)]

@@ -1,4 +1,5 @@
-//! Points of Barnsley's fern by the chaos game (a word of xoshiro128++, an alias draw, an affine map), alone and counted in pixels, and by the copier; its moments.
+//! Points of Barnsley's fern by the chaos game (a word of xoshiro128++, an alias draw, an affine map), alone
+//! and counted in pixels, and by the copier; its moments.
 
 use core::hint::black_box;
 

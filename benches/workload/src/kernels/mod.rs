@@ -1,8 +1,9 @@
 //! Inner loops, counted by the unit of work.
 //!
-//! To add one: write its loops beside those of its room and add a line to [`ALL`]. A loop builds what it needs and hands the work to
-//! [`Watch::time`], or to `Watch::over` for a table of inputs; only that is counted. It returns a checksum of everything it computed
-//! (so that nothing is optimised away, and so that host and target can be compared) and how many units of work it did.
+//! To add one: write its loops beside those of its room and add a line to [`ALL`]. A loop builds what it
+//! needs and hands the work to [`Watch::time`], or to `Watch::over` for a table of inputs; only that is
+//! counted. It returns a checksum of everything it computed (so that nothing is optimised away, and so that
+//! host and target can be compared) and how many units of work it did.
 
 mod backward;
 mod curve;
@@ -53,7 +54,8 @@ const fn roomy(kernel: Kernel) -> Kernel {
     Kernel { small: false, ..kernel }
 }
 
-/// The table; in an image for Armv6-M the rows that it can run. The first row is the floor: what the loop, its loads and its checksum cost alone.
+/// The table; in an image for Armv6-M the rows that it can run. The first row is the floor: what the loop,
+/// its loads and its checksum cost alone.
 pub static ALL: &[Kernel] = &{
     let mut all = [TABLE[0]; count()];
     let (mut i, mut kept) = (0, 0);

@@ -10,8 +10,8 @@ use crate::float::Float;
 use crate::rivals::Paper;
 use crate::surface::mirror;
 
-/// Side of the scene, and every how many of its rows are drawn. Double precision would take minutes for all of them; a pixel of these
-/// costs what a pixel of all costs, to 1 % (tested).
+/// Side of the scene, and every how many of its rows are drawn. Double precision would take minutes for all
+/// of them; a pixel of these costs what a pixel of all costs, to 1 % (tested).
 const SIDE: u32 = 240;
 const STEP: u32 = 16;
 

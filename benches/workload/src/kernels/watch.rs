@@ -36,7 +36,8 @@ impl<'m> Watch<'m> {
         Self { machine, times, spent: 0 }
     }
 
-    /// Instructions of what was timed, reading the counter included: a loop that does nothing tells how many these are.
+    /// Instructions of what was timed, reading the counter included: a loop that does nothing tells how many
+    /// these are.
     pub const fn spent(&self) -> u32 {
         self.spent
     }
@@ -54,7 +55,8 @@ impl<'m> Watch<'m> {
         tally
     }
 
-    /// Times `kernel` on every input. The checksum costs one instruction a result on a machine with a barrel shifter.
+    /// Times `kernel` on every input. The checksum costs one instruction a result on a machine with a barrel
+    /// shifter.
     #[inline(always)]
     pub(super) fn over<T: Copy>(&mut self, inputs: &[T], mut kernel: impl FnMut(T) -> u32) -> Tally {
         self.time(|| {

@@ -1,9 +1,12 @@
-//! What the ray caster is measured against: the same picture of the surface `G x G` in single and in double precision.
+//! What the ray caster is measured against: the same picture of the surface `G x G` in single and in double
+//! precision.
 //!
-//! - [`Caster`]: core's own algorithm, the walk through a pyramid of cells, as a competent C programmer would write it in floating point;
+//! - [`Caster`]: core's own algorithm, the walk through a pyramid of cells, as a competent C programmer would
+//!   write it in floating point;
 //! - [`Paper`]: the algorithm of the paper, which composes maps and needs no pyramid.
 //!
-//! Both are one text for `float` and `double` ([`crate::float::Float`]): where these differ is the width alone.
+//! Both are one text for `float` and `double` ([`crate::float::Float`]): where these differ is the width
+//! alone.
 
 mod camera;
 mod paper;

@@ -1,9 +1,12 @@
-//! The paper's own ray caster, in floating point: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", Algorithms 2 and 3.
+//! The paper's own ray caster, in floating point: Cochran, Lewis, Hart, "The Normal of a Fractal Surface",
+//! Algorithms 2 and 3.
 //!
-//! As it stands there: maps are composed at every step (eq. 24-28), a node's rectangle is the image of the whole graph's (eq. 47-48, both
-//! polynomials, either sign of alpha), a box is tested against six planes (eq. 50-51, with reciprocals taken once a ray), the search is recursive,
-//! and the normal is exact, `(-f'(x) g(y), -f(x) g'(y), 1)` (eq. 45), four evaluations by Algorithm 2. Two things are given to it: rigorous bounds of
-//! the whole function, where the paper plays the chaos game, and what a composition takes of each map, computed once.
+//! As it stands there: maps are composed at every step (eq. 24-28), a node's rectangle is the image of the
+//! whole graph's (eq. 47-48, both polynomials, either sign of alpha), a box is tested against six planes (eq.
+//! 50-51, with reciprocals taken once a ray), the search is recursive, and the normal is exact,
+//! `(-f'(x) g(y), -f(x) g'(y), 1)` (eq. 45), four evaluations by Algorithm 2. Two things are given to it:
+//! rigorous bounds of the whole function, where the paper plays the chaos game, and what a composition takes
+//! of each map, computed once.
 
 use attractor::fif::Pyramid;
 
@@ -19,7 +22,8 @@ const SMALL: f64 = 1.0 / 256.0;
 /// An evaluation ends at this one: 24 levels, as in the rows of `fif`.
 const SMALLER: f64 = 1.0 / 16_777_216.0;
 
-/// `(x, y) -> (a x + b, alpha y + q(x))` with `C` coefficients, constant first: a map or a composition of maps.
+/// `(x, y) -> (a x + b, alpha y + q(x))` with `C` coefficients, constant first: a map or a composition of
+/// maps.
 #[derive(Clone, Copy)]
 struct Map<F, const C: usize> {
     a: F,
@@ -75,7 +79,8 @@ impl<F: Float, const C: usize> Map<F, C> {
 }
 
 impl<F: Float> Map<F, 3> {
-    /// The rectangle around the part of the graph that is the image of the whole one, whose values are between `low` and `high`.
+    /// The rectangle around the part of the graph that is the image of the whole one, whose values are
+    /// between `low` and `high`.
     #[inline(always)]
     fn rectangle(&self, (low, high): (F, F)) -> [(F, F); 2] {
         let (left, right) = (F::of(ENDS.0), F::of(ENDS.1));
@@ -148,7 +153,8 @@ pub(crate) struct Paper<F> {
 }
 
 impl<F: Float> Paper<F> {
-    /// On a picture of `side x side` pixels. The pyramid of `G` is asked for the bounds of the whole function alone.
+    /// On a picture of `side x side` pixels. The pyramid of `G` is asked for the bounds of the whole function
+    /// alone.
     pub(crate) fn new(pyramid: &Pyramid<'_>, side: u32) -> Self {
         let root = pyramid.root();
         Self {

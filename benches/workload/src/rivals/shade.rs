@@ -11,7 +11,8 @@ pub(crate) fn normal<F: Float>([df, f, dg, g]: [F; 4]) -> Vector<F> {
     [x * scale, y * scale, scale]
 }
 
-/// The tone of a sky that brightens towards the zenith above a dark ground, in the direction of a unit vector.
+/// The tone of a sky that brightens towards the zenith above a dark ground, in the direction of a unit
+/// vector.
 #[inline(always)]
 pub(crate) fn sky<F: Float>(z: F) -> F {
     // from 1/2 at the horizon to 1 straight up and to 1/8 straight down

@@ -1,7 +1,8 @@
 //! Core's walk through a height field of two equal parts along each axis, in floating point.
 //!
-//! The same quadtree, the same steps from plane to plane, the same tests in the same order as `attractor::trace` makes them; only what
-//! fixed point needs and floating point does not, care for ranges, is left out. Where the walk stands are integers here too: they number the cells.
+//! The same quadtree, the same steps from plane to plane, the same tests in the same order as
+//! `attractor::trace` makes them; only what fixed point needs and floating point does not, care for ranges,
+//! is left out. Where the walk stands are integers here too: they number the cells.
 
 use attractor::fif::{self, Pyramid};
 
@@ -86,7 +87,8 @@ struct Line<F> {
     from_above: u32,
 }
 
-/// Where a walk stands along one axis: its node, the plane at which the ray leaves it (31 fractional bits, the middle is 0), and the parameter there.
+/// Where a walk stands along one axis: its node, the plane at which the ray leaves it (31 fractional bits,
+/// the middle is 0), and the parameter there.
 struct Place<F> {
     node: u32,
     end: i32,
@@ -132,7 +134,8 @@ impl<F: Float> Place<F> {
         }
     }
 
-    /// Over the plane at its end, into the next node, and out of the nodes that end there too. False at the end of the surface.
+    /// Over the plane at its end, into the next node, and out of the nodes that end there too. False at the
+    /// end of the surface.
     #[inline(always)]
     fn advance(&mut self, line: &Line<F>, aside: &mut Self, line_aside: &Line<F>, level: &mut u32) -> bool {
         // the last digit that does not say "far"

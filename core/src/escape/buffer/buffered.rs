@@ -47,8 +47,8 @@ impl<'a, P: EscapeTime> Buffered<'a, P> {
     /// Computes the whole picture.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] if `counts` is shorter than [`Buffered::counts`], [`Error::Capacity`] for more than 65535 iterations,
-    /// [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
+    /// [`Error::BufferLength`] if `counts` is shorter than [`Buffered::counts`], [`Error::Capacity`] for more
+    /// than 65535 iterations, [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
     pub fn new(picture: P, counts: &'a mut [u16]) -> Result<Self, Error> {
         let size = checked_size(picture.size())?;
         let (what, given, needed) = ("counts", counts.len(), Self::counts(size));

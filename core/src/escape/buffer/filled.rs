@@ -27,19 +27,22 @@ use crate::plane::{Field, checked_size};
 
 /// Any picture of dwells whose inside is filled in as its rows are drawn, with two lent bits a pixel.
 ///
-/// Rows, parts of rows and pixels may be asked for in any order and show the same picture (`any_order_shows_the_same_picture`). What is asked for settles
-/// the pixels to its left in its row, which are computed once if they lie outside. It pays where an inner pixel costs `Num` iterations, as in [`DeepMandelbrot`](crate::escape::DeepMandelbrot).
-/// Cost of a pixel of 64 x 64 at 1000 iterations, plain and filled: a copy of the set in 64 bits 13947 Cortex-M4
-/// instructions (kernel `plain copy 64`) and 5955 (kernel `filled copy 64`); one at 1e-101 by perturbation 32792
-/// (kernel `plain copy 1e-101`) and 10517 (kernel `filled copy 1e-101`).
-/// It does not pay where cycles end the loop and the two largest parts are known: the whole set takes 241
-/// (kernel `plain home`) and 372 (kernel `filled home`), a filled Julia set 233 (kernel `plain rabbit`) and 333
-/// (kernel `filled rabbit`), a view between seahorses 2730 (kernel `plain seahorses`) and 2895
-/// (kernel `filled seahorses`).
+/// Rows, parts of rows and pixels may be asked for in any order and show the same picture
+/// (`any_order_shows_the_same_picture`). What is asked for settles the pixels to its left in its row, which
+/// are computed once if they lie outside. It pays where an inner pixel costs `Num` iterations, as in
+/// [`DeepMandelbrot`](crate::escape::DeepMandelbrot). Cost of a pixel of 64 x 64 at 1000 iterations, plain
+/// and filled: a copy of the set in 64 bits 13947 Cortex-M4 instructions (kernel `plain copy 64`) and 5955
+/// (kernel `filled copy 64`); one at 1e-101 by perturbation 32792 (kernel `plain copy 1e-101`) and 10517
+/// (kernel `filled copy 1e-101`). It does not pay where cycles end the loop and the two largest parts are
+/// known: the whole set takes 241 (kernel `plain home`) and 372 (kernel `filled home`), a filled Julia set
+/// 233 (kernel `plain rabbit`) and 333 (kernel `filled rabbit`), a view between seahorses 2730 (kernel
+/// `plain seahorses`) and 2895 (kernel `filled seahorses`).
 ///
 /// Error: what inner pixels surround, and only that, is taken for inside (`any_order_shows_the_same_picture`,
-/// `a_pixel_right_of_a_hole_fills_no_outside`). Of the 57,600 pixels of a picture at 1000 iterations none differ from the plain picture for the whole set and for three Julia sets, 15 at the valley
-/// of seahorses 0.05 wide, 6 between them 0.0065 wide, 4 for a copy of period 3 (`filling_changes_few_pixels` prints them).
+/// `a_pixel_right_of_a_hole_fills_no_outside`). Of the 57,600 pixels of a picture at 1000 iterations none
+/// differ from the plain picture for the whole set and for three Julia sets, 15 at the valley of seahorses
+/// 0.05 wide, 6 between them 0.0065 wide, 4 for a copy of period 3 (`filling_changes_few_pixels` prints
+/// them).
 ///
 /// ```
 /// use attractor::escape::{Filled, Mandelbrot, View};
@@ -95,7 +98,8 @@ impl<'a, P: Field<Value = Dwell>> Filled<'a, P> {
     /// Nothing is known yet.
     ///
     /// # Errors
-    /// [`Error::BufferLength`] if `bits` is shorter than [`Filled::bytes`], [`Error::OutOfRange`] for a size that [`checked_size`] refuses.
+    /// [`Error::BufferLength`] if `bits` is shorter than [`Filled::bytes`], [`Error::OutOfRange`] for a size
+    /// that [`checked_size`] refuses.
     pub fn new(picture: P, bits: &'a mut [u8]) -> Result<Self, Error> {
         let needed = Self::bytes(checked_size(picture.size())?);
         let (what, given) = ("bytes of known pixels", bits.len());
@@ -389,7 +393,8 @@ mod tests {
         }
     }
 
-    /// The picture with what inner pixels surround, by a flood of the outside from beyond the edges, through corners too.
+    /// The picture with what inner pixels surround, by a flood of the outside from beyond the edges, through
+    /// corners too.
     fn flooded<P: Field<Value = Dwell>>(picture: &P) -> vec::Vec<vec::Vec<Dwell>> {
         let Size { width, height } = picture.size();
         let mut want: vec::Vec<vec::Vec<_>> =
@@ -420,7 +425,8 @@ mod tests {
         want
     }
 
-    /// Asks for rows, parts of rows and pixels in random orders. How many pixels of the right picture differ from the plain one.
+    /// Asks for rows, parts of rows and pixels in random orders. How many pixels of the right picture differ
+    /// from the plain one.
     fn in_random_order<P: Field<Value = Dwell>>(picture: &P, seeds: Range<u64>) -> usize {
         let Size { width, height } = picture.size();
         let want = flooded(picture);

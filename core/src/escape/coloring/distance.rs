@@ -19,7 +19,8 @@ use crate::num::formats::UQ32;
 use crate::num::{Real, log2, sqrt};
 use crate::plane::{Field, along};
 
-/// The estimated distance at every pixel, in pixels: none inside. As a level, 1 is a pixel and more: thin parts of the set stay visible.
+/// The estimated distance at every pixel, in pixels: none inside. As a level, 1 is a pixel and more: thin
+/// parts of the set stay visible.
 ///
 /// ```
 /// use attractor::draw::{Grey, Picture};
@@ -48,11 +49,12 @@ pub struct Distance<P>(
 impl<P: EscapeTime> Distance<P> {
     /// The estimate at a point, in pixels of the view.
     ///
-    /// Domain: all. Result: saturated at the end of [`Real`], none where the orbit does not escape. Error: one unit and below `2^-24 (10 + dwell)` of the
-    /// estimate, beside that of the orbit, which is the dwell's (`the_orbit_is_that_of_the_dwell`,
-    /// `the_estimate_agrees_with_float`). Cost: the dwell, in words the same number of steps once more, each with a derivative, two
-    /// logarithms: 1894 Cortex-M4 instructions (kernel `distance estimate`) a pixel of the home view at 100
-    /// iterations, the dwell alone 189 (kernel `dwell of a pixel`).
+    /// Domain: all. Result: saturated at the end of [`Real`], none where the orbit does not escape. Error:
+    /// one unit and below `2^-24 (10 + dwell)` of the estimate, beside that of the orbit, which is the
+    /// dwell's (`the_orbit_is_that_of_the_dwell`, `the_estimate_agrees_with_float`). Cost: the dwell, in
+    /// words the same number of steps once more, each with a derivative, two logarithms: 1894 Cortex-M4
+    /// instructions (kernel `distance estimate`) a pixel of the home view at 100 iterations, the dwell alone
+    /// 189 (kernel `dwell of a pixel`).
     pub fn value_at(&self, point: P::Point) -> Option<Real> {
         // at a critical point it is infinite
         let Some((estimate, exponent)) = estimate(&self.0.ending_with_derivative(point)?) else {
@@ -72,7 +74,8 @@ impl<P: EscapeTime> Distance<P> {
     }
 }
 
-/// `|z| ln |z|^2 / |z'|` after the orbit has gone on to `|z| > 1024`: mantissa of at most 32 bits, and exponent.
+/// `|z| ln |z|^2 / |z'|` after the orbit has gone on to `|z| > 1024`: mantissa of at most 32 bits, and
+/// exponent.
 fn estimate(ending: &Ending) -> Option<(u64, i32)> {
     let Ending { mut z, c, mut derivative, gain, .. } = *ending;
     for _ in 0..64 {

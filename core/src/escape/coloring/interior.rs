@@ -36,11 +36,14 @@ pub struct Interior<P>(
 impl<P: EscapeTime> Interior<P> {
     /// The period at a point.
     ///
-    /// Domain: all. Error: what is found is proven for the point as the arithmetic rounds it, so that an orbit that escapes has none, however late
-    /// (`an_orbit_that_escapes_has_no_period_however_late`, `periods_are_those_of_float`); none is found on the edges of components, where
-    /// an orbit is drawn in too slowly or rounding hides it. Cost: until the orbit escapes or is near its cycle, at most the greatest dwell, but at
-    /// least 4096 and never more than 65,536 steps, and for each doubling a few cycles of at most [`MAX_PERIOD`](crate::escape::MAX_PERIOD): fewer than 131,072 steps in every arithmetic
-    /// (`a_period_takes_a_bounded_number_of_steps`, `perturbation_takes_a_bounded_number_of_steps`). Nothing is iterated in the cardioid and the disc of period 2, except by perturbation.
+    /// Domain: all. Error: what is found is proven for the point as the arithmetic rounds it, so that an
+    /// orbit that escapes has none, however late (`an_orbit_that_escapes_has_no_period_however_late`,
+    /// `periods_are_those_of_float`); none is found on the edges of components, where an orbit is drawn in
+    /// too slowly or rounding hides it. Cost: until the orbit escapes or is near its cycle, at most the
+    /// greatest dwell, but at least 4096 and never more than 65,536 steps, and for each doubling a few cycles
+    /// of at most [`MAX_PERIOD`](crate::escape::MAX_PERIOD): fewer than 131,072 steps in every arithmetic
+    /// (`a_period_takes_a_bounded_number_of_steps`, `perturbation_takes_a_bounded_number_of_steps`). Nothing
+    /// is iterated in the cardioid and the disc of period 2, except by perturbation.
     pub fn value_at(&self, point: P::Point) -> Option<Period> {
         self.0.period_at(point)
     }

@@ -30,7 +30,8 @@ pub struct FractionalDwell {
 }
 
 impl FractionalDwell {
-    /// How many steps of an iteration the palettes of this crate tell apart: a period of theirs is as many times as long.
+    /// How many steps of an iteration the palettes of this crate tell apart: a period of theirs is as many
+    /// times as long.
     pub const STEPS: u32 = 16;
 
     /// Whether the orbit did not escape in time.
@@ -61,10 +62,11 @@ pub struct Smooth<P>(
 impl<P: EscapeTime> Smooth<P> {
     /// The fractional dwell at a point.
     ///
-    /// Domain: all. Error: below `2^-10` beside that of the orbit (`fractional_dwell_agrees_with_float`); the orbit is that of the dwell
-    /// (`the_orbit_is_that_of_the_dwell`). Cost: the dwell, in words the same number of steps
-    /// once more, about 4 steps and two logarithms; nothing more inside. The home view at 100 iterations takes 653 Cortex-M4
-    /// instructions (kernel `fractional dwell`) a pixel, the dwell alone 189 (kernel `dwell of a pixel`).
+    /// Domain: all. Error: below `2^-10` beside that of the orbit (`fractional_dwell_agrees_with_float`); the
+    /// orbit is that of the dwell (`the_orbit_is_that_of_the_dwell`). Cost: the dwell, in words the same
+    /// number of steps once more, about 4 steps and two logarithms; nothing more inside. The home view at 100
+    /// iterations takes 653 Cortex-M4 instructions (kernel `fractional dwell`) a pixel, the dwell alone 189
+    /// (kernel `dwell of a pixel`).
     pub fn value_at(&self, point: P::Point) -> FractionalDwell {
         let max = self.0.max_dwell();
         let inside = U21F11::saturating_from_num(max);
@@ -167,8 +169,9 @@ mod tests {
         assert!(worst > 0.0 && worst < 2_f64.powi(-10), "{worst:e}");
     }
 
-    /// From the first point beyond 2 of the orbit that the dwell follows, in exact integers; then in floating point.
-    /// Every pixel against the limit from the last point of the dwell's orbit on, which is followed in exact integers.
+    /// From the first point beyond 2 of the orbit that the dwell follows, in exact integers; then in floating
+    /// point. Every pixel against the limit from the last point of the dwell's orbit on, which is followed in
+    /// exact integers.
     #[test]
     fn the_orbit_is_that_of_the_dwell() {
         let (mut worst, mut band) = (0.0_f64, [0.0_f64; 2]);

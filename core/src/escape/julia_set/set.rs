@@ -139,10 +139,12 @@ impl JuliaSet {
         }
     }
 
-    /// Whether `K_c` is connected. Where no formula knows, the orbit of 0 is followed for at most `limit` iterations.
+    /// Whether `K_c` is connected. Where no formula knows, the orbit of 0 is followed for at most `limit`
+    /// iterations.
     ///
     /// # Errors
-    /// As for the iterations of a picture: [`Error::TooFew`] for 0, [`Error::Capacity`] above [`MAX_DWELL`](crate::escape::MAX_DWELL).
+    /// As for the iterations of a picture: [`Error::TooFew`] for 0, [`Error::Capacity`] above
+    /// [`MAX_DWELL`](crate::escape::MAX_DWELL).
     pub fn connectedness(&self, limit: u32) -> Result<Connectedness, Error> {
         let limit = checked_max(limit)?;
         if cardioid::contains(self.c) || self.simple_case() == Some(SimpleCase::Segment) {
@@ -165,7 +167,8 @@ impl JuliaSet {
 /// The stored constant of a Julia set.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits), with the larger part of `c`.
+/// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits), with the
+/// larger part of `c`.
 pub(crate) fn checked_constant(c: Complex<Wide>) -> Result<Point29, Error> {
     const TWO: Wide = Wide::lit("2");
     narrow(c).ok_or_else(|| {

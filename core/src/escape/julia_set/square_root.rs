@@ -50,7 +50,8 @@ pub(crate) fn square_root(x: i64, y: i64) -> (Q29, Q29) {
     // v = b / (2 u): a quotient, and one correction from its remainder, which is below 2^38
     let places = places & 3;
     let quotient = product_u(b, reciprocal);
-    // below 2^32, as it is at most u but for a few units; by words: a 64-bit shift by a variable is a call on a Cortex-M0
+    // below 2^32, as it is at most u but for a few units; by words: a 64-bit shift by a variable is a call on
+    // a Cortex-M0
     let quotient = (((quotient >> 32) as u32) << places) | ((quotient as u32 >> 1) >> (31 - places));
     let rest = (i64::from(b) << 30).wrapping_sub(product_u(quotient, large) as i64);
     let correction = high((rest >> 8) as i32, (reciprocal >> 1) as i32);

@@ -178,7 +178,8 @@ macro_rules! arithmetic {
             #[$inline]
             fn is_less(self, other: Self) -> bool {
                 let apart = self.exponent.saturating_sub(other.exponent);
-                // the larger parts are within a factor of 2 of each other for equal exponents, the moduli within 2 sqrt 2
+                // the larger parts are within a factor of 2 of each other for equal exponents, the moduli
+                // within 2 sqrt 2
                 if !(-1..=1).contains(&apart) {
                     return apart < 0;
                 }

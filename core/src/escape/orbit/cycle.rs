@@ -26,7 +26,8 @@ const FIRST: u32 = 16;
 const LEAST: u32 = 1 << 12;
 /// Steps before the last look: an orbit that is not drawn in by then is left without a period.
 const LAST: u32 = 1 << 16;
-/// The periods that a look tries add up to no more. Points that come ever nearer are few: each is a best approximation.
+/// The periods that a look tries add up to no more. Points that come ever nearer are few: each is a best
+/// approximation.
 const TRIED: u32 = 1 << 11;
 
 /// The square of a modulus, or what else can be compared in its stead.
@@ -71,10 +72,12 @@ pub(crate) trait Path: Clone {
     fn step_error(&self) -> Upper;
 }
 
-/// The period of the cycle that an orbit is drawn to; none if it escapes, or none of at most [`MAX_PERIOD`] points shows within about `limit` steps.
+/// The period of the cycle that an orbit is drawn to; none if it escapes, or none of at most [`MAX_PERIOD`]
+/// points shows within about `limit` steps.
 ///
-/// Looks after 16, 32, 64, ... steps. Cost: `limit` steps, at least [`LEAST`] and at most [`LAST`], and what [`look`] takes each of
-/// at most 13 times: below 2 [`LAST`], whatever the orbit (`a_period_takes_a_bounded_number_of_steps`).
+/// Looks after 16, 32, 64, ... steps. Cost: `limit` steps, at least [`LEAST`] and at most [`LAST`], and what
+/// [`look`] takes each of at most 13 times: below 2 [`LAST`], whatever the orbit
+/// (`a_period_takes_a_bounded_number_of_steps`).
 pub(crate) fn period<P: Path>(mut path: P, limit: u32) -> Option<u32> {
     let limit = limit.clamp(LEAST, LAST);
     let (mut taken, mut until) = (0, FIRST);
@@ -94,7 +97,8 @@ pub(crate) fn period<P: Path>(mut path: P, limit: u32) -> Option<u32> {
 
 /// The period of the attracting cycle of at most `longest` points that an orbit has come near to.
 ///
-/// Cost: `2 longest` steps, and twice the period for each point that comes nearer than all before it: at most `2 longest + 2 TRIED`.
+/// Cost: `2 longest` steps, and twice the period for each point that comes nearer than all before it: at most
+/// `2 longest + 2 TRIED`.
 pub(crate) fn look<P: Path>(path: &P, longest: u32) -> Option<u32> {
     let (mut nearest, mut on) = (path.clone(), path.clone());
     let mut least = path.size();
@@ -130,8 +134,8 @@ pub(crate) fn look<P: Path>(path: &P, longest: u32) -> Option<u32> {
     None
 }
 
-/// The radius of a disc that may come back inside itself: with `m` the derivative of the steps, `2 / (1 - |m|)` times as
-/// far as the point moves, or twice that.
+/// The radius of a disc that may come back inside itself: with `m` the derivative of the steps,
+/// `2 / (1 - |m|)` times as far as the point moves, or twice that.
 fn radius<P: Path>(start: &P, period: u32) -> Option<Upper> {
     if repels(start, period) {
         return None;
@@ -150,8 +154,8 @@ fn radius<P: Path>(start: &P, period: u32) -> Option<Upper> {
     Some(moved(&on, start).plus(error?).scaled(multiplier.twice_over_rest()?))
 }
 
-/// Whether the steps, by a bound of their derivative from below, draw nothing in: most candidates do not, and this is known at a tenth of the cost
-/// of a bound from above.
+/// Whether the steps, by a bound of their derivative from below, draw nothing in: most candidates do not, and
+/// this is known at a tenth of the cost of a bound from above.
 fn repels<P: Path>(start: &P, period: u32) -> bool {
     let mut on = start.clone();
     // the square of the derivative; the mantissa at least 2^31

@@ -204,7 +204,8 @@ pub(crate) mod tests {
     use super::*;
     use std::vec::Vec;
 
-    /// The same rounding in integers that hold every intermediate value, one test a step, no shortcut: every point up to the first beyond 2.
+    /// The same rounding in integers that hold every intermediate value, one test a step, no shortcut: every
+    /// point up to the first beyond 2.
     pub(crate) fn orbit(z: Point29, c: Point29, coarse: bool) -> impl Iterator<Item = [i128; 2]> {
         let step = move |&[x, y]: &[i128; 2]| {
             if x * x + y * y > 1 << 60 {

@@ -1,4 +1,5 @@
-//! Orbits of `z <- z^2 + c`: the arithmetic that they run in, how they end, and how a cycle of them is proven.
+//! Orbits of `z <- z^2 + c`: the arithmetic that they run in, how they end, and how a cycle of them is
+//! proven.
 
 pub(crate) mod arithmetic;
 pub(crate) mod block_float;

@@ -102,7 +102,8 @@ const NEAR: UQ24 = (4 << 24) - (1 << 18);
 
 /// The dwell of the orbit that starts at `z`.
 ///
-/// Domain: `|c| <= 2` unless `|z| > 2`. Result: iterations, `0..=max`. A point that comes back ends the loop, as in 32 bits.
+/// Domain: `|c| <= 2` unless `|z| > 2`. Result: iterations, `0..=max`. A point that comes back ends the loop,
+/// as in 32 bits.
 #[inline(never)]
 pub(crate) fn dwell<W: WideWord>(z: (W, W), c: (W, W), max: u32) -> u32 {
     let (mut x, mut y) = z;

@@ -131,7 +131,8 @@ pub(crate) fn period(orbit: WordOrbit, max: u32) -> Option<u32> {
     cardioid::period(orbit.c).or_else(|| cycle::period(orbit, max))
 }
 
-/// How the orbit of `z` under the constant `c` ends; none inside. Without an orbit the start is beyond 2 already.
+/// How the orbit of `z` under the constant `c` ends; none inside. Without an orbit the start is beyond 2
+/// already.
 pub(crate) fn ending<const DERIVATIVE: bool>(
     dwell: Dwell,
     orbit: Option<WordOrbit>,

@@ -133,7 +133,8 @@ impl<N: Number> Builder<N> {
         self.b = twice.times(self.b).plus(BlockFloat::<i64>::ONE);
     }
 
-    /// The size of a distance that the next map must serve: in equal steps from the largest down to that of the pixels.
+    /// The size of a distance that the next map must serve: in equal steps from the largest down to that of
+    /// the pixels.
     const fn size(&self) -> i32 {
         let span = Self::NEGLIGIBLE - self.jumps.reach;
         Self::NEGLIGIBLE - span * (self.level + 1) / LEVELS as i32

@@ -102,7 +102,8 @@ impl<'a, N: Stored> Reference<'a, N> {
         steps * N::POINTS
     }
 
-    /// Follows the orbit of 0 until it exceeds 2 or fills `buffer`. `reach`: the exponent of 2 that the distances of pixels from `c` are below.
+    /// Follows the orbit of 0 until it exceeds 2 or fills `buffer`. `reach`: the exponent of 2 that the
+    /// distances of pixels from `c` are below.
     ///
     /// # Errors
     /// [`Error::BufferLength`] unless there are [`Self::points`].
@@ -144,7 +145,8 @@ impl<'a, N: Stored> Reference<'a, N> {
         self.points.len() / N::POINTS
     }
 
-    /// The end of the orbit of 0 under `z^2 + C + g`; none after `max` iterations. The derivative is by `g`, if it is asked for.
+    /// The end of the orbit of 0 under `z^2 + C + g`; none after `max` iterations. The derivative is by `g`,
+    /// if it is asked for.
     pub(crate) fn ending<const DERIVATIVE: bool>(&self, g: N, max: u32) -> Option<Ending> {
         let mut walk = Walk::new(self, g);
         let (mut saved, mut rebased, mut window) = (N::ZERO, 0_u32, 1_u32);
@@ -183,8 +185,8 @@ impl<'a, N: Stored> Reference<'a, N> {
     }
 }
 
-/// A point on the circle that is wider than 2 by two units of the last place: an orbit that follows the circle
-/// from within, near `c = -2`, may be rounded beyond 2 long before it escapes.
+/// A point on the circle that is wider than 2 by two units of the last place: an orbit that follows the
+/// circle from within, near `c = -2`, may be rounded beyond 2 long before it escapes.
 #[inline(always)]
 fn rounded_circle<N: Number>() -> N {
     N::nearest(BlockFloat::<i64>::new((1 << (N::BITS - 2)) + 1, 0, 3 - N::BITS))
@@ -323,8 +325,8 @@ impl<N: Stored> Path for Walk<'_, N> {
     }
 
     fn step_error(&self) -> Upper {
-        // with u = 2^(1 - BITS): at most 5 u (|2 Z + d| |d| + |g|) for the distance, 4 u of it when it is rebased as |Z| <= 2 |d|,
-        // 4 u (1 + |d|) where the reference ends
+        // with u = 2^(1 - BITS): at most 5 u (|2 Z + d| |d| + |g|) for the distance, 4 u of it when it is
+        // rebased as |Z| <= 2 |d|, 4 u (1 + |d|) where the reference ends
         let of = |v: N| Upper::of(v.short());
         let size = of(self.at.doubled()).plus(of(self.distance)).times(of(self.distance)).plus(of(self.g));
         let last = self.points.as_slice().len() <= N::POINTS;
@@ -477,7 +479,8 @@ mod tests {
         }
     }
 
-    /// The most steps beyond `max` that a dwell took, and the most that a period took; how many orbits came to `max` without an end.
+    /// The most steps beyond `max` that a dwell took, and the most that a period took; how many orbits came
+    /// to `max` without an end.
     fn most_steps<N: Stored>(view: &DeepView<8>, max: u32, orbit: &mut [OrbitPoint]) -> (u32, u32, u32) {
         let reference = Reference::<'_, Counted<N>>::new(view.centre(), max, view.reach(), orbit).unwrap();
         let (mut beyond, mut period, mut endless) = (0, 0, 0);
@@ -493,7 +496,8 @@ mod tests {
         (beyond, period, endless)
     }
 
-    /// Where orbits neither escape nor come near a cycle, or late: roots and centres of components, preperiodic points; near and deep.
+    /// Where orbits neither escape nor come near a cycle, or late: roots and centres of components,
+    /// preperiodic points; near and deep.
     #[test]
     fn perturbation_takes_a_bounded_number_of_steps() {
         let mut orbit = std::vec![OrbitPoint::default(); 2 << 17];

@@ -38,8 +38,9 @@ use crate::plane::{Field, Symmetric};
 /// ```
 ///
 /// # From a width of 4 to 1e-100
-/// [`Mandelbrot`](crate::escape::Mandelbrot) is the fastest while its 32 bits tell pixels apart. Its [`View`](crate::escape::View) becomes
-/// a [`DeepView`] of the same pixels, whose width shrinks from there on; the arithmetic follows by itself.
+/// [`Mandelbrot`](crate::escape::Mandelbrot) is the fastest while its 32 bits tell pixels apart. Its
+/// [`View`](crate::escape::View) becomes a [`DeepView`] of the same pixels, whose width shrinks from there
+/// on; the arithmetic follows by itself.
 ///
 /// ```
 /// use attractor::num::Complex;
@@ -80,7 +81,8 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
     /// ([`DeepMandelbrot::orbit_points`]).
     ///
     /// # Errors
-    /// [`Error::TooFew`] and [`Error::Capacity`] for the iterations as in [`Mandelbrot`](crate::escape::Mandelbrot); [`Error::BufferLength`] for a short `orbit`.
+    /// [`Error::TooFew`] and [`Error::Capacity`] for the iterations as in
+    /// [`Mandelbrot`](crate::escape::Mandelbrot); [`Error::BufferLength`] for a short `orbit`.
     pub fn new(view: DeepView<LIMBS>, max_dwell: u32, orbit: &'a mut [OrbitPoint]) -> Result<Self, Error> {
         Self::new_in(view, max_dwell, Arithmetic::of(view.pitch_exponent(), max_dwell), orbit)
     }
@@ -120,7 +122,8 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
         Ok(Self { view, max, orbits, at_edge })
     }
 
-    /// How many points a picture of this view takes: the length of the orbit to lend. At compile time: [`Arithmetic::orbit_points`].
+    /// How many points a picture of this view takes: the length of the orbit to lend. At compile time:
+    /// [`Arithmetic::orbit_points`].
     pub fn orbit_points(view: &DeepView<LIMBS>, max_dwell: u32) -> usize {
         Arithmetic::of(view.pitch_exponent(), max_dwell).orbit_points(max_dwell)
     }
@@ -157,8 +160,9 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
 
     /// The dwell at the middle of a pixel.
     ///
-    /// Domain: inside the view; others count as the nearest pixel. Cost: at most the greatest dwell in steps, and by perturbation, where orbits are
-    /// looked at for a cycle, fewer than 42,000 more (`perturbation_takes_a_bounded_number_of_steps`).
+    /// Domain: inside the view; others count as the nearest pixel. Cost: at most the greatest dwell in steps,
+    /// and by perturbation, where orbits are looked at for a cycle, fewer than 42,000 more
+    /// (`perturbation_takes_a_bounded_number_of_steps`).
     pub fn dwell_at(&self, column: u32, row: u32) -> Dwell {
         if self.starts_beyond(column, row) {
             return Dwell { count: 0, max: self.max };
@@ -241,7 +245,8 @@ impl<'a, const LIMBS: usize> DeepMandelbrot<'a, LIMBS> {
     }
 }
 
-/// Whether `|c| > 2`: a unit of the last place decides but for `|im|^2` below it, which counts where the real part is 2.
+/// Whether `|c| > 2`: a unit of the last place decides but for `|im|^2` below it, which counts where the real
+/// part is 2.
 fn is_beyond_two<const LIMBS: usize>(c: &Complex<Limbs<LIMBS>>) -> bool {
     let four = Limbs::ZERO.plus_whole(4);
     let (re, im) = (c.re.times(&c.re), c.im.times(&c.im));

@@ -9,8 +9,8 @@ use crate::escape::orbit::ending::Ending;
 use crate::escape::value::{Dwell, Period};
 use crate::plane::{Symmetric, along, inside};
 
-/// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`](crate::escape::Mandelbrot), [`Julia`](crate::escape::Julia) and
-/// [`DeepMandelbrot`](crate::escape::DeepMandelbrot).
+/// A picture whose pixels are dwells of orbits of `z^2 + c`: [`Mandelbrot`](crate::escape::Mandelbrot),
+/// [`Julia`](crate::escape::Julia) and [`DeepMandelbrot`](crate::escape::DeepMandelbrot).
 pub trait EscapeTime: Symmetric<Value = Dwell> {
     /// What an orbit belongs to: a point of the plane, or in a deep view the column and row of a pixel.
     type Point: Copy;

@@ -50,11 +50,13 @@ pub struct Julia {
 }
 
 impl Julia {
-    /// The filled-in Julia set of `c` as `view` shows it, with at most `max_dwell` iterations a pixel. The constant is rounded to 29 fractional bits.
+    /// The filled-in Julia set of `c` as `view` shows it, with at most `max_dwell` iterations a pixel. The
+    /// constant is rounded to 29 fractional bits.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits; `|c|` is reported),
-    /// [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above [`MAX_DWELL`](crate::escape::MAX_DWELL).
+    /// [`Error::OutOfRange`] for `|c| > 2` (such a set is dust, and 2 is no bound for its orbits; `|c|` is
+    /// reported), [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above
+    /// [`MAX_DWELL`](crate::escape::MAX_DWELL).
     pub fn new(view: View, c: Complex<Wide>, max_dwell: u32) -> Result<Self, Error> {
         let max = checked_max(max_dwell)?;
         let constant = checked_constant(c)?;
@@ -64,7 +66,8 @@ impl Julia {
     /// The same with the other arithmetic of 32-bit words than the one that suits the view.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for the wider ones, which [`DeepMandelbrot`](crate::escape::DeepMandelbrot) has.
+    /// [`Error::Unsupported`] for the wider ones, which [`DeepMandelbrot`](crate::escape::DeepMandelbrot)
+    /// has.
     pub const fn with_arithmetic(self, arithmetic: Arithmetic) -> Result<Self, Error> {
         match arithmetic {
             Arithmetic::Word26 | Arithmetic::Word29 => Ok(Self { arithmetic, ..self }),
@@ -106,9 +109,10 @@ impl Julia {
 
     /// The dwell of the orbit that starts at any point of the plane.
     ///
-    /// Domain: all. Result: iterations. Error: the start is the nearest point with 29 fractional bits and every step is rounded, which shows where
-    /// the orbit is chaotic: of six sets at 200 iterations four agree with `f64` at all of 40000 pixels, two differ at 1 in 1000
-    /// (`julia_sets_agree_with_float`). Cost: see [`Arithmetic`].
+    /// Domain: all. Result: iterations. Error: the start is the nearest point with 29 fractional bits and
+    /// every step is rounded, which shows where the orbit is chaotic: of six sets at 200 iterations four
+    /// agree with `f64` at all of 40000 pixels, two differ at 1 in 1000 (`julia_sets_agree_with_float`).
+    /// Cost: see [`Arithmetic`].
     #[inline]
     pub fn dwell_at(&self, s: Complex<Wide>) -> Dwell {
         let count = narrow(s).map_or(0, |s| self.arithmetic.dwell(s, self.constant, self.max));

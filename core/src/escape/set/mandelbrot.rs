@@ -45,10 +45,12 @@ pub struct Mandelbrot {
 }
 
 impl Mandelbrot {
-    /// The set as `view` shows it, with at most `max_dwell` iterations a pixel (a hundred is usual, more for a deeper view).
+    /// The set as `view` shows it, with at most `max_dwell` iterations a pixel (a hundred is usual, more for
+    /// a deeper view).
     ///
     /// # Errors
-    /// [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above [`MAX_DWELL`](crate::escape::MAX_DWELL).
+    /// [`Error::TooFew`] for a `max_dwell` of 0, [`Error::Capacity`] above
+    /// [`MAX_DWELL`](crate::escape::MAX_DWELL).
     pub fn new(view: View, max_dwell: u32) -> Result<Self, Error> {
         let max = checked_max(max_dwell)?;
         Ok(Self { view, max, arithmetic: Arithmetic::of_word(view.pitch(), max), interior: true })
@@ -57,7 +59,8 @@ impl Mandelbrot {
     /// The same with the other arithmetic of 32-bit words than the one that suits the view.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for the wider ones, which [`DeepMandelbrot`](crate::escape::DeepMandelbrot) has.
+    /// [`Error::Unsupported`] for the wider ones, which [`DeepMandelbrot`](crate::escape::DeepMandelbrot)
+    /// has.
     pub const fn with_arithmetic(self, arithmetic: Arithmetic) -> Result<Self, Error> {
         match arithmetic {
             Arithmetic::Word26 | Arithmetic::Word29 => Ok(Self { arithmetic, ..self }),
@@ -98,10 +101,12 @@ impl Mandelbrot {
 
     /// The dwell at any point of the plane.
     ///
-    /// Domain: all. Result: iterations. Error: the orbit starts at the nearest point with 29 fractional bits and is rounded at every step, which
-    /// shows where it is chaotic. Against 248 fractional bits 0.64 pixels in 1000 of a 256 x 256 picture of the whole set differ at 1024
-    /// iterations, 0.06 in 1000 by their side (`a_dyadic_grid_agrees_with_248_bits`); against `f64` 0.2 in 1000 of the home view on 240 x 240 at 100
-    /// (`dwell_agrees_with_float_on_the_home_view`). Cost: see [`Arithmetic`]; nothing is iterated in the main cardioid and the disc of period 2.
+    /// Domain: all. Result: iterations. Error: the orbit starts at the nearest point with 29 fractional bits
+    /// and is rounded at every step, which shows where it is chaotic. Against 248 fractional bits 0.64 pixels
+    /// in 1000 of a 256 x 256 picture of the whole set differ at 1024 iterations, 0.06 in 1000 by their side
+    /// (`a_dyadic_grid_agrees_with_248_bits`); against `f64` 0.2 in 1000 of the home view on 240 x 240 at 100
+    /// (`dwell_agrees_with_float_on_the_home_view`). Cost: see [`Arithmetic`]; nothing is iterated in the
+    /// main cardioid and the disc of period 2.
     #[inline]
     pub fn dwell_at(&self, c: Complex<Wide>) -> Dwell {
         let count = match narrow(c) {

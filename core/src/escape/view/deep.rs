@@ -43,11 +43,12 @@ pub struct DeepView<const LIMBS: usize> {
 impl<const LIMBS: usize> DeepView<LIMBS> {
     /// The rectangle around `centre` that is `width` wide; its height follows from the size.
     ///
-    /// Domain: width and height above 0 and below 4, the centre within 4 of 0 in each part, 8 bits behind the pitch.
+    /// Domain: width and height above 0 and below 4, the centre within 4 of 0 in each part, 8 bits behind the
+    /// pitch.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the width, the height, the part of the centre or the side of the picture; [`Error::Capacity`] says how many
-    /// limbs a width as small as this takes.
+    /// [`Error::OutOfRange`] names the width, the height, the part of the centre or the side of the picture;
+    /// [`Error::Capacity`] says how many limbs a width as small as this takes.
     pub fn new(centre: Complex<Limbs<LIMBS>>, width: Limbs<LIMBS>, size: Size) -> Result<Self, Error> {
         let raster = Raster::new(size)?;
         let out = |what, value, min| Err(Error::OutOfRange { what, index: None, value, min, max: FOUR });
@@ -97,7 +98,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     /// ```
     ///
     /// # Errors
-    /// As [`DeepView::new`], and as [`Limbs::from_str`](core::str::FromStr::from_str): too many digits are told how many fit.
+    /// As [`DeepView::new`], and as [`Limbs::from_str`](core::str::FromStr::from_str): too many digits are
+    /// told how many fit.
     pub fn parse(re: &str, im: &str, width: &str, size: Size) -> Result<Self, Error> {
         Self::new(Complex::new(re.parse()?, im.parse()?), width.parse()?, size)
     }
@@ -105,7 +107,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
     /// The whole Mandelbrot set, as [`View::home`]: where a zoom begins.
     ///
     /// # Errors
-    /// As [`View::home`], and [`Error::OutOfRange`] for displays so flat or so high that a side of the view reaches 4.
+    /// As [`View::home`], and [`Error::OutOfRange`] for displays so flat or so high that a side of the view
+    /// reaches 4.
     pub fn home(size: Size) -> Result<Self, Error> {
         View::home(size)?.try_into()
     }
@@ -130,10 +133,12 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         self.raster.panned()
     }
 
-    /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that both show are the same points, bit for bit.
+    /// The same grid seen through a window that is moved by whole pixels, to the right and up: pixels that
+    /// both show are the same points, bit for bit.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] when an edge is more than 6 away from 0, or after more than [`MAX_PAN`](crate::escape::MAX_PAN) pixels in one direction.
+    /// [`Error::OutOfRange`] when an edge is more than 6 away from 0, or after more than
+    /// [`MAX_PAN`](crate::escape::MAX_PAN) pixels in one direction.
     pub fn pan(&self, right: i32, up: i32) -> Result<Self, Error> {
         const SIX: Wide = Wide::lit("6");
         let raster = self.raster.pan(right, up)?;
@@ -171,7 +176,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         (self.raster.across(column.min(width - 1)), self.raster.up(row.min(height - 1)))
     }
 
-    /// Whether the centre is real: rows as far below the axis as others above it then show the conjugate points, exactly.
+    /// Whether the centre is real: rows as far below the axis as others above it then show the conjugate
+    /// points, exactly.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.centre.im == Limbs::ZERO
     }
@@ -214,7 +220,8 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
         BlockFloat::<i64>::new(part(across), part(up), exponent)
     }
 
-    /// An exponent of 2 that the distance of a pixel from the centre is below, also after panning by half the picture.
+    /// An exponent of 2 that the distance of a pixel from the centre is below, also after panning by half the
+    /// picture.
     pub(crate) fn reach(&self) -> i32 {
         self.distance((self.raster.size().width as i32, self.raster.size().height as i32)).above() + 1
     }
@@ -222,8 +229,9 @@ impl<const LIMBS: usize> DeepView<LIMBS> {
 
 /// The same pixels, where a zoom in 32 bits goes on: centre, width, size and pan are taken over exactly.
 ///
-/// Domain: as [`DeepView::new`] and [`DeepView::pan`], in 2 limbs and more. Exact; a point of the deep view is as exact as
-/// its limbs: [`View::point`] is the same point rounded to 48 bits (`a_view_goes_on_at_the_same_points`).
+/// Domain: as [`DeepView::new`] and [`DeepView::pan`], in 2 limbs and more. Exact; a point of the deep view
+/// is as exact as its limbs: [`View::point`] is the same point rounded to 48 bits
+/// (`a_view_goes_on_at_the_same_points`).
 ///
 /// ```
 /// use attractor::escape::{DeepView, View};

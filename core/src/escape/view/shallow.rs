@@ -36,10 +36,11 @@ pub struct View {
 }
 
 impl View {
-    /// The rectangle around `centre` that is `width` wide; its height follows from the size: pixels are square.
+    /// The rectangle around `centre` that is `width` wide; its height follows from the size: pixels are
+    /// square.
     ///
-    /// Domain: `width >= cols / 2^29`, that is a pitch of at least one unit of the 32-bit format; all four edges inside
-    /// `-32768 .. 32768`. Pixels beyond the disc `|c| <= 2` are valid and have dwell 0.
+    /// Domain: `width >= cols / 2^29`, that is a pitch of at least one unit of the 32-bit format; all four
+    /// edges inside `-32768 .. 32768`. Pixels beyond the disc `|c| <= 2` are valid and have dwell 0.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] names the width, the side or the edge, and what is allowed.
@@ -165,7 +166,8 @@ impl View {
 
     /// The middle of pixel `(column, row)`, `(0, 0)` at the upper left.
     ///
-    /// Domain: inside [`View::size`]; others count as the nearest pixel. Error: exact if the point is a multiple of `2^-48`, else below `2^-48`
+    /// Domain: inside [`View::size`]; others count as the nearest pixel. Error: exact if the point is a
+    /// multiple of `2^-48`, else below `2^-48`
     /// (`the_grid_is_exact_where_it_can_be_and_rounded_once_elsewhere`).
     pub fn point(&self, column: u32, row: u32) -> Complex<Wide> {
         let (re, rest) = self.abscissa(column.min(self.raster.size().width - 1));
@@ -230,7 +232,8 @@ impl View {
     }
 }
 
-/// Round to odd: the last bit is set when something was cut off, so that a later rounding to fewer bits is as good as the only one.
+/// Round to odd: the last bit is set when something was cut off, so that a later rounding to fewer bits is as
+/// good as the only one.
 #[inline(always)]
 fn sticky(floor: Q48, rest: i32) -> Wide {
     Wide::from_bits(floor | i64::from(rest != 0))

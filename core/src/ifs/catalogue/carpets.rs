@@ -1,7 +1,7 @@
 //! Copies of the whole, smaller and not turned: gaskets, carpets, dusts.
 
 use super::{Attractor, equal};
-use crate::ifs::Affine;
+use crate::ifs::affine::Affine;
 
 /// Scaled by `1/2`, its corner moved to `(e, f)` quarters.
 const fn half(e: i32, f: i32) -> Affine {

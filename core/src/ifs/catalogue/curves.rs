@@ -1,7 +1,7 @@
 //! Self-similar curves from `(0, 0)` to `(1, 0)`, and the tile that two dragons make.
 
 use super::{Attractor, equal};
-use crate::ifs::Affine;
+use crate::ifs::affine::Affine;
 
 /// Coefficients with eight decimals.
 const fn e8(coefficients: [i32; 6]) -> Affine {
@@ -62,7 +62,8 @@ pub const TERDRAGON: Attractor = Attractor {
     probabilities: &equal::<3>(),
 };
 
-/// The twindragon: the fractions `0.d1 d2 d3 ..` in base `i - 1` with digits 0 and 1, `z / (i - 1)` and `(z + 1) / (i - 1)`. Its area is 1.
+/// The twindragon: the fractions `0.d1 d2 d3 ..` in base `i - 1` with digits 0 and 1, `z / (i - 1)` and
+/// `(z + 1) / (i - 1)`. Its area is 1.
 pub const TWINDRAGON: Attractor = Attractor {
     name: "twindragon",
     title: "Twindragon",
@@ -74,7 +75,8 @@ pub const TWINDRAGON: Attractor = Attractor {
     probabilities: &equal::<2>(),
 };
 
-/// McWorter's pentigree: six segments of length `(3 - sqrt(5)) / 2` in the directions 36, 108, -36, -108, -36 and 36 degrees.
+/// McWorter's pentigree: six segments of length `(3 - sqrt(5)) / 2` in the directions 36, 108, -36, -108, -36
+/// and 36 degrees.
 pub const PENTIGREE: Attractor = Attractor {
     name: "pentigree",
     title: "McWorter's pentigree",

@@ -1,7 +1,8 @@
 //! The classical attractors: names, maps, probabilities and where they come from.
 //!
-//! Coefficients stand in the order `[a, b, c, d, e, f]` of the tables, rounded once to the formats of [`Affine`] (`2^-31` and `2^-25`).
-//! An [`Attractor`] is plain data with public fields: one of your own needs nothing from this file.
+//! Coefficients stand in the order `[a, b, c, d, e, f]` of the tables, rounded once to the formats of
+//! [`Affine`] (`2^-31` and `2^-25`). An [`Attractor`] is plain data with public fields: one of your own needs
+//! nothing from this file.
 
 mod carpets;
 mod curves;
@@ -37,7 +38,8 @@ pub struct Attractor {
 }
 
 impl Attractor {
-    /// The system of its maps; `N` is [`LARGEST`] for those of the catalogue whose number of maps is not known beforehand.
+    /// The system of its maps; `N` is [`LARGEST`] for those of the catalogue whose number of maps is not
+    /// known beforehand.
     ///
     /// # Errors
     /// As [`Ifs::new`]; for those of the catalogue only [`Error::Capacity`] when it has more than `N` maps.

@@ -1,9 +1,10 @@
 //! Ferns, a tree, a leaf.
 
 use super::{Attractor, over};
-use crate::ifs::Affine;
+use crate::ifs::affine::Affine;
 
-/// Barnsley's black spleenwort: stem, the frond without its lowest pair of leaves, the lowest left leaf, the lowest right one.
+/// Barnsley's black spleenwort: stem, the frond without its lowest pair of leaves, the lowest left leaf, the
+/// lowest right one.
 pub const BARNSLEY_FERN: Attractor = Attractor {
     name: "barnsley-fern",
     title: "Barnsley's fern",

@@ -1,7 +1,7 @@
 //! Figures that are known by their table of numbers only: those that came with Fractint.
 
 use super::{Attractor, over};
-use crate::ifs::Affine;
+use crate::ifs::affine::Affine;
 
 /// A coral.
 pub const CORAL: Attractor = Attractor {
