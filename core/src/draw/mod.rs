@@ -45,6 +45,7 @@
 //! | e-paper with a driver's own colours | a newtype | [`Ink`] says how |
 //! | ssd1322, e-paper with 4 greys | `Gray4`, `Gray2` | any palette; [`MsbRows`] |
 
+mod by_reference;
 mod clip;
 mod cursor;
 mod cycle;

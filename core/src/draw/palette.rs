@@ -3,11 +3,7 @@
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
-use super::cycle::{Cycled, Ramp};
-use super::equalised::Equalised;
-use super::gradient::Gradient;
 use super::level::{Level, Leveled};
-use super::mono::{Inverted, Luminance};
 
 /// Turns a value into a display-independent colour.
 ///
@@ -52,35 +48,6 @@ impl<V> Palette<V> for &dyn Palette<V> {
     fn rgb(&self, value: V) -> Rgb888 {
         (**self).rgb(value)
     }
-}
-
-/// A reference to a palette is a palette. (Not a blanket `impl for &P`: it would overlap with the one for
-/// closures.)
-macro_rules! by_reference {
-    ($([$($generics:tt)*] $name:ty, $value:ty;)*) => {$(
-        impl<$($generics)*> Palette<$value> for &$name
-        where
-            $name: Palette<$value>,
-        {
-            #[inline]
-            fn rgb(&self, value: $value) -> Rgb888 {
-                (**self).rgb(value)
-            }
-        }
-    )*};
-}
-
-by_reference! {
-    [V] CourseUnit, V;
-    [V] Grey, V;
-    [V, P] Inside<P>, V;
-    [V, P] Brightened<P>, V;
-    [V, P] Luminance<P>, V;
-    [V, P] Inverted<P>, V;
-    ['a, V, P] Equalised<'a, P>, V;
-    [V, P] Cycled<P>, V;
-    [V, const N: usize] Gradient<N>, V;
-    [V, const N: usize] Ramp<N>, V;
 }
 
 /// The colour `0xRRGGBB`.

@@ -222,7 +222,7 @@ fn real(word: i32, fraction: u32) -> Real {
 
 /// `2^9 / bits`, rounded up.
 fn per_bits(bits: u32) -> u32 {
-    512_u32.div_ceil(bits)
+    512_u32.div_ceil(bits.max(1))
 }
 
 /// `n / bits`, rounded down, for `n` below 64 and at most 8 bits: a Cortex-M0 has no division.

@@ -11,7 +11,7 @@ use attractor::draw::{
 };
 use attractor::escape::{
     Arithmetic, Buffered, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
-    Mandelbrot, OrbitPoint, Smooth, View,
+    Mandelbrot, OrbitPoint, Pan, Smooth, View,
 };
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
 use attractor::num::Complex;
@@ -45,16 +45,16 @@ fn escape() -> Result<(), Error> {
     bb((view.point(bb(0), bb(0)), view.pitch(), view.width(), view.centre()));
     let set = Mandelbrot::new(view, bb(100))?;
     bb((set.dwell_at(c), set.row(bb(0), bb(0)..bb(100)).last(), set.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
-    bb(set.with_arithmetic(bb(Arithmetic::Word29)).dwell_at(c));
+    bb(set.with_arithmetic(bb(Arithmetic::Word29))?.dwell_at(c));
     let julia = Julia::new(view, c, bb(100))?;
     bb((
         julia.dwell_at(c),
         julia.row(bb(0), bb(0)..bb(100)).last(),
         julia.row(bb(1), bb(0)..bb(100)).nth(bb(5)),
     ));
-    bb((view.size(), view.pan(bb(1), bb(1))?, set.view(), set.max_dwell(), set.precision()));
-    bb((julia.view(), julia.constant(), julia.max_dwell(), julia.precision()));
-    bb(julia.with_arithmetic(bb(Arithmetic::Word26)).dwell_at(c).is_inside());
+    bb((view.size(), view.pan(bb(1), bb(1))?, set.view(), set.max_dwell(), set.arithmetic()));
+    bb((julia.view(), julia.constant(), julia.max_dwell(), julia.arithmetic()));
+    bb(julia.with_arithmetic(bb(Arithmetic::Word26))?.dwell_at(c).is_inside());
     colorings(set, c)?;
     colorings(julia, c)?;
     deep()
@@ -62,26 +62,26 @@ fn escape() -> Result<(), Error> {
 
 /// What takes any escape-time picture.
 #[inline(never)]
-fn colorings<P: EscapeTime + Copy>(picture: P, point: P::Point) -> Result<(), Error> {
+fn colorings<P: EscapeTime + Pan + Clone>(picture: P, point: P::Point) -> Result<(), Error> {
     let row = || (bb(1), bb(0)..bb(100));
-    let smooth = Smooth(picture);
+    let smooth = Smooth(&picture);
     bb((smooth.value_at(point).is_inside(), smooth.row(row().0, row().1).nth(bb(3))));
-    let distance = Distance(picture);
+    let distance = Distance(&picture);
     bb((distance.value_at(point), distance.row(row().0, row().1).nth(bb(3))));
-    let interior = Interior(picture);
+    let interior = Interior(&picture);
     bb((interior.value_at(point), interior.row(row().0, row().1).nth(bb(3))));
     let mut counts = [0; 600];
-    let mut canvas = Buffered::new(picture, bb(&mut counts[..]))?;
+    let mut canvas = Buffered::new(picture.clone(), bb(&mut counts[..]))?;
     canvas.pan(bb(1), bb(-1))?;
     bb((canvas.computed(), canvas.row(row().0, row().1).nth(bb(3))));
     let mut bits = [0; 150];
-    let filled = Filled::new(picture, bb(&mut bits[..]))?;
+    let filled = Filled::new(&picture, bb(&mut bits[..]))?;
     bb((Filled::<P>::bytes(bb(Size::new(1, 1))), filled.at(bb(1), bb(1))));
     bb(filled.row(row().0, row().1).nth(bb(3)));
     let mut below = [0; 100];
     let palette = draw::Equalised::new(&smooth, &mut below, gradients::FIRE)?;
     bb((palette.level(bb(3)), picture.pitch(), picture.mirror_image(bb(3))));
-    let shown = Picture::<_, _, BinaryColor>::new(picture, CourseUnit);
+    let shown = Picture::<_, _, BinaryColor>::new(&picture, CourseUnit);
     let mut line = [Rgb888::BLACK; 240];
     let Ok(()) = Image::new(&shown.mirrored(bb(&mut line[..]))?, bb(Point::zero())).draw(&mut Wire::new());
     Ok(())
