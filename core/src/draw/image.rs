@@ -210,7 +210,8 @@ struct Colors<'a, V, P, C> {
 impl<V: Iterator, P: Palette<V::Item>, C: Ink> Iterator for Colors<'_, V, P, C> {
     type Item = C;
 
-    #[inline]
+    // the loop over a row is the display's: it is worth a copy there
+    #[inline(always)]
     fn next(&mut self) -> Option<C> {
         self.remaining = self.remaining.checked_sub(1)?;
         let rgb = self.palette.rgb(self.values.next()?);
@@ -226,9 +227,6 @@ impl<V: Iterator, P: Palette<V::Item>, C: Ink> Iterator for Colors<'_, V, P, C> 
             self.remaining = 0;
             return None;
         };
-        if skipped == 0 {
-            return self.next();
-        }
         self.remaining -= skipped + 1;
         let rgb = self.palette.rgb(self.values.nth(n)?);
         let at = Point::new(self.at.x.wrapping_add(skipped as i32), self.at.y);
