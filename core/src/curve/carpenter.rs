@@ -17,6 +17,7 @@
 //! variance falls by `2^(1 - beta)` a level (M. F. Barnsley et al., "The Science of Fractal Images", 1988,
 //! section 1.4.3: midpoint displacement).
 
+use super::dimension::dimension_of_ratio;
 use super::displacement::{
     Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, perpendicular, product_q28,
     raised, raised_across, undone,
@@ -159,7 +160,7 @@ impl OneVariable {
     /// # Errors
     /// [`Error::OutOfRange`] for a ratio outside `1 .. 2`.
     pub fn from_ratio(ratio: Real, seed: u64) -> Result<Self, Error> {
-        super::dimension_of_ratio(ratio)?;
+        dimension_of_ratio(ratio)?;
         // increasing in o; a ratio of 2 takes an offset of 1.05
         let (mut low, mut high) = (0, 2 << 28);
         for _ in 0..24 {

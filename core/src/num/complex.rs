@@ -2,7 +2,7 @@
 //!
 //! Vocabulary only: what multiplies them is in the kernels, each in the format that suits it.
 
-use super::Wide;
+use super::formats::Wide;
 
 /// `re + i im`; `im` points upwards on a display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

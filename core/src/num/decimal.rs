@@ -9,7 +9,7 @@
 
 use core::str::FromStr;
 
-use super::Wide;
+use super::formats::Wide;
 use super::limbs::Limbs;
 use crate::Error;
 

@@ -4,9 +4,9 @@
 //! 0 to 63 and `f` below `1/64`, and `e^-x = 2^-k 2^(-i / 64) e^(-f ln 2)`. The second factor is from a
 //! table; the third is `1 - y + y^2 / 2 - y^3 / 6` for `y = f ln 2 < 0.011`, within `2^-30.7`.
 
+use super::formats::{Real, Unit};
 use super::formats::{UQ30, UQ32};
 use super::product::{high_u, product_u};
-use super::{Real, Unit};
 
 /// `2^(-i / 64)`, below 1.
 static POWERS: [UQ32; 64] = {

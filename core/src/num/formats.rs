@@ -1,4 +1,5 @@
-//! Names for the raw integers that kernels compute with: they say where the point of a word lies.
+//! The formats of numbers: the types that are handed over, and names for the raw integers that kernels compute
+//! with.
 //!
 //! A kernel works on plain words, since a shift or the upper word of a product then is one instruction. The
 //! word itself does not tell what it is worth. These names do, in signatures, fields, tables and constants,
@@ -11,7 +12,16 @@
 //!
 //! They are aliases: the reader tells a `Q24` from a `Q30`, the compiler does not. A number in a wider word
 //! than the rule says, as a sum of many `Q24` in 64 bits, keeps its plain type and a comment. The public
-//! interface has the types of the crate [`fixed`] instead.
+//! interface has types of the crate [`fixed`]: the four below.
+
+/// Coordinates, heights, distances: 24 fractional bits, `-128 .. 128`.
+pub type Real = fixed::types::I8F24;
+/// Direction cosines, weights, matrix entries: 30 fractional bits, `-2 .. 2`.
+pub type Unit = fixed::types::I2F30;
+/// Contraction factors: 31 fractional bits, `-1 .. 1`.
+pub type Scaling = fixed::types::I1F31;
+/// Abscissae and descriptions: 48 fractional bits, `-32768 .. 32768`.
+pub type Wide = fixed::types::I16F48;
 
 pub(crate) type Q24 = i32;
 pub(crate) type Q26 = i32;

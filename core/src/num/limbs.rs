@@ -10,7 +10,7 @@
 //! the next column with the carry (P. G. Comba, "Exponentiation cryptosystems on the IBM PC", 1990). The
 //! columns that cannot reach the result are left out.
 
-use crate::num::Wide;
+use super::formats::Wide;
 
 /// A number in `-8 .. 8` with `32 LIMBS - 4` fractional bits. At least 2 limbs are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -82,6 +82,7 @@ pub use alias::Alias;
 pub use complex::Complex;
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;
+pub use formats::{Real, Scaling, Unit, Wide};
 pub use limbs::Limbs;
 pub use logarithm::log2;
 pub(crate) use product::{high, high_of_double, high_of_square, high_u, product, product_u, square_u};
@@ -95,24 +96,4 @@ pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;
 pub(crate) use vector::{square, unit};
 pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};
-pub(crate) use wide::{mul_high_short, scaled};
-
-/// Coordinates, heights, distances: 24 fractional bits, `-128 .. 128`.
-pub type Real = fixed::types::I8F24;
-/// Direction cosines, weights, matrix entries: 30 fractional bits, `-2 .. 2`.
-pub type Unit = fixed::types::I2F30;
-/// Contraction factors: 31 fractional bits, `-1 .. 1`.
-pub type Scaling = fixed::types::I1F31;
-/// Abscissae and descriptions: 48 fractional bits, `-32768 .. 32768`.
-pub type Wide = fixed::types::I16F48;
-
-/// A 64-bit accumulator with `fraction` fractional bits as [`Real`], rounded to nearest, saturated.
-#[inline]
-pub(crate) fn real_from(accumulator: i64, fraction: u32) -> Real {
-    let bits = if fraction >= 24 {
-        round_shift(accumulator, fraction - 24)
-    } else {
-        accumulator.saturating_mul(1 << (24 - fraction))
-    };
-    Real::from_bits(bits.clamp(i32::MIN as i64, i32::MAX as i64) as i32)
-}
+pub(crate) use wide::{mul_high_short, real_from, scaled};

@@ -4,8 +4,8 @@
 //! an eighth of a turn, where the power series of both, `x - x^3 / 3! + ..` to `x^9` and `1 - x^2 / 2! + ..`
 //! to `x^10`, are summed by Horner's scheme.
 
-use super::Unit;
 use super::formats::Q31;
+use super::formats::Unit;
 use super::product::product;
 
 /// An angle in turns: the whole range of the number is one turn, so that it wraps as angles do.

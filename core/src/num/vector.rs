@@ -3,9 +3,9 @@
 //!
 //! What is computed for each ray or pixel works on plain words instead, in the kernels.
 
+use super::formats::{Real, Unit};
 use super::root::reciprocal_sqrt_of;
 use super::wide::scaled;
-use super::{Real, Unit};
 
 /// A vector in space; `z` points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

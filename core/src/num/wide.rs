@@ -4,7 +4,7 @@
 //! Abscissae and values of interpolation functions have more than 32 bits. The compiler would multiply them
 //! as `i128`, by a library call on 32-bit machines; these functions are a handful of `SMULL`/`UMULL` each.
 
-use super::formats::{Q31, UQ24, UQ63};
+use super::formats::{Q31, Real, UQ24, UQ63};
 use super::product::{self, high_mixed, product, product_mixed, product_u};
 use super::quotient::ratio;
 
@@ -161,6 +161,17 @@ fn halvings(m: u64, shift: u32) -> u32 {
     // to nearest; what squares leave out adds up to less than a unit, and what is left of one keeps the
     // result low
     (shift << 24).saturating_sub(((digits + 1) >> 1) - (1 << 24)).saturating_sub(2)
+}
+
+/// A 64-bit accumulator with `fraction` fractional bits as [`Real`], rounded to nearest, saturated.
+#[inline]
+pub(crate) fn real_from(accumulator: i64, fraction: u32) -> Real {
+    let bits = if fraction >= 24 {
+        round_shift(accumulator, fraction - 24)
+    } else {
+        accumulator.saturating_mul(1 << (24 - fraction))
+    };
+    Real::from_bits(bits.clamp(i32::MIN as i64, i32::MAX as i64) as i32)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use embedded_graphics_core::geometry::Size;
 use super::camera::Camera;
 use super::environment::Environment;
 use super::halves::LevelOfDetail;
-use super::height_field::HeightField;
+use super::height_field::{HeightField, Hit};
 use super::material::{Light, Material, Shade};
 use super::outline::Outline;
 use super::ray::{Footprint, Ray};
@@ -161,7 +161,7 @@ impl<'a> RayCaster<'a> {
     }
 
     /// The leaf that the ray through the centre of a pixel meets; none outside the picture.
-    pub fn hit(&self, x: u32, y: u32) -> Option<super::Hit> {
+    pub fn hit(&self, x: u32, y: u32) -> Option<Hit> {
         if x >= self.size.width || y >= self.size.height {
             return None;
         }

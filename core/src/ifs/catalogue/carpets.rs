@@ -1,6 +1,6 @@
 //! Copies of the whole, smaller and not turned: gaskets, carpets, dusts.
 
-use super::{Attractor, equal};
+use super::attractor::{Attractor, equal};
 use crate::ifs::affine::Affine;
 
 /// Scaled by `1/2`, its corner moved to `(e, f)` quarters.

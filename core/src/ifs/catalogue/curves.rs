@@ -1,6 +1,6 @@
 //! Self-similar curves from `(0, 0)` to `(1, 0)`, and the tile that two dragons make.
 
-use super::{Attractor, equal};
+use super::attractor::{Attractor, equal};
 use crate::ifs::affine::Affine;
 
 /// Coefficients with eight decimals.

@@ -1,52 +1,20 @@
 //! The classical attractors: names, maps, probabilities and where they come from.
 //!
 //! Coefficients stand in the order `[a, b, c, d, e, f]` of the tables, rounded once to the formats of
-//! [`Affine`] (`2^-31` and `2^-25`). An [`Attractor`] is plain data with public fields: one of your own needs
+//! [`Affine`](super::Affine) (`2^-31` and `2^-25`). An [`Attractor`] is plain data with public fields: one of your own needs
 //! nothing from this file.
 
+mod attractor;
 mod carpets;
 mod curves;
 mod plants;
 mod tables;
 
+pub use attractor::Attractor;
 pub use carpets::{CANTOR_DUST, SIERPINSKI_CARPET, SIERPINSKI_GASKET, VICSEK_BOX};
 pub use curves::{HEIGHWAY_DRAGON, KOCH_CURVE, LEVY_C_CURVE, PENTIGREE, TERDRAGON, TWINDRAGON};
 pub use plants::{BARNSLEY_FERN, CULCITA_FERN, CYCLOSORUS_FERN, FRACTAL_TREE, MAPLE_LEAF};
 pub use tables::{CORAL, CRYSTAL, DRAGON, SPIRAL};
-
-use super::affine::{Affine, ratio};
-use super::system::Ifs;
-use crate::Error;
-use crate::num::Unit;
-
-/// A named iterated function system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Attractor {
-    /// Lower case, words joined by hyphens: what [`find`] looks for.
-    pub name: &'static str,
-    /// What it is called in print.
-    pub title: &'static str,
-    /// Where the maps were published.
-    pub source: &'static str,
-    /// The maps.
-    pub maps: &'static [Affine],
-    /// The probability of each map.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
-    pub probabilities: &'static [Unit],
-}
-
-impl Attractor {
-    /// The system of its maps; `N` is [`LARGEST`] for those of the catalogue whose number of maps is not
-    /// known beforehand.
-    ///
-    /// # Errors
-    /// As [`Ifs::new`]; for those of the catalogue only [`Error::Capacity`] when it has more than `N` maps.
-    pub fn ifs<const N: usize>(&self) -> Result<Ifs<N>, Error> {
-        Ifs::new(self.maps, self.probabilities)
-    }
-}
 
 /// All of them.
 pub const ALL: &[&Attractor] = &[
@@ -79,25 +47,11 @@ pub fn find(name: &str) -> Option<&'static Attractor> {
     ALL.iter().copied().find(|attractor| attractor.name == name)
 }
 
-/// As many equal probabilities.
-const fn equal<const N: usize>() -> [Unit; N] {
-    over([1; N], N as i32)
-}
-
-/// Probabilities over a common denominator.
-const fn over<const N: usize>(numerators: [i32; N], denominator: i32) -> [Unit; N] {
-    let mut shares = [Unit::ZERO; N];
-    let mut i = 0;
-    while i < N {
-        shares[i] = Unit::from_bits(ratio(numerators[i], denominator, 30));
-        i += 1;
-    }
-    shares
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ifs::affine::Affine;
+    use crate::num::Unit;
 
     #[test]
     fn every_attractor_has_a_name_a_source_and_makes_a_system() {

@@ -1,6 +1,6 @@
 //! Ferns, a tree, a leaf.
 
-use super::{Attractor, over};
+use super::attractor::{Attractor, over};
 use crate::ifs::affine::Affine;
 
 /// Barnsley's black spleenwort: stem, the frond without its lowest pair of leaves, the lowest left leaf, the

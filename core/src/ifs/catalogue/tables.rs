@@ -1,6 +1,6 @@
 //! Figures that are known by their table of numbers only: those that came with Fractint.
 
-use super::{Attractor, over};
+use super::attractor::{Attractor, over};
 use crate::ifs::affine::Affine;
 
 /// A coral.
