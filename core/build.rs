@@ -1,6 +1,6 @@
-//! Tells the kernel whether the target multiplies 32 by 32 bits to 64 in one instruction, which is asked of
-//! the target, so that no user has to set a feature; and collects what the private files say of themselves
-//! for the page `methods` of the documentation.
+//! Tells the kernel whether the target multiplies 32 by 32 bits to 64 in one instruction, and whether it adds
+//! 64 bits with a carry: which is asked of the target, so that no user has to set a feature; and collects what
+//! the private files say of themselves for the page `methods` of the documentation.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,10 +10,14 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=src");
     println!("cargo::rustc-check-cfg=cfg(no_long_product)");
+    println!("cargo::rustc-check-cfg=cfg(no_carry)");
     // Armv6-M and Armv8-M Baseline: Cortex-M0, M0+, M1 and M23
     let target = env::var("TARGET").unwrap_or_default();
     if target.starts_with("thumbv6m") || target.starts_with("thumbv8m.base") {
         println!("cargo::rustc-cfg=no_long_product");
+    }
+    if target.starts_with("riscv32") {
+        println!("cargo::rustc-cfg=no_carry");
     }
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it")).join("methods.md");
     fs::write(out, methods()).expect("cargo's directory can be written");

@@ -348,8 +348,10 @@ fn out_of_range(index: usize) -> Error {
     Error::OutOfRange { what: "vertex of the generator", index: Some(index), value, min: -max, max }
 }
 
+/// Inside the domain of [`crate::num::complex_product_added`].
 fn saturate(bits: i64) -> Q30 {
-    bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+    const FARTHEST: i64 = (1 << 31) - (1 << 15);
+    bits.clamp(-FARTHEST, FARTHEST) as i32
 }
 
 /// `sqrt(x^2 + y^2)` rounded up, for `|x|, |y| <= 2^31`.

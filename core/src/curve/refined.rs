@@ -15,7 +15,7 @@
 use super::generator::{Generator, Segment, hypotenuse, oriented};
 use crate::Error;
 use crate::num::formats::{Q26, Q30, Q56, UQ26, UQ30};
-use crate::num::{Real, Wide, product, product_u};
+use crate::num::{Real, Wide, complex_product_added, product_u};
 use crate::plane::{PathElement, Point2};
 
 /// Segments of the base are shorter than this.
@@ -53,12 +53,8 @@ impl Drawn {
     #[inline(always)]
     fn place(&self, [x, y]: [Q30; 2]) -> [Q56; 2] {
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
-        let ([p, q], [dx, dy]) = (self.start, self.vector);
         // the constructor proves |p + d v| < 128 for all copies
-        [
-            p.wrapping_add(product(dx, x)).wrapping_add(product(dy, y.wrapping_neg())),
-            q.wrapping_add(product(dx, y)).wrapping_add(product(dy, x)),
-        ]
+        complex_product_added(self.start, self.vector, [x, y])
     }
 }
 
@@ -92,9 +88,8 @@ impl Replica {
     fn descend<const S: usize>(&mut self, segment: &Segment, length: UQ26, generator: &Generator<S>) -> Self {
         let [x, y] = segment.vector;
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
-        let ([p, q], [dx, dy]) = (self.start, self.vector);
-        let u = product(dx, x).wrapping_add(product(dy, y.wrapping_neg()));
-        let v = product(dx, y).wrapping_add(product(dy, x));
+        let [p, q] = self.start;
+        let [u, v] = complex_product_added([0; 2], self.vector, [x, y]);
         self.start = [p.wrapping_add(u), q.wrapping_add(v)];
         // |w| < 1, so that the vector becomes shorter
         let rounded = |bits: i64| (bits.wrapping_add(1 << 29) >> 30) as i32;

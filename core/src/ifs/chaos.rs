@@ -86,7 +86,7 @@ impl<R: Rng> Walk<R> {
     fn step<const N: usize>(&mut self, ifs: &Ifs<N>) -> Point2 {
         let index = ifs.choice().pick(self.rng.next_u32());
         if let Some(step) = ifs.step(index) {
-            self.point = step.apply(self.point);
+            self.point = step.apply_inside(self.point);
         }
         self.map = index as u32;
         self.point

@@ -4,7 +4,8 @@
 //! products are added to it, and a shift is left. A machine without a long product multiplies by halves,
 //! `v = vh 2^16 + vl` with `vl` signed: `l x + m y = H 2^32 + M 2^16 + L` for `H = lh xh + mh yh`,
 //! `M = lh xl + ll xh + mh yl + ml yh`, `L = ll xl + ml yl`. It keeps the coefficients in halves, and puts
-//! only the upper part of the sum together.
+//! only the upper part of the sum together. A machine without a carry adds 64 bits in four instructions and
+//! wins nothing by a translation that takes two words: there nothing is prepared, and the maps stand once.
 
 use super::affine::Affine;
 #[cfg(any(test, not(no_long_product)))]
@@ -12,18 +13,33 @@ use super::affine::{product_q54, translated};
 use crate::num::{Real, Unit};
 use crate::plane::Point2;
 
+impl Affine {
+    /// As [`PreparedMap::apply_inside`], with nothing prepared.
+    #[cfg(any(test, no_carry))]
+    #[inline(always)]
+    pub(super) fn apply_inside(&self, p: Point2) -> Point2 {
+        let row = |l: Unit, m: Unit, t: Real| {
+            let sum = translated(t).wrapping_add(product_q54(l, p.x)).wrapping_add(product_q54(m, p.y));
+            Real::from_bits((sum >> 30) as i32)
+        };
+        Point2::new(row(self.a, self.b, self.e), row(self.c, self.d, self.f))
+    }
+}
+
 /// A contraction of a system, prepared. Size: 32 bytes; 40 on a machine without a long product.
+#[cfg(not(no_carry))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PreparedMap {
     x: Row,
     y: Row,
 }
 
-#[cfg(not(no_long_product))]
+#[cfg(not(any(no_carry, no_long_product)))]
 type Row = Whole;
 #[cfg(no_long_product)]
 type Row = Halves;
 
+#[cfg(not(no_carry))]
 impl PreparedMap {
     /// The map, prepared: a contraction.
     pub(super) const fn new(map: &Affine) -> Self {
@@ -33,14 +49,14 @@ impl PreparedMap {
     /// The image of a point whose image is known to lie in the format: an [`super::Ifs`] proves that for the
     /// points of its invariant disc.
     #[inline(always)]
-    pub(super) fn apply(&self, p: Point2) -> Point2 {
+    pub(super) fn apply_inside(&self, p: Point2) -> Point2 {
         Point2::new(self.x.apply(p), self.y.apply(p))
     }
 }
 
 /// One coordinate of the image, `l x + m y + t`.
 // In this order two loads bring four words on Armv7-M.
-#[cfg(any(test, not(no_long_product)))]
+#[cfg(any(test, not(any(no_carry, no_long_product))))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 struct Whole {
@@ -49,7 +65,7 @@ struct Whole {
     t: i64,
 }
 
-#[cfg(any(test, not(no_long_product)))]
+#[cfg(any(test, not(any(no_carry, no_long_product))))]
 impl Whole {
     const fn new(l: Unit, m: Unit, t: Real) -> Self {
         Self { l, m, t: translated(t) }
@@ -166,7 +182,8 @@ mod tests {
                 let p = Point2::new(Real::from_bits(word(30)), Real::from_bits(word(30)));
                 let image = map.apply(p);
                 if [image.x, image.y].iter().all(|v| v.abs() < Real::MAX) {
-                    assert_eq!(PreparedMap::new(&map).apply(p), image, "{map:?} {p:?}");
+                    assert_eq!(PreparedMap::new(&map).apply_inside(p), image, "{map:?} {p:?}");
+                    assert_eq!(map.apply_inside(p), image, "{map:?} {p:?}");
                 }
                 let rows = [
                     [map.a.to_bits(), map.b.to_bits(), map.e.to_bits()],

@@ -13,6 +13,7 @@
 
 use super::affine::Affine;
 use super::disc::{Contractions, Disc};
+#[cfg(not(no_carry))]
 use super::prepared::PreparedMap;
 use crate::Error;
 use crate::num::{Alias, Unit, Wide};
@@ -25,7 +26,7 @@ pub const MAX_MAPS: usize = 256;
 const TOLERANCE: i64 = 1074;
 
 /// An iterated function system of at most `N <= 256` maps. Size on a 32-bit machine: 65 bytes a map, and 36;
-/// 73 a map on a machine without a long product.
+/// 73 a map on a machine without a long product, 33 on one without a carry.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -34,6 +35,7 @@ const TOLERANCE: i64 = 1074;
 )]
 pub struct Ifs<const N: usize> {
     maps: [Affine; N],
+    #[cfg(not(no_carry))]
     prepared: [PreparedMap; N],
     len: usize,
     choice: Alias<N>,
@@ -140,6 +142,7 @@ impl<const N: usize> Ifs<N> {
         let contraction_factor = factors.iter().copied().max().unwrap_or(Unit::ONE);
         Ok(Self {
             maps,
+            #[cfg(not(no_carry))]
             prepared: maps.each_ref().map(PreparedMap::new),
             len,
             choice: Alias::new(weights.get(..len).unwrap_or_default())?,
@@ -185,9 +188,17 @@ impl<const N: usize> Ifs<N> {
     }
 
     /// The map at an index, which the alias table keeps below the number of maps, as a game applies it.
+    #[cfg(not(no_carry))]
     #[inline(always)]
     pub(super) fn step(&self, index: usize) -> Option<&PreparedMap> {
         self.prepared.get(index)
+    }
+
+    /// The same where nothing is prepared.
+    #[cfg(no_carry)]
+    #[inline(always)]
+    pub(super) fn step(&self, index: usize) -> Option<&Affine> {
+        self.maps.get(index)
     }
 
     /// The fixed point of the first map: a point of the attractor, within half a unit.
