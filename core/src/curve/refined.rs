@@ -15,7 +15,7 @@
 use super::generator::{Generator, Segment, hypotenuse, oriented};
 use crate::Error;
 use crate::num::formats::{Q26, Q30, Q56, UQ26, UQ30};
-use crate::num::{Real, Wide, complex_product_added, product_u};
+use crate::num::{Real, Wide, complex_product_added, product, product_u};
 use crate::plane::{PathElement, Point2};
 
 /// Segments of the base are shorter than this.
@@ -52,6 +52,11 @@ impl Drawn {
     /// `p + d v`, `v` mirrored if the copy is.
     #[inline(always)]
     fn place(&self, [x, y]: [Q30; 2]) -> [Q56; 2] {
+        // on the copy's own segment half the products are left
+        if cfg!(no_long_product) && y == 0 {
+            let ([p, q], [dx, dy]) = (self.start, self.vector);
+            return [p.wrapping_add(product(dx, x)), q.wrapping_add(product(dy, x))];
+        }
         let y = if self.state & 2 == 0 { y } else { y.wrapping_neg() };
         // the constructor proves |p + d v| < 128 for all copies
         complex_product_added(self.start, self.vector, [x, y])
@@ -170,7 +175,7 @@ impl<const S: usize> Generator<S> {
     /// Result: `base.len() - 1` curves of `len^order` segments each, joined; a closed base ends with its
     /// first point. Error: below `2^-22` for the curves of the catalogue on a base of length 1 up to order 12
     /// (`curves.rs`: `every_vertex_is_within_its_bound`). Cost of a vertex, in a loop that adds the
-    /// coordinates up: 59.3 Cortex-M4 instructions (kernel `koch`) for the Koch curve of order 6, 45.6
+    /// coordinates up: 59.2 Cortex-M4 instructions (kernel `koch`) for the Koch curve of order 6, 44.7
     /// (kernel `gosper`) for Gosper's flowsnake, 133 (kernel `dragon`) for the dragon, whose generator has
     /// only two segments.
     ///
@@ -322,7 +327,9 @@ impl<'a, const S: usize, const DEPTH: usize> Refined<'a, S, DEPTH> {
                 let (first, rest) = segments.split_first()?;
                 self.run = rest.iter();
                 self.drawn = child.drawn();
-                let place = self.drawn.place(first.show);
+                // a walk begins where the copy does, unless it shows markers
+                let from_start = first.show == [0; 2];
+                let place = if from_start { child.start } else { self.drawn.place(first.show) };
                 return Some(self.step(place));
             }
             // those that wait have different levels below `order`, at most DEPTH

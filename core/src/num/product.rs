@@ -100,7 +100,8 @@ pub(crate) fn square_u(a: u32) -> u64 {
 /// `p + d v` for complex numbers: the product of `d = a + b i` and `v = x + y i` added to both parts of `p`.
 ///
 /// Domain: `|d| < 2^31`, `x >= -2^31 + 2^15`, `y > -2^31`; the sums modulo `2^64`. Cost: four Cortex-M4
-/// instructions and a change of sign; on a Cortex-M0 some 80, of which 16 multiply.
+/// instructions and a change of sign; on a Cortex-M0 16 multiplications instead of 20, and half the
+/// additions of four products.
 #[inline(always)]
 pub(crate) fn complex_product_added(p: [i64; 2], d: [i32; 2], v: [i32; 2]) -> [i64; 2] {
     if cfg!(no_long_product) {
@@ -247,7 +248,8 @@ mod halves {
     pub(super) fn complex_product_added([p, q]: [i64; 2], d: [i32; 2], v: [i32; 2]) -> [i64; 2] {
         let [[ah, al], [bh, bl]] = d.map(split_signed);
         let [[xh, xl], [yh, yl]] = v.map(split_signed);
-        let difference = |[a, x]: [i32; 2], [b, y]: [i32; 2]| a.wrapping_mul(x).wrapping_sub(b.wrapping_mul(y));
+        let difference =
+            |[a, x]: [i32; 2], [b, y]: [i32; 2]| a.wrapping_mul(x).wrapping_sub(b.wrapping_mul(y));
         let sum = |[a, y]: [i32; 2], [b, x]: [i32; 2]| a.wrapping_mul(y).wrapping_add(b.wrapping_mul(x));
         let shifted = |word: i32, by: u32| i64::from(word) << by;
         let real = p
@@ -330,7 +332,8 @@ mod tests {
         let wide = i64::from;
         let mut tried = 0;
         for a in words() {
-            let shorter = |b: &i32| wide(a) * wide(a) + wide(*b) * wide(*b) < 1 << 62;
+            let square = |v: i32| u64::from(v.unsigned_abs()).pow(2);
+            let shorter = |b: &i32| square(a) + square(*b) < 1 << 62;
             for b in words().filter(shorter) {
                 for x in words().filter(|x| *x >= i32::MIN + 0x8000) {
                     for y in words().filter(|y| *y > i32::MIN) {
