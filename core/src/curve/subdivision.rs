@@ -85,7 +85,7 @@ pub struct Subdivision<'a, D, const LEVELS: usize> {
     /// next.
     ends: [End; LEVELS],
     waiting: usize,
-    /// The end of the part at hand, if there is one.
+    /// The end of the first part, between the step to its beginning and the line along it.
     end: Option<End>,
     span: Real,
     levels: u32,
@@ -103,9 +103,9 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     /// The curve through `knots` that `law` describes; closed when the last knot is the first.
     ///
     /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision,
-    /// with the point that it yields: 156 Cortex-M4 instructions (kernel `elbow`) for an elbow that stops by
-    /// parameter, 185 (kernel `elbow by length`) by length; 179 (kernel `one variable`) for one variable and
-    /// 241 (kernel `two variable`) for two by norm; 145 (kernel `line to line`) for a function that stops by
+    /// with the point that it yields: 143 Cortex-M4 instructions (kernel `elbow`) for an elbow that stops by
+    /// parameter, 174 (kernel `elbow by length`) by length; 174 (kernel `one variable`) for one variable and
+    /// 241 (kernel `two variable`) for two by norm; 131 (kernel `line to line`) for a function that stops by
     /// parameter.
     ///
     /// # Errors
@@ -203,21 +203,22 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
         }
     }
 
-    /// The part that ends at `end` is done with: its end, or none when all between two knots is.
+    /// The part that ends at `end` is done with.
     #[inline(always)]
-    fn advance(&mut self, end: &End) -> Option<End> {
+    fn advance(&mut self, end: &End) {
         self.from = end.point;
         self.at = self.at.wrapping_add(i64::from(half(end.level)) << 1);
-        let index = self.waiting.checked_sub(1)?;
-        self.waiting = index;
-        self.ends.get(index).copied()
     }
 
     /// The part that begins at the last point.
     #[inline(always)]
     fn first(&mut self) -> Option<End> {
         if self.end.is_some() {
-            return self.end;
+            return self.end.take();
+        }
+        if let Some(index) = self.waiting.checked_sub(1) {
+            self.waiting = index;
+            return self.ends.get(index).copied();
         }
         let (knot, rest) = self.knots.split_first()?;
         self.knots = rest;
@@ -231,7 +232,7 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     fn wanted(&mut self, mut end: End) -> Option<End> {
         let [first, last] = self.piece;
         while self.at.wrapping_add(i64::from(half(end.level)) << 1) <= first {
-            self.end = self.advance(&end);
+            self.advance(&end);
             end = self.first()?;
         }
         (self.at < last).then_some(end)
@@ -278,7 +279,7 @@ impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVEL
             end = End { point: self.law.midpoint(&part), level };
         }
         if self.drawing {
-            self.end = self.advance(&end);
+            self.advance(&end);
             Some(PathElement::LineTo(end.point))
         } else {
             self.drawing = true;

@@ -85,7 +85,7 @@ pub use exponential::exp_minus;
 pub use formats::{Real, Scaling, Unit, Wide};
 pub use limbs::Limbs;
 pub use logarithm::log2;
-pub(crate) use product::{complex_product_added, product, product_u, square_u};
+pub(crate) use product::{complex_product_added, product, product_shifted, product_u, square_u};
 pub(crate) use product::{high, high_of_double, high_of_square, high_u};
 pub(crate) use quotient::{nth, quotient, ratio};
 pub(crate) use random_function::magnitudes;
