@@ -47,7 +47,7 @@ impl<const N: usize> Ifs<N> {
     /// letters is needed (contraction factors up to about 0.93) and no direction visits more than 16384
     /// nodes; beyond that still outwards, but wider (`slow_spirals_are_bounded_all_the_same`). Cost: a node
     /// is 15 multiplications and a square root; the catalogue's attractors visit between 212 and 5792 of them
-    /// (`the_search_is_short_for_the_catalogue`), the fern 2616 in 693 thousand Cortex-M4 instructions
+    /// (`the_search_is_short_for_the_catalogue`), the fern 2616 in 672 thousand Cortex-M4 instructions
     /// (kernel `bounds`). Stack: 128 entries of 24 bytes.
     pub fn bounds(&self) -> Bounds2 {
         self.search().0

@@ -117,7 +117,7 @@ impl<const N: usize> Ifs<N> {
     /// `order` of its own. `DEPTH` is the largest order that fits.
     ///
     /// Error: of an image below `2^-20` in each coordinate at order 12 for a shape and translations within 2
-    /// of the origin (`curves.rs`: `an_image_of_the_copier_is_within_two_to_the_minus_20`). Cost: 212
+    /// of the origin (`curves.rs`: `an_image_of_the_copier_is_within_two_to_the_minus_20`). Cost: 201
     /// Cortex-M4 instructions (kernel `copied point`) an image of a single point, the fern at order 5; 110
     /// (kernel `copied path`) a point for images of four.
     ///

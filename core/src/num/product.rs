@@ -113,8 +113,8 @@ pub(crate) fn product_shifted<const S: u32>(a: i32, b: i32, half: i32) -> i32 {
 
 /// `p + d v` for complex numbers: the product of `d = a + b i` and `v = x + y i` added to both parts of `p`.
 ///
-/// Domain: `|d| < 2^31`, `x >= -2^31 + 2^15`, `y > -2^31`; the sums modulo `2^64`. Cost: four Cortex-M4
-/// instructions and a change of sign; on a Cortex-M0 16 multiplications instead of 20, and half the
+/// Domain: `|d| < 2^31`, `x >= -2^31 + 2^15`, `y > -2^31`; the sums modulo `2^64`. Cost: four
+/// multiplications that add, and a change of sign; on a Cortex-M0 16 multiplications instead of 20, and half the
 /// additions of four products.
 #[inline(always)]
 pub(crate) fn complex_product_added(p: [i64; 2], d: [i32; 2], v: [i32; 2]) -> [i64; 2] {

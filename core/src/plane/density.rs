@@ -238,8 +238,8 @@ impl<'a, C: Counter> Density<'a, C> {
 
 /// Counts every point of an iterator: `density.extend(game.take(100_000))`.
 ///
-/// Cost of a point: with the chaos game of the fern 74.5 Cortex-M4 instructions (kernel `density u8`) for
-/// `u8`, 74.5 (kernel `density u16`) for `u16`, 77.5 (kernel `density with maps`) with maps (64 x 64 pixels).
+/// Cost of a point: with the chaos game of the fern 75.5 Cortex-M4 instructions (kernel `density u8`) for
+/// `u8`, 74.5 (kernel `density u16`) for `u16`, 82.5 (kernel `density with maps`) with maps (64 x 64 pixels).
 impl<C: Counter> Extend<Point2> for Density<'_, C> {
     #[inline]
     fn extend<I: IntoIterator<Item = Point2>>(&mut self, points: I) {
