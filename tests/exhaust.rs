@@ -48,13 +48,13 @@ pub const ALL: [Sweep; 8] = [
     Sweep {
         name: "reciprocal_sqrt",
         inputs: "every h, relative",
-        bound: 1.0 / (1_u64 << 28) as f64,
+        bound: 1.0 / (1_u64 << 29) as f64,
         error: reciprocal_sqrt_low,
     },
     Sweep {
         name: "reciprocal_sqrt of 64 bits",
         inputs: "h 2^32 and h 2^32 + 2^32 - 1 for every h, relative",
-        bound: 1.0 / (1_u64 << 28) as f64,
+        bound: 1.0 / (1_u64 << 29) as f64,
         error: reciprocal_sqrt_high,
     },
     Sweep {
