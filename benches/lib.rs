@@ -9,7 +9,7 @@ use std::time::Duration;
 use attractor::Error;
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Vec3};
-use attractor::trace::{Camera, HeightField, Material, RayCaster};
+use attractor::trace::{Camera, Finish, HeightField, RayCaster};
 use attractor_reference as reference;
 use attractor_workload::exported::{figure_1_g, figure_3_g};
 use embedded_graphics_core::geometry::Size;
@@ -65,7 +65,7 @@ pub fn mirror<'a>(pyramid: &Pyramid<'a>, side: u32) -> Result<RayCaster<'a>, Err
     };
     let camera = Camera::new(vector(EYE), vector(LOOK_AT), vector([0, 0, 1]), Real::from_num(DEGREES))?;
     RayCaster::new(HeightField::new(pyramid, pyramid)?, camera, Size::new(side, side))?
-        .with_material(Material::Mirror)
+        .with_finish(Finish::Mirror)
 }
 
 /// The same scene for the reference.
@@ -80,7 +80,7 @@ pub fn exact_mirror() -> reference::Scene {
             up: [0.0, 0.0, 1.0],
             field_of_view: f64::from(DEGREES).to_radians(),
         },
-        material: reference::Material::Mirror,
+        material: reference::Finish::Mirror,
         environment: reference::Environment::Gradient { zenith: 1.0, horizon: 0.5, nadir: 0.125 },
         light: [-1.0, -2.0, 3.0],
         samples_per_axis: 1,

@@ -5,7 +5,7 @@
 
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
 use attractor::num::{self, Angle, Real, Scaling, Unit, Vec3, Wide};
-use attractor::trace::{Environment, HeightField, Light, Material, Ray};
+use attractor::trace::{Environment, Finish, HeightField, Light, Ray};
 use attractor_reference as reference;
 
 /// One line of the table.
@@ -396,13 +396,13 @@ fn shading() -> Vec<Row> {
         units.iter().map(|e| sky.tone(*e).to_num::<f64>() - exact_sky.tone(float(*e))),
     ));
     // a highlight without anything beside it is the hardest case
-    let phong = reference::Material::Phong { ambient: 0.0, diffuse: 0.0, specular: 1.0, shininess: 64.0 };
-    let matt = reference::Material::Diffuse { ambient: 0.125 };
+    let phong = reference::Finish::Phong { ambient: 0.0, diffuse: 0.0, specular: 1.0, shininess: 64.0 };
+    let matt = reference::Finish::Diffuse { ambient: 0.125 };
     let shiny =
-        Material::Phong { ambient: Unit::ZERO, diffuse: Unit::ZERO, specular: Unit::ONE, shininess: 64 };
+        Finish::Phong { ambient: Unit::ZERO, diffuse: Unit::ZERO, specular: Unit::ONE, shininess: 64 };
     for (name, bound, fixed, exact) in [
-        ("Material::tone (diffuse)", two_to(-27), Material::DIFFUSE, matt),
-        ("Material::tone (Phong, exponent 64)", two_to(-22), shiny, phong),
+        ("Finish::tone (diffuse)", two_to(-27), Finish::DIFFUSE, matt),
+        ("Finish::tone (Phong, exponent 64)", two_to(-22), shiny, phong),
     ] {
         rows.push(row(
             name,

@@ -8,7 +8,7 @@ use attractor::ifs::{Affine, Ifs};
 use attractor::num::Complex;
 use attractor::num::{Alias, Real, Scaling, Unit, Vec3, Wide};
 use attractor::plane::{Bounds2, Point2, Window};
-use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
+use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, Light, RayCaster, Sampling};
 use embedded_graphics::geometry::Size;
 
 fn wide(v: f64) -> Wide {
@@ -373,14 +373,14 @@ fn materials_environments_and_filters_have_ranges() {
     with_caster(|caster| {
         let picture = || caster(Size::new(16, 16), 40.0).expect("a picture");
         let unit = Unit::from_num::<f64>;
-        let material = |m| text(picture().with_material(m).map(drop));
+        let material = |m| text(picture().with_finish(m).map(drop));
         assert_eq!(
-            material(Material::Diffuse { ambient: unit(-0.125) }),
+            material(Finish::Diffuse { ambient: unit(-0.125) }),
             "part of the material [0] is -0.125, it must lie between 0 and 1"
         );
         let (ambient, diffuse, specular) = (unit(0.0), unit(0.5), unit(1.5));
         assert_eq!(
-            material(Material::Phong { ambient, diffuse, specular, shininess: 8 }),
+            material(Finish::Phong { ambient, diffuse, specular, shininess: 8 }),
             "part of the material [2] is 1.5, it must lie between 0 and 1"
         );
         let environment = |e| text(picture().with_environment(e).map(drop));

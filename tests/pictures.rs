@@ -4,7 +4,7 @@ use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Unit, Vec3, Wide};
 use attractor::plane::Field as _;
 use attractor::trace::{
-    Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling, Statistics,
+    Camera, Environment, Filter, Finish, HeightField, Light, RayCaster, Sampling, Statistics,
 };
 use attractor_reference as reference;
 use attractor_tests::accuracy::{Example, dyadic_examples, other_examples};
@@ -50,30 +50,25 @@ struct Case {
     surface: &'static str,
     view: View,
     depth: u32,
-    material: (Material, reference::Material),
+    material: (Finish, reference::Finish),
     environment: (Environment, reference::Environment),
     sampling: (Sampling, Filter, Vec<(f64, f64, f64)>),
 }
 
-fn diffuse() -> (Material, reference::Material) {
-    (Material::Diffuse { ambient: unit(0.125) }, reference::Material::Diffuse { ambient: 0.125 })
+fn diffuse() -> (Finish, reference::Finish) {
+    (Finish::Diffuse { ambient: unit(0.125) }, reference::Finish::Diffuse { ambient: 0.125 })
 }
 
-fn phong() -> (Material, reference::Material) {
+fn phong() -> (Finish, reference::Finish) {
     let (ambient, diffuse, specular, shininess) = (0.125, 0.5, 0.375, 24);
     (
-        Material::Phong {
-            ambient: unit(ambient),
-            diffuse: unit(diffuse),
-            specular: unit(specular),
-            shininess,
-        },
-        reference::Material::Phong { ambient, diffuse, specular, shininess: f64::from(shininess) },
+        Finish::Phong { ambient: unit(ambient), diffuse: unit(diffuse), specular: unit(specular), shininess },
+        reference::Finish::Phong { ambient, diffuse, specular, shininess: f64::from(shininess) },
     )
 }
 
-fn mirror() -> (Material, reference::Material) {
-    (Material::Mirror, reference::Material::Mirror)
+fn mirror() -> (Finish, reference::Finish) {
+    (Finish::Mirror, reference::Finish::Mirror)
 }
 
 fn gradient() -> (Environment, reference::Environment) {
@@ -131,7 +126,7 @@ fn compare(case: &Case, side: u32) -> (f64, f64) {
         let camera = Camera::new(real3(eye), real3(look_at), up, Real::from_num(degrees)).unwrap();
         let caster = RayCaster::new(surface, camera, Size::new(side, side)).unwrap();
         let caster =
-            caster.with_material(case.material.0).unwrap().with_environment(case.environment.0).unwrap();
+            caster.with_finish(case.material.0).unwrap().with_environment(case.environment.0).unwrap();
         let caster = caster.with_light(Light::new(real3([-1.0, -2.0, 3.0])).unwrap());
         let caster = caster.with_sampling(case.sampling.0, case.sampling.1).unwrap();
         (0..side)
@@ -298,7 +293,7 @@ fn jittered_samples_repeat_with_their_seed_and_approach_the_mean() {
         let tones = |sampling| {
             let caster = RayCaster::new(surface, camera, Size::new(60, 60))
                 .unwrap()
-                .with_material(Material::Mirror)
+                .with_finish(Finish::Mirror)
                 .unwrap();
             let caster = caster.with_sampling(sampling, Filter::Box).unwrap();
             (0..60)

@@ -54,7 +54,7 @@ as_debug! {
     [] trace::Camera;
     [] trace::Environment;
     [] trace::Light;
-    [] trace::Material;
+    [] trace::Finish;
     [] trace::Sampling;
     [] trace::Filter;
     [] trace::Hit;

@@ -194,7 +194,7 @@ mod tests {
         there_and_back(escape::Interior(view));
         there_and_back(escape::Distance(view));
         there_and_back(trace::Environment::CHECKERBOARD);
-        there_and_back(trace::Material::PHONG);
+        there_and_back(trace::Finish::PHONG);
         there_and_back(trace::Sampling::Jittered { n: 3, seed: 9 });
         there_and_back(trace::Filter::Gaussian { deviation: Real::ONE, width: Real::ONE });
         there_and_back(trace::Statistics { rays: 1, box_tests: 2, stack: 3 });

@@ -4,7 +4,7 @@ use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::num::{Real, Unit, Vec3};
 use attractor::plane::Field;
 use attractor::trace::{
-    Camera, Environment, Filter, HeightField, Light, Material, Ray, RayCaster, Sampling, Statistics, meets,
+    Camera, Environment, Filter, Finish, HeightField, Light, Ray, RayCaster, Sampling, Statistics, meets,
 };
 use embedded_graphics::geometry::Size;
 use proptest::prelude::*;
@@ -21,12 +21,12 @@ fn camera() -> impl Strategy<Value = (Vec3, Vec3, Vec3, Real)> {
     (eye, look_at, up, degrees)
 }
 
-fn shading() -> impl Strategy<Value = (Material, Environment, Sampling, Filter)> {
+fn shading() -> impl Strategy<Value = (Finish, Environment, Sampling, Filter)> {
     let material = prop_oneof![
-        Just(Material::Mirror),
-        unit().prop_map(|ambient| Material::Diffuse { ambient }),
+        Just(Finish::Mirror),
+        unit().prop_map(|ambient| Finish::Diffuse { ambient }),
         (unit(), unit(), unit(), any::<u16>()).prop_map(|(ambient, diffuse, specular, shininess)| {
-            Material::Phong { ambient, diffuse, specular, shininess }
+            Finish::Phong { ambient, diffuse, specular, shininess }
         }),
     ];
     let scale = prop_oneof![real(), (1 << 18..=64 << 24).prop_map(Real::from_bits)];
@@ -84,7 +84,7 @@ fn pictures_from_any_camera() {
         assert!(statistics.rays == 4 && statistics.box_tests <= 4 * nodes, "{statistics:?} of {nodes} nodes");
         let Ok(mut picture) = RayCaster::new(surface, camera, size) else { return false };
         let (material, environment, sampling, filter) = shading;
-        picture = picture.clone().with_material(material).unwrap_or(picture);
+        picture = picture.clone().with_finish(material).unwrap_or(picture);
         picture = picture.clone().with_environment(environment).unwrap_or(picture);
         picture = picture.clone().with_sampling(sampling, filter).unwrap_or(picture);
         if let Ok(light) = Light::new(light) {
@@ -138,13 +138,13 @@ fn tones_of_any_direction() {
             within(checkers.tone(Vec3::new(n.x, ends, d.z)));
             let sky = Environment::Gradient { zenith: ends, horizon: Unit::MAX, nadir: Unit::MIN };
             within(sky.tone(Vec3::new(ends, ends, d.z)));
-            within(Material::Mirror.tone(Vec3::new(ends, ends, ends), d, &light, &sky));
+            within(Finish::Mirror.tone(Vec3::new(ends, ends, ends), d, &light, &sky));
             let extreme = Vec3::new(Unit::MIN, Unit::MIN, Unit::MIN);
             within(
-                Material::Phong { ambient: ends, diffuse: ends, specular: ends, shininess: u16::MAX }
+                Finish::Phong { ambient: ends, diffuse: ends, specular: ends, shininess: u16::MAX }
                     .tone(extreme, extreme, &light, &sky),
             );
-            within(Material::Diffuse { ambient: ends }.tone(extreme, d, &light, &sky));
+            within(Finish::Diffuse { ambient: ends }.tone(extreme, d, &light, &sky));
         }
         true
     });
@@ -217,7 +217,7 @@ fn samples_of_any_pattern() {
             let white = Environment::Plain(Unit::ONE);
             let lit = plain
                 .clone()
-                .with_material(Material::Mirror)
+                .with_finish(Finish::Mirror)
                 .and_then(|p| p.with_environment(white))
                 .expect("white");
             let Ok(lit) = lit.with_sampling(sampling, filter) else { return false };
@@ -225,7 +225,7 @@ fn samples_of_any_pattern() {
             let Size { width, height } = lit.size();
             let tone = lit.at(at[1] % width, at[0] % height).to_bits();
             assert!(tone >= u16::MAX - 2, "{tone} of white: {sampling:?} {filter:?}");
-            let shaded = plain.with_sampling(sampling, filter).and_then(|p| p.with_material(material));
+            let shaded = plain.with_sampling(sampling, filter).and_then(|p| p.with_finish(material));
             let _ = shaded
                 .and_then(|p| p.with_environment(environment))
                 .map(|p| part_of_a_row(&p, at[0], at[1], 9));

@@ -3,14 +3,14 @@
 use attractor::Error;
 use attractor::fif::Pyramid;
 use attractor::num::{Real, Vec3};
-use attractor::trace::{Camera, HeightField, Material, RayCaster};
+use attractor::trace::{Camera, Finish, HeightField, RayCaster};
 use embedded_graphics::geometry::Size;
 
 /// From the upper left front; the surface fills a third of a square picture.
 pub(crate) fn mirror<'a>(pyramid: &Pyramid<'a>, size: Size) -> Result<RayCaster<'a>, Error> {
     let at = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
     let camera = Camera::new(at(-4, -3, 5), at(1, 1, 0), at(0, 0, 1), Real::from_num(25))?;
-    RayCaster::new(HeightField::new(pyramid, pyramid)?, camera, size)?.with_material(Material::Mirror)
+    RayCaster::new(HeightField::new(pyramid, pyramid)?, camera, size)?.with_finish(Finish::Mirror)
 }
 
 #[cfg(test)]

@@ -12,12 +12,16 @@
 //!
 //! They are aliases: the reader tells a `Q24` from a `Q30`, the compiler does not. A number in a wider word
 //! than the rule says, as a sum of many `Q24` in 64 bits, keeps its plain type and a comment. The public
-//! interface has types of the crate [`fixed`]: the four below.
+//! interface has types of the crate [`fixed`]: those below.
 
 /// Coordinates, heights, distances: 24 fractional bits, `-128 .. 128`.
 pub type Real = fixed::types::I8F24;
 /// Direction cosines, weights, matrix entries: 30 fractional bits, `-2 .. 2`.
 pub type Unit = fixed::types::I2F30;
+/// Places near a shape, in coordinates in which it is about as large as 1: 28 fractional bits, `-8 .. 8`.
+pub type Near = fixed::types::I4F28;
+/// Light and its parts: 16 fractional bits, `0 .. 65536`.
+pub type Lumen = fixed::types::U16F16;
 /// Contraction factors: 31 fractional bits, `-1 .. 1`.
 pub type Scaling = fixed::types::I1F31;
 /// Abscissae and descriptions: 48 fractional bits, `-32768 .. 32768`.

@@ -9,6 +9,8 @@
 //! | --- | --- | --- | --- |
 //! | [`Real`] | I8F24 | 6e-8 | coordinates, heights, distances |
 //! | [`Unit`] | I2F30 | 9e-10 | direction cosines, weights, matrix entries |
+//! | [`Near`] | I4F28 | 4e-9 | places near a shape, in its own coordinates |
+//! | [`Lumen`] | U16F16 | 2e-5 | light: red, green, blue |
 //! | [`Scaling`] | I1F31 | 5e-10 | contraction factors, strictly inside (-1, 1) |
 //! | [`Wide`] | I16F48 | 4e-15 | abscissae and descriptions: what a scene says before it is compiled |
 //! | [`Limbs`] | 4 bits and as many 32-bit limbs as it takes | 2^-(32 n - 4) | coordinates of deep zooms |
@@ -72,6 +74,7 @@ mod logarithm;
 mod product;
 mod quotient;
 mod random_function;
+mod rgb;
 mod root;
 mod trig;
 mod vector;
@@ -82,7 +85,7 @@ pub use alias::Alias;
 pub use complex::Complex;
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;
-pub use formats::{Real, Scaling, Unit, Wide};
+pub use formats::{Lumen, Near, Real, Scaling, Unit, Wide};
 pub use limbs::Limbs;
 pub use logarithm::log2;
 pub(crate) use product::{complex_product_added, product, product_shifted, product_u, square_u};
@@ -90,6 +93,7 @@ pub(crate) use product::{high, high_of_double, high_of_square, high_u};
 pub(crate) use quotient::{nth, quotient, ratio};
 pub(crate) use random_function::magnitudes;
 pub use random_function::{Deviate, Parameter, RandomFunction};
+pub use rgb::Rgb;
 pub(crate) use root::root_and_reciprocal;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
 pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};

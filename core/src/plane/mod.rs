@@ -18,6 +18,7 @@
 mod density;
 mod field;
 mod from_fn;
+mod linear_rgb;
 mod path;
 mod point;
 mod size;
@@ -28,6 +29,7 @@ pub use density::{Counter, Density, Hits, Toned};
 pub(crate) use field::inside;
 pub use field::{Field, Symmetric, along};
 pub use from_fn::{FromFn, from_fn};
+pub use linear_rgb::LinearRgb;
 pub use path::PathElement;
 pub use point::{Bounds2, Point2};
 pub use size::{MAX_SIDE, checked_size};

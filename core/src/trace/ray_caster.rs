@@ -9,9 +9,9 @@ use embedded_graphics_core::geometry::Size;
 
 use super::camera::Camera;
 use super::environment::Environment;
+use super::finish::{Finish, Light, Shade};
 use super::halves::LevelOfDetail;
 use super::height_field::{HeightField, Hit};
-use super::material::{Light, Material, Shade};
 use super::outline::Outline;
 use super::ray::{Footprint, Ray};
 use super::sampling::{Filter, Pattern, Sampling};
@@ -29,7 +29,7 @@ const HALF: i64 = 1 << 31;
 /// use attractor::fif::{Cell, Fif, Knot, Pyramid};
 /// use attractor::num::{Real, Scaling, Vec3, Wide};
 /// use attractor::plane::Field;
-/// use attractor::trace::{Camera, HeightField, Material, RayCaster};
+/// use attractor::trace::{Camera, HeightField, Finish, RayCaster};
 /// use embedded_graphics_core::geometry::Size;
 ///
 /// let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
@@ -40,7 +40,7 @@ const HALF: i64 = 1 << 31;
 /// let surface = HeightField::new(&pyramid, &pyramid)?;
 /// let at = |x: f32, y: f32, z: f32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
 /// let camera = Camera::new(at(-3.0, -2.0, 5.0), at(1.0, 1.0, 1.0), at(0.0, 0.0, 1.0), Real::from_num(40))?;
-/// let picture = RayCaster::new(surface, camera, Size::new(64, 64))?.with_material(Material::Mirror)?;
+/// let picture = RayCaster::new(surface, camera, Size::new(64, 64))?.with_finish(Finish::Mirror)?;
 /// assert_eq!(picture.row(32, 0..64).count(), 64);
 /// # Ok::<(), attractor::Error>(())
 /// ```
@@ -49,7 +49,7 @@ pub struct RayCaster<'a> {
     surface: HeightField<'a>,
     camera: Camera,
     size: Size,
-    material: Material,
+    material: Finish,
     light: Light,
     environment: Environment,
     pattern: Pattern,
@@ -93,7 +93,7 @@ impl<'a> RayCaster<'a> {
             surface,
             camera,
             size,
-            material: Material::DIFFUSE,
+            material: Finish::DIFFUSE,
             light: Light::ORDINARY,
             environment: Environment::SKY,
             pattern: Pattern::CENTRE,
@@ -110,7 +110,7 @@ impl<'a> RayCaster<'a> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a part outside `[0, 1]`.
-    pub fn with_material(mut self, material: Material) -> Result<Self, Error> {
+    pub fn with_finish(mut self, material: Finish) -> Result<Self, Error> {
         self.material = material.checked()?;
         Ok(self)
     }
@@ -495,7 +495,7 @@ mod tests {
             let sky = caster.clone();
             let caster = caster.with_environment(Environment::Plain(plain)).unwrap();
             let light = Light::new(Vec3::new(Real::ZERO, Real::ZERO, Real::ONE)).unwrap();
-            let mirror = caster.clone().with_material(Material::Mirror).unwrap();
+            let mirror = caster.clone().with_finish(Finish::Mirror).unwrap();
             let lit = caster.clone().with_light(light);
             let (mut met, mut statistics) = (0, Statistics::default());
             for (x, y) in (0..20).flat_map(|y| (0..24).map(move |x| (x, y))) {

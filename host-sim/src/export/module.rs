@@ -24,7 +24,7 @@ const NAMES: [(&str, &str); 13] = [
     ("attractor::ifs", "Affine Ifs"),
     ("attractor::num", "Angle Complex Limbs Parameter Real Scaling Unit Vec3 Wide"),
     ("attractor::plane", "Field Point2"),
-    ("attractor::trace", "Camera Environment Filter HeightField Light Material RayCaster Sampling"),
+    ("attractor::trace", "Camera Environment Filter HeightField Light Finish RayCaster Sampling"),
     ("attractor_gallery", "Method Named Pencil Shading"),
     ("attractor::curve", "catalogue"),
     ("embedded_graphics::geometry", "Size"),

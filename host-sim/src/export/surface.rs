@@ -2,7 +2,7 @@
 
 use attractor::fif::Pyramid;
 use attractor::num::Vec3;
-use attractor::trace::{Environment, Material};
+use attractor::trace::{Environment, Finish};
 use attractor_gallery::surface_depth;
 
 use super::function::function;
@@ -37,7 +37,7 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
     light(scene, module);
     let mut lines = vec![
         "let caster = RayCaster::new(surface, camera()?, size)?;",
-        "let caster = caster.with_material(MATERIAL)?;",
+        "let caster = caster.with_finish(MATERIAL)?;",
         "let caster = caster.with_environment(ENVIRONMENT)?;",
     ];
     lines.extend(scene.light.map(|_| "let caster = caster.with_light(Light::new(LIGHT)?);"));
@@ -84,9 +84,9 @@ fn light(scene: &FifSurface, module: &mut Module) {
         module.constant("Towards the light.", "LIGHT", "Vec3", vector(light));
     }
     let material = match scene.material {
-        Material::Diffuse { ambient } => format!("Material::Diffuse {{ ambient: {} }}", lit("Unit", ambient)),
-        Material::Phong { ambient, diffuse, specular, shininess } => variant(
-            "Material::Phong",
+        Finish::Diffuse { ambient } => format!("Finish::Diffuse {{ ambient: {} }}", lit("Unit", ambient)),
+        Finish::Phong { ambient, diffuse, specular, shininess } => variant(
+            "Finish::Phong",
             &[
                 ("ambient", lit("Unit", ambient)),
                 ("diffuse", lit("Unit", diffuse)),
@@ -94,10 +94,10 @@ fn light(scene: &FifSurface, module: &mut Module) {
                 ("shininess", shininess.to_string()),
             ],
         ),
-        Material::Mirror => "Material::Mirror".to_owned(),
+        Finish::Mirror => "Finish::Mirror".to_owned(),
         other => unreachable!("no scene is made of {other:?}"),
     };
-    module.constant("What it is made of.", "MATERIAL", "Material", material);
+    module.constant("What it is made of.", "MATERIAL", "Finish", material);
     let environment = match scene.environment {
         Environment::Plain(tone) => format!("Environment::Plain({})", lit("Unit", tone)),
         Environment::Gradient { zenith, horizon, nadir } => variant(

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use attractor::fif::{Cell, Factor, Pyramid, Surface};
 use attractor::num::Vec3;
-use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
+use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, Light, RayCaster, Sampling};
 use attractor_gallery::{Watch, depth_for, draw_field, surface_depth};
 use attractor_reference as reference;
 use embedded_graphics::draw_target::DrawTarget;
@@ -86,7 +86,7 @@ pub(crate) struct FifSurface {
     orbit: Option<Orbit>,
     /// Towards it.
     pub(crate) light: Option<Vec3>,
-    pub(crate) material: Material,
+    pub(crate) material: Finish,
     pub(crate) environment: Environment,
     /// A side.
     pub(crate) samples: u8,
@@ -130,9 +130,9 @@ impl FifSurface {
             orbit,
             light: light.transpose()?,
             material: match file.material.unwrap_or(Surfaced::Diffuse) {
-                Surfaced::Diffuse => Material::DIFFUSE,
-                Surfaced::Phong => Material::PHONG,
-                Surfaced::Mirror => Material::Mirror,
+                Surfaced::Diffuse => Finish::DIFFUSE,
+                Surfaced::Phong => Finish::PHONG,
+                Surfaced::Mirror => Finish::Mirror,
             },
             environment: environment.compile(source)?,
             samples,
@@ -180,7 +180,7 @@ impl FifSurface {
             n => Sampling::Jittered { n, seed: seed as u32 },
         };
         let mut caster = RayCaster::new(surface, self.camera, size)?
-            .with_material(self.material)?
+            .with_finish(self.material)?
             .with_environment(self.environment)?
             .with_sampling(sampling, Filter::Box)?;
         if let Some(light) = self.light {

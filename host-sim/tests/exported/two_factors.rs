@@ -6,7 +6,7 @@ use attractor::Error;
 use attractor::draw::{Gradient, gradients};
 use attractor::fif::{Fif, Knot};
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
-use attractor::trace::{Camera, Environment, Filter, HeightField, Material, RayCaster, Sampling};
+use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, RayCaster, Sampling};
 use embedded_graphics::geometry::Size;
 
 /// Where the graph passes.
@@ -95,7 +95,7 @@ pub fn camera() -> Result<Camera, Error> {
 }
 
 /// What it is made of.
-pub const MATERIAL: Material = Material::Diffuse { ambient: Unit::lit("0.125") };
+pub const MATERIAL: Finish = Finish::Diffuse { ambient: Unit::lit("0.125") };
 
 /// What surrounds it.
 pub const ENVIRONMENT: Environment = Environment::Plain(Unit::lit("0"));
@@ -106,7 +106,7 @@ pub const ENVIRONMENT: Environment = Environment::Plain(Unit::lit("0"));
 /// Those of [`RayCaster::new`].
 pub fn caster<'a>(surface: HeightField<'a>, size: Size, seed: u32) -> Result<RayCaster<'a>, Error> {
     let caster = RayCaster::new(surface, camera()?, size)?;
-    let caster = caster.with_material(MATERIAL)?;
+    let caster = caster.with_finish(MATERIAL)?;
     let caster = caster.with_environment(ENVIRONMENT)?;
     let _ = seed;
     caster.with_sampling(Sampling::Centre, Filter::Box)

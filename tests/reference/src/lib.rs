@@ -35,6 +35,6 @@ pub use fif::{Fif, Map};
 pub use height_field::{Hit, Trace, leaf_normal, trace};
 pub use ifs::{Affine, Moments, moments};
 pub use picture::{Scene, box_tests, hit, render};
-pub use shade::{Environment, Material};
+pub use shade::{Environment, Finish};
 pub use surface::{Factor, Surface};
 pub use vector::Vector;

@@ -6,7 +6,7 @@
 use crate::bounds::Bounds;
 use crate::camera::{Camera, Ray};
 use crate::height_field::{Hit, Trace, leaf_normal, trace};
-use crate::shade::{Environment, Material};
+use crate::shade::{Environment, Finish};
 use crate::vector::{Vector, normalised};
 
 /// A height field `h(x, y) = f(x) g(y)`, how it looks and from where.
@@ -19,7 +19,7 @@ pub struct Scene {
     /// The point of view.
     pub camera: Camera,
     /// What the surface is made of.
-    pub material: Material,
+    pub material: Finish,
     /// What is around it.
     pub environment: Environment,
     /// A vector of any length towards the light.
@@ -90,11 +90,11 @@ mod tests {
     use crate::bounds::Bounds;
     use crate::camera::Camera;
     use crate::fif::{Fif, Map};
-    use crate::shade::{Environment, Material};
+    use crate::shade::{Environment, Finish};
 
     const CENTRE: [(f64, f64, f64); 1] = [(0.0, 0.0, 1.0)];
 
-    fn scene(f: &Fif, material: Material) -> Scene {
+    fn scene(f: &Fif, material: Finish) -> Scene {
         let bounds = Bounds::new(f, 8);
         Scene {
             x: bounds.clone(),
@@ -120,7 +120,7 @@ mod tests {
     fn a_level_square_is_a_trapezium_of_one_tone() {
         let level = |c: f64| Map { vertical_scaling: 0.0, q: vec![c] };
         let flat = Fif::from_polynomials(&[0.0, 1.0, 2.0], vec![level(0.5), level(0.5)]);
-        let scene = scene(&flat, Material::Diffuse { ambient: 0.25 });
+        let scene = scene(&flat, Finish::Diffuse { ambient: 0.25 });
         let tones = render(&scene, 32, 24, &CENTRE);
         for j in 0..24 {
             for i in 0..32 {
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_pixel_is_the_weighted_sum_of_its_samples() {
-        let scene = Scene { samples_per_axis: 2, ..scene(&rough(), Material::Mirror) };
+        let scene = Scene { samples_per_axis: 2, ..scene(&rough(), Finish::Mirror) };
         let at = |dx, dy| render(&scene, 16, 12, &[(dx, dy, 1.0)]);
         let (a, b) = (at(-0.25, 0.25), at(0.25, -0.25));
         let both = render(&scene, 16, 12, &[(-0.25, 0.25, 0.75), (0.25, -0.25, 0.25)]);
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn the_picture_of_a_symmetrical_surface_is_symmetrical() {
         let f = Fif::interpolating(&[(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)], &[0.5, 0.5]);
-        let scene = scene(&f, Material::Diffuse { ambient: 0.1 });
+        let scene = scene(&f, Finish::Diffuse { ambient: 0.1 });
         let tones = render(&scene, 32, 24, &CENTRE);
         let mut shades = 0;
         for row in tones.chunks(32) {
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn hits_lie_in_the_leaf_that_they_name_and_finer_samples_cost_more() {
-        let coarse = scene(&rough(), Material::Mirror);
+        let coarse = scene(&rough(), Finish::Mirror);
         let mut found = 0;
         for pixel in (0..32).map(|i| (i, 12)) {
             let Some(hit) = hit(&coarse, 32, 24, pixel, (0.0, 0.0)) else { continue };

@@ -9,7 +9,7 @@ use crate::vector::{Vector, along, dot, normalised};
 
 /// How a surface answers to light.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Material {
+pub enum Finish {
     /// `a + (1 - a) max(0, n^ . l)`.
     Diffuse {
         /// The part `a` that needs no light.
@@ -85,7 +85,7 @@ impl Environment {
     }
 }
 
-impl Material {
+impl Finish {
     /// The tone of a surface with the normal `n`, seen by a ray of direction `d`, lit from `light` (none of
     /// them of unit length).
     ///
@@ -96,12 +96,12 @@ impl Material {
         let mirrored = normalised(along(d, -2.0 * dot(d, n), n));
         let lambert = dot(n, l).max(0.0);
         let tone = match *self {
-            Material::Diffuse { ambient } => ambient + (1.0 - ambient) * lambert,
-            Material::Phong { ambient, diffuse, specular, shininess } => {
+            Finish::Diffuse { ambient } => ambient + (1.0 - ambient) * lambert,
+            Finish::Phong { ambient, diffuse, specular, shininess } => {
                 let highlight = libm::pow(dot(mirrored, l).max(0.0), shininess);
                 ambient + diffuse * lambert + specular * highlight
             }
-            Material::Mirror => environment.tone(mirrored),
+            Finish::Mirror => environment.tone(mirrored),
         };
         tone.clamp(0.0, 1.0)
     }
@@ -109,7 +109,7 @@ impl Material {
 
 #[cfg(test)]
 mod tests {
-    use super::{Environment, Material};
+    use super::{Environment, Finish};
     use crate::vector::normalised;
 
     const UP: [f64; 3] = [0.0, 0.0, 2.0];
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_diffuse_surface_follows_the_cosine_and_never_drops_below_its_ambient_part() {
-        let material = Material::Diffuse { ambient: 0.2 };
+        let material = Finish::Diffuse { ambient: 0.2 };
         let tone = |light| material.tone(UP, [1.0, 0.0, -1.0], light, &BLACK);
         assert!((tone([0.0, 3.0, 4.0]) - (0.2 + 0.8 * 0.8)).abs() < 1e-15);
         assert_eq!(tone([0.0, 3.0, -4.0]), 0.2);
@@ -125,19 +125,19 @@ mod tests {
 
     #[test]
     fn a_phong_highlight_peaks_in_the_mirror_direction() {
-        let material = Material::Phong { ambient: 0.1, diffuse: 0.0, specular: 0.5, shininess: 2.0 };
+        let material = Finish::Phong { ambient: 0.1, diffuse: 0.0, specular: 0.5, shininess: 2.0 };
         let tone = |light| material.tone(UP, [3.0, 0.0, -4.0], light, &BLACK);
         assert!((tone([3.0, 0.0, 4.0]) - 0.6).abs() < 1e-15);
         assert!((tone([0.0, 0.0, 1.0]) - (0.1 + 0.5 * 0.64)).abs() < 1e-15);
         assert_eq!(tone([-4.0, 0.0, 0.0]), 0.1);
-        let bright = Material::Phong { ambient: 0.9, diffuse: 1.0, specular: 1.0, shininess: 1.0 };
+        let bright = Finish::Phong { ambient: 0.9, diffuse: 1.0, specular: 1.0, shininess: 1.0 };
         assert_eq!(bright.tone(UP, [0.0, 0.0, -1.0], UP, &BLACK), 1.0);
     }
 
     #[test]
     fn a_level_mirror_shows_the_sky() {
         let sky = Environment::Gradient { zenith: 0.9, horizon: 0.5, nadir: 0.1 };
-        let tone = Material::Mirror.tone(UP, [3.0, 0.0, -4.0], UP, &sky);
+        let tone = Finish::Mirror.tone(UP, [3.0, 0.0, -4.0], UP, &sky);
         assert!((tone - (0.5 + 0.4 * 0.8)).abs() < 1e-15);
     }
 

@@ -7,7 +7,7 @@ use core::hint::black_box as bb;
 use attractor::draw::{Picture, gradients};
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
 use attractor::num::{Real, Scaling, Vec3, Wide};
-use attractor::trace::{Camera, HeightField, Material, RayCaster};
+use attractor::trace::{Camera, HeightField, Finish, RayCaster};
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::Rgb565;
@@ -29,7 +29,7 @@ fn draw() -> Result<(), attractor::Error> {
     let at = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
     let camera = Camera::new(bb(at(-4, -3, 5)), bb(at(1, 1, 0)), at(0, 0, 1), bb(Real::from_num(32)))?;
     let surface = HeightField::new(&pyramid, &pyramid)?;
-    let caster = RayCaster::new(surface, camera, Wire::<Rgb565>::SIZE)?.with_material(Material::Mirror)?;
+    let caster = RayCaster::new(surface, camera, Wire::<Rgb565>::SIZE)?.with_finish(Finish::Mirror)?;
     let picture = Picture::<_, _, Rgb565>::new(caster, gradients::DUSK);
     let Ok(()) = Image::new(&picture, Point::zero()).draw(&mut Wire::new());
     Ok(())

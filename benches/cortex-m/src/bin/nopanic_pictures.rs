@@ -18,7 +18,7 @@ use attractor::num::Complex;
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
 use attractor::plane::{Bounds2, Field, Point2, Window, from_fn};
 use attractor::trace::{
-    Camera, Environment, Filter, HeightField, Light, Material, Ray, RayCaster, Sampling, Statistics,
+    Camera, Environment, Filter, HeightField, Light, Finish, Ray, RayCaster, Sampling, Statistics,
 };
 use attractor::{Error, draw};
 use attractor_cortex_m::{Wire, entry, semihosting};
@@ -115,7 +115,7 @@ fn rays() -> Result<(), Error> {
     bb(surface.intersect_counted(&Ray::new(v, v), bb(Unit::ZERO), &mut Statistics::default()));
     let camera = Camera::new(v, bb(v), bb(v), bb(Real::ONE))?;
     let caster = RayCaster::new(surface, camera, bb(Wire::<Rgb565>::SIZE))?
-        .with_material(bb(Material::PHONG))?
+        .with_finish(bb(Finish::PHONG))?
         .with_light(Light::new(v)?)
         .with_environment(bb(Environment::SKY))?
         .with_sampling(bb(Sampling::Centre), bb(Filter::Box))?;

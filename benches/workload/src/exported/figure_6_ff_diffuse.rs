@@ -6,7 +6,7 @@ use attractor::Error;
 use attractor::draw::{Gradient, gradients};
 use attractor::fif::{Fif, Knot};
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
-use attractor::trace::{Camera, Environment, Filter, HeightField, Light, Material, RayCaster, Sampling};
+use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, Light, RayCaster, Sampling};
 use attractor_gallery::Named;
 use embedded_graphics::geometry::Size;
 
@@ -68,7 +68,7 @@ pub fn camera() -> Result<Camera, Error> {
 pub const LIGHT: Vec3 = Vec3::lit("-3", "1", "2");
 
 /// What it is made of.
-pub const MATERIAL: Material = Material::Diffuse { ambient: Unit::lit("0.125") };
+pub const MATERIAL: Finish = Finish::Diffuse { ambient: Unit::lit("0.125") };
 
 /// What surrounds it.
 pub const ENVIRONMENT: Environment =
@@ -80,7 +80,7 @@ pub const ENVIRONMENT: Environment =
 /// Those of [`RayCaster::new`].
 pub fn caster<'a>(surface: HeightField<'a>, size: Size, seed: u32) -> Result<RayCaster<'a>, Error> {
     let caster = RayCaster::new(surface, camera()?, size)?;
-    let caster = caster.with_material(MATERIAL)?;
+    let caster = caster.with_finish(MATERIAL)?;
     let caster = caster.with_environment(ENVIRONMENT)?;
     let caster = caster.with_light(Light::new(LIGHT)?);
     caster.with_sampling(Sampling::Jittered { n: 4, seed }, Filter::Box)

@@ -6,7 +6,7 @@ use attractor::Error;
 use attractor::draw::{Gradient, gradients};
 use attractor::fif::{Fif, Knot};
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
-use attractor::trace::{Camera, Environment, Filter, HeightField, Material, RayCaster, Sampling};
+use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, RayCaster, Sampling};
 use attractor_gallery::Named;
 use embedded_graphics::geometry::Size;
 
@@ -65,7 +65,7 @@ pub fn camera() -> Result<Camera, Error> {
 }
 
 /// What it is made of.
-pub const MATERIAL: Material = Material::Mirror;
+pub const MATERIAL: Finish = Finish::Mirror;
 
 /// What surrounds it.
 pub const ENVIRONMENT: Environment = Environment::Checkerboard {
@@ -82,7 +82,7 @@ pub const ENVIRONMENT: Environment = Environment::Checkerboard {
 /// Those of [`RayCaster::new`].
 pub fn caster<'a>(surface: HeightField<'a>, size: Size, seed: u32) -> Result<RayCaster<'a>, Error> {
     let caster = RayCaster::new(surface, camera()?, size)?;
-    let caster = caster.with_material(MATERIAL)?;
+    let caster = caster.with_finish(MATERIAL)?;
     let caster = caster.with_environment(ENVIRONMENT)?;
     caster.with_sampling(Sampling::Jittered { n: 4, seed }, Filter::Box)
 }

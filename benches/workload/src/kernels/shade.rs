@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use attractor::num::{Real, Unit, Vec3};
-use attractor::trace::{Environment, Light, Material};
+use attractor::trace::{Environment, Finish, Light};
 
 use super::trace::with_hits;
 use super::watch::{Tally, Watch};
@@ -39,7 +39,7 @@ fn folded<F: Float>(v: rivals::Vector<F>) -> u32 {
 }
 
 #[inline(always)]
-fn shaded(watch: &mut Watch<'_>, material: Material) -> Tally {
+fn shaded(watch: &mut Watch<'_>, material: Finish) -> Tally {
     let Ok(light) = Light::new(Vec3::new(Real::NEG_ONE, Real::from_num(-2), Real::from_num(3))) else {
         return Tally::default();
     };
@@ -55,12 +55,12 @@ fn shaded(watch: &mut Watch<'_>, material: Material) -> Tally {
 
 #[inline(never)]
 pub(super) fn mirror(watch: &mut Watch<'_>) -> Tally {
-    shaded(watch, Material::Mirror)
+    shaded(watch, Finish::Mirror)
 }
 
 #[inline(never)]
 pub(super) fn phong(watch: &mut Watch<'_>) -> Tally {
-    shaded(watch, Material::PHONG)
+    shaded(watch, Finish::PHONG)
 }
 
 /// The same normals seen along the same direction, handed to `tone`.

@@ -42,7 +42,7 @@ impl<F: Float> Sun<F> {
     }
 }
 
-/// Core's `Material::PHONG`: an eighth ambient, half matt, a highlight of 3/8 with exponent 32.
+/// Core's `Finish::PHONG`: an eighth ambient, half matt, a highlight of 3/8 with exponent 32.
 #[inline(always)]
 pub(crate) fn phong<F: Float>(n: Vector<F>, d: Vector<F>, sun: &Sun<F>, shininess: u16) -> F {
     let clamp = |v: F| v.most(F::of(0.0)).least(F::of(1.0));

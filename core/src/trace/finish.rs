@@ -34,7 +34,7 @@ impl Light {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
-pub enum Material {
+pub enum Finish {
     /// `ambient + (1 - ambient) max(0, n . l)`.
     Diffuse {
         /// The part that is seen in the shade.
@@ -55,7 +55,7 @@ pub enum Material {
     Mirror,
 }
 
-impl Material {
+impl Finish {
     /// Matt, an eighth of it ambient.
     pub const DIFFUSE: Self = Self::Diffuse { ambient: Unit::from_bits(1 << 27) };
     /// Half matt with a small bright highlight.
@@ -81,9 +81,9 @@ impl Material {
     /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points
     /// away is turned round.
     ///
-    /// Domain: any parts; `RayCaster::with_material` takes only those in `[0, 1]`. Result: in `[0, 1]`.
+    /// Domain: any parts; `RayCaster::with_finish` takes only those in `[0, 1]`. Result: in `[0, 1]`.
     /// Error: below `2^-27` for diffuse light, `2^-22` for Phong's with an exponent up to 64 (rows
-    /// `Material::tone (diffuse)` and `Material::tone (Phong, exponent 64)`).
+    /// `Finish::tone (diffuse)` and `Finish::tone (Phong, exponent 64)`).
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
         match self.shade(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
@@ -206,15 +206,15 @@ mod tests {
             let mirror: std::vec::Vec<_> = (0..3).map(|i| ray[i] - 2.0 * along * normal[i]).collect();
             let highlight = product([mirror[0], mirror[1], mirror[2]], l).clamp(0.0, 1.0);
             behind += usize::from(product([mirror[0], mirror[1], mirror[2]], l) < -0.5);
-            let tone = |material: Material| material.tone(n, d, &light, &Environment::SKY).to_num::<f64>();
+            let tone = |material: Finish| material.tone(n, d, &light, &Environment::SKY).to_num::<f64>();
             // the sign of a grazing ray is anybody's
             if along.abs() > 1e-8 {
                 let exact = 0.25 + 0.75 * lit;
-                let got = tone(Material::Diffuse { ambient: Unit::from_num(0.25) });
+                let got = tone(Finish::Diffuse { ambient: Unit::from_num(0.25) });
                 assert!((got - exact).abs() < 2_f64.powi(-26), "{n:?} {d:?}: {got} {exact}");
                 for (parts, shininess) in [([0.125, 0.5, 0.375], 32), ([0.5, 0.75, 0.875], 3)] {
                     let [ambient, diffuse, specular] = parts.map(Unit::from_num);
-                    let got = tone(Material::Phong { ambient, diffuse, specular, shininess });
+                    let got = tone(Finish::Phong { ambient, diffuse, specular, shininess });
                     let matt = (parts[0] + parts[1] * lit).min(1.0);
                     let exact = matt + parts[2] * highlight.powi(shininess.into());
                     full += usize::from(exact > 1.25);
@@ -222,7 +222,7 @@ mod tests {
                 }
             }
             let sky = 0.5 + (if mirror[2] < 0.0 { 0.125 } else { 1.0 } - 0.5) * mirror[2].abs();
-            assert!((tone(Material::Mirror) - sky).abs() < 2_f64.powi(-26), "{n:?} {d:?}");
+            assert!((tone(Finish::Mirror) - sky).abs() < 2_f64.powi(-26), "{n:?} {d:?}");
         }
         assert!(full > 10 && behind > 100, "{full} {behind}");
     }
@@ -269,7 +269,7 @@ mod tests {
             for ambient in [0, 1, 123_456_789, 1 << 30] {
                 let exact =
                     i128::from(ambient) + ((((1 << 30) - i128::from(ambient)) * lit + (1 << 29)) >> 30);
-                let material = Material::Diffuse { ambient: Unit::from_bits(ambient) };
+                let material = Finish::Diffuse { ambient: Unit::from_bits(ambient) };
                 let got = material.tone(n, d, &light, &Environment::SKY);
                 assert_eq!(i128::from(got.to_bits()), exact, "{n:?} {d:?} {ambient}");
             }
@@ -278,17 +278,17 @@ mod tests {
         // a normal across the ray points neither way and stays as it is
         let (across, up) = ([1, 0, 0].map(Unit::from_num), [0, 0, 1].map(Unit::from_num));
         let [across, up] = [across, up].map(|[x, y, z]| Vec3::new(x, y, z));
-        let grazing = Material::Diffuse { ambient: Unit::ZERO }.tone(up, across, &light, &Environment::SKY);
+        let grazing = Finish::Diffuse { ambient: Unit::ZERO }.tone(up, across, &light, &Environment::SKY);
         assert!((grazing - light.towards.z).abs() <= Unit::DELTA, "{grazing}");
         // half a unit is rounded upwards
         assert_eq!(times(Unit::DELTA, Unit::ONE / 2), Unit::DELTA);
         // a normal that is two units too long still shows no more than there is
         let long = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE + Unit::DELTA * 2);
         let down = Vec3::new(Unit::ZERO, Unit::ZERO, -Unit::ONE);
-        assert_eq!(Material::Mirror.tone(long, down, &light, &Environment::SKY), Unit::ONE);
+        assert_eq!(Finish::Mirror.tone(long, down, &light, &Environment::SKY), Unit::ONE);
         // nor does a light that is too long shine more than it can
         let (light, [quarter, half]) = (Light { towards: long }, [Unit::ONE / 4, Unit::ONE / 2]);
-        let bright = Material::Phong { ambient: Unit::ZERO, diffuse: quarter, specular: half, shininess: 1 };
+        let bright = Finish::Phong { ambient: Unit::ZERO, diffuse: quarter, specular: half, shininess: 1 };
         assert_eq!(bright.tone(up, down, &light, &Environment::SKY), quarter + half);
     }
 
@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn parts_of_a_material_are_refused_outside_the_unit_interval() {
         let [below, zero, one, above] = [-1, 0, 1 << 30, (1 << 30) + 1].map(Unit::from_bits);
-        let refused = |material: Material| match material.checked() {
+        let refused = |material: Finish| match material.checked() {
             Err(Error::OutOfRange { what: "part of the material", index, .. }) => index,
             other => {
                 assert_eq!(other, Ok(material));
@@ -323,7 +323,7 @@ mod tests {
             }
         };
         for (ambient, index) in [(below, Some(0)), (zero, None), (one, None), (above, Some(0))] {
-            assert_eq!(refused(Material::Diffuse { ambient }), index);
+            assert_eq!(refused(Finish::Diffuse { ambient }), index);
         }
         for (index, [ambient, diffuse, specular]) in [
             (None, [zero, one, one]),
@@ -331,9 +331,9 @@ mod tests {
             (Some(1), [one, below, one]),
             (Some(2), [one, one, above]),
         ] {
-            assert_eq!(refused(Material::Phong { ambient, diffuse, specular, shininess: 1 }), index);
+            assert_eq!(refused(Finish::Phong { ambient, diffuse, specular, shininess: 1 }), index);
         }
-        assert_eq!(refused(Material::Mirror), None);
+        assert_eq!(refused(Finish::Mirror), None);
         let nowhere = Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO);
         assert_eq!(Light::new(nowhere), Err(Error::Degenerate { what: "direction of the light" }));
     }
@@ -344,9 +344,9 @@ mod tests {
         let vectors = || (0..27).map(|k| Vec3::new(ends[k % 3], ends[k / 3 % 3], ends[k / 9]));
         for (n, d) in vectors().flat_map(|n| vectors().map(move |d| (n, d))) {
             for part in ends {
-                let phong = Material::Phong { ambient: part, diffuse: part, specular: part, shininess: 9 };
+                let phong = Finish::Phong { ambient: part, diffuse: part, specular: part, shininess: 9 };
                 let sky = Environment::Gradient { zenith: part, horizon: Unit::MAX, nadir: Unit::MIN };
-                for material in [Material::Mirror, Material::Diffuse { ambient: part }, phong] {
+                for material in [Finish::Mirror, Finish::Diffuse { ambient: part }, phong] {
                     let tone = material.tone(n, d, &Light::ORDINARY, &sky);
                     assert!((Unit::ZERO..=Unit::ONE).contains(&tone), "{tone} of {material:?}: {n:?} {d:?}");
                 }
