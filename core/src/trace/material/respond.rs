@@ -1,7 +1,7 @@
 //! What a material is: an answer to the light at a point.
 
 use super::super::surface::SurfacePoint;
-use crate::num::{Lumen, Real, Rgb, Unit, Vec3};
+use crate::num::{Real, Rgb, Unit, Vec3};
 
 /// Light that reaches a point: from where, and how much is left of it after what stands between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub struct Medium {
     pub index: Real,
     /// Where things overlap, that with the higher number is there.
     pub priority: u8,
+    /// Whether it reflects more the flatter light meets it, by Fresnel's equations.
+    pub fresnel: bool,
 }
 
 /// What leaves a point towards the eye, and what more is to be asked for.
@@ -28,8 +30,8 @@ pub struct Response {
     pub light: Rgb,
     /// How much of what comes along the mirrored ray is seen.
     pub reflected: Rgb,
-    /// How much of what comes along the refracted ray is seen; where light is reflected totally this joins
-    /// the reflected part.
+    /// How much of what comes along the refracted ray is seen. Of this part the share that Fresnel's equations
+    /// give, or all where light is reflected totally, joins the reflected one.
     pub refracted: Rgb,
 }
 
@@ -56,13 +58,6 @@ pub trait Material {
     }
 
     /// What leaves the point against `view`, the unit direction in which it is looked at, when these lights
-    /// reach it. The point's normal is against `view`. `relative` is the index of refraction of the side where
-    /// the ray is over that of the other one, 1 for what is opaque.
-    fn respond(
-        &self,
-        point: &SurfacePoint,
-        view: Vec3<Unit>,
-        relative: Lumen,
-        lights: impl Iterator<Item = Lit>,
-    ) -> Response;
+    /// reach it. The point's normal is against `view`.
+    fn respond(&self, point: &SurfacePoint, view: Vec3<Unit>, lights: impl Iterator<Item = Lit>) -> Response;
 }
