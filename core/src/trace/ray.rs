@@ -2,7 +2,7 @@
 
 use core::num::NonZeroU32;
 
-use crate::num::{Real, Unit, Vec3, reciprocal, reciprocal_of};
+use crate::num::{Near, Real, Unit, Vec3, reciprocal, reciprocal_of};
 
 /// One coordinate of a ray: origin, direction, and the direction's reciprocal.
 #[derive(Debug, Clone, Copy)]
@@ -121,6 +121,29 @@ impl Ray {
         let o = |c: Real| c.to_bits().clamp(1 - (64 << 24), 64 << 24);
         let d = |c: Real| c.to_bits().clamp(-(4 << 24), 4 << 24).saturating_mul(16);
         Self::from_bits([origin.x, origin.y, origin.z].map(o), [direction.x, direction.y, direction.z].map(d))
+    }
+
+    /// Where it starts.
+    pub fn origin(&self) -> Vec3 {
+        let [x, y, z] = self.origin.map(Real::from_bits);
+        Vec3::new(x, y, z)
+    }
+
+    /// Where it goes, of any length.
+    pub fn direction(&self) -> Vec3<Near> {
+        let [x, y, z] = self.direction.map(Near::from_bits);
+        Vec3::new(x, y, z)
+    }
+
+    /// The place at a parameter, to the nearest, saturated.
+    pub fn at(&self, t: Real) -> Vec3 {
+        let place = |origin: i32, direction: i32| {
+            let moved = (i64::from(direction) * i64::from(t.to_bits()) + (1 << 27)) >> 28;
+            let sum = i64::from(origin) + moved;
+            Real::from_bits(sum.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+        };
+        let ([ox, oy, oz], [dx, dy, dz]) = (self.origin, self.direction);
+        Vec3::new(place(ox, dx), place(oy, dy), place(oz, dz))
     }
 
     /// Origin with 24, direction with 28 fractional bits.

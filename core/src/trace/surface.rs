@@ -7,7 +7,7 @@
 
 use core::ops::ControlFlow;
 
-use super::ray::Ray;
+use super::ray::{Axis, Ray};
 use crate::num::{Real, Unit, Vec3, Wide};
 
 /// Where a ray crosses a surface.
@@ -62,6 +62,28 @@ impl Extent {
         if both.is_empty() { Self::NOTHING } else { both }
     }
 
+    /// Whether a ray meets the box, or passes it by less than `2^-17`.
+    pub(super) fn is_met(&self, axes: &[Axis; 3]) -> bool {
+        if self.is_empty() {
+            return false;
+        }
+        let (low, high) = (self.low, self.high);
+        let mut span = (0, i32::MAX);
+        for (axis, (low, high)) in axes.iter().zip([(low.x, high.x), (low.y, high.y), (low.z, high.z)]) {
+            // a world ends at ±64, and a ray begins inside it
+            let end = |c: Real| c.to_bits().clamp(1 - (64 << 24), 64 << 24);
+            span = axis.clip(end(low), end(high), span);
+        }
+        span.0.saturating_sub(span.1) <= 1 << 7
+    }
+
+    /// Whether a place is inside or on the box.
+    pub(super) fn holds(&self, place: Vec3) -> bool {
+        let within = |low: Real, c: Real, high: Real| low <= c && c <= high;
+        let (low, high) = (self.low, self.high);
+        within(low.x, place.x, high.x) && within(low.y, place.y, high.y) && within(low.z, place.z, high.z)
+    }
+
     /// Whether no point is inside.
     pub fn is_empty(&self) -> bool {
         self.low.x > self.high.x || self.low.y > self.high.y || self.low.z > self.high.z
@@ -109,6 +131,11 @@ pub trait Surface {
 
     /// The most crossings that a ray can have.
     fn most_crossings(&self) -> u32;
+
+    /// How many faces it has, each of which may have a material of its own.
+    fn faces(&self) -> u8 {
+        1
+    }
 
     /// How wrong the parameter of a crossing is at most, for a direction of length 1: crossings as near to
     /// the point that a ray leaves as this may be that point itself.

@@ -2,6 +2,16 @@
 //!
 //! Source: the course unit V, section 5.9; Cochran, Lewis, Hart, sections 4 to 6.
 
+mod anisotropic;
+mod mixture;
+mod phong;
 mod respond;
+mod specular;
+mod torrance_sparrow;
 
+pub use anisotropic::Anisotropic;
+pub use mixture::Mixture;
+pub use phong::Phong;
 pub use respond::{Lit, Material, Medium, Response};
+pub use specular::{Highlight, Specular, View};
+pub use torrance_sparrow::TorranceSparrow;

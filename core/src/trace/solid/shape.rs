@@ -51,6 +51,11 @@ pub trait Shape {
         2
     }
 
+    /// How many faces it has, each of which may have a material of its own.
+    fn faces(&self) -> u8 {
+        1
+    }
+
     /// How wrong the parameter of a crossing is at most, away from tangency.
     fn error(&self) -> Near;
 

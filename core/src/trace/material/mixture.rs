@@ -1,0 +1,145 @@
+//! The five components of the text in one material: ambient, diffuse, specular, reflected and refracted
+//! light.
+//!
+//! Source: the course unit V, section 5.9, `I = I_amb + I_diff + I_spec + I_refl + I_tran`.
+
+use super::super::environment::between;
+use super::super::surface::SurfacePoint;
+use super::super::texture::Texture;
+use super::respond::{Lit, Material, Medium, Response};
+use super::specular::{Specular, View};
+use crate::Error;
+use crate::num::{Real, Rgb, Unit, Vec3, Wide};
+
+/// A material by its components. `T` is what colours it, `S` its model of highlights.
+///
+/// ```
+/// use attractor::num::{Lumen, Real, Rgb, Unit};
+/// use attractor::trace::material::{Mixture, Phong};
+///
+/// const ORANGE: Rgb = Rgb::new(Lumen::lit("1"), Lumen::lit("0.4"), Lumen::lit("0.05"));
+/// let chalk = Mixture::matt(ORANGE);
+/// let plastic = Mixture::matt(ORANGE).with_highlight(Rgb::WHITE, Phong { shininess: 40 });
+/// let glass = Mixture::glass(Real::lit("1.5"))?;
+/// # let _ = (chalk, plastic, glass);
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mixture<T = Rgb, S = ()> {
+    pigment: T,
+    ambient: Unit,
+    diffuse: Unit,
+    specular: Rgb,
+    model: S,
+    reflect: Rgb,
+    transmit: Rgb,
+    medium: Option<Medium>,
+}
+
+impl<T> Mixture<T> {
+    /// Matt, an eighth of it ambient.
+    pub const fn matt(pigment: T) -> Self {
+        Self {
+            pigment,
+            ambient: Unit::from_bits(1 << 27),
+            diffuse: Unit::from_bits(7 << 27),
+            specular: Rgb::BLACK,
+            model: (),
+            reflect: Rgb::BLACK,
+            transmit: Rgb::BLACK,
+            medium: None,
+        }
+    }
+}
+
+impl Mixture {
+    /// A mirror that reflects all light.
+    pub const fn mirror() -> Self {
+        Self { ambient: Unit::ZERO, diffuse: Unit::ZERO, reflect: Rgb::WHITE, ..Self::matt(Rgb::BLACK) }
+    }
+
+    /// Clear glass of an index of refraction, which reflects by Fresnel's equations.
+    ///
+    /// # Errors
+    /// As [`Mixture::with_medium`].
+    pub fn glass(index: Real) -> Result<Self, Error> {
+        let none = Self { ambient: Unit::ZERO, diffuse: Unit::ZERO, ..Self::matt(Rgb::BLACK) };
+        none.with_medium(Medium { index, priority: 0, fresnel: true }, Rgb::WHITE)
+    }
+}
+
+impl<T, S> Mixture<T, S> {
+    /// With this part of ambient and this of diffuse light.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a part outside `[0, 1]`.
+    pub fn with_parts(mut self, ambient: Unit, diffuse: Unit) -> Result<Self, Error> {
+        for (index, part) in [ambient, diffuse].into_iter().enumerate() {
+            between("part of the material", Some(index), part.into(), Wide::ZERO, Wide::ONE)?;
+        }
+        (self.ambient, self.diffuse) = (ambient, diffuse);
+        Ok(self)
+    }
+
+    /// With highlights of a colour and a model.
+    pub fn with_highlight<H>(self, color: Rgb, model: H) -> Mixture<T, H> {
+        let Self { pigment, ambient, diffuse, reflect, transmit, medium, .. } = self;
+        Mixture { pigment, ambient, diffuse, specular: color, model, reflect, transmit, medium }
+    }
+
+    /// With this part of what the mirrored ray brings.
+    #[must_use]
+    pub fn with_reflection(mut self, part: Rgb) -> Self {
+        self.reflect = part;
+        self
+    }
+
+    /// Transparent: with a medium inside and this part of what the refracted ray brings.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an index outside 0.1 to 10.
+    pub fn with_medium(mut self, medium: Medium, transmit: Rgb) -> Result<Self, Error> {
+        let least = Wide::ONE / 10;
+        between(
+            "index of refraction",
+            None,
+            medium.index.into(),
+            least - (Wide::ONE >> 24),
+            Wide::from_num(10),
+        )?;
+        (self.medium, self.transmit) = (Some(medium), transmit);
+        Ok(self)
+    }
+}
+
+impl<T: Texture, S: Specular> Material for Mixture<T, S> {
+    fn is_charted(&self) -> bool {
+        self.pigment.is_charted() || self.model.is_charted()
+    }
+
+    fn medium(&self) -> Option<Medium> {
+        self.medium
+    }
+
+    fn passes(&self) -> Rgb {
+        self.transmit
+    }
+
+    fn respond(&self, point: &SurfacePoint, view: Vec3<Unit>, lights: impl Iterator<Item = Lit>) -> Response {
+        let pigment = self.pigment.at(point);
+        let normal = point.normal;
+        let view = View::new(point, normal, view);
+        let (mut diffuse, mut specular) = (Rgb::BLACK, Rgb::BLACK);
+        for Lit { towards, light } in lights {
+            diffuse = diffuse.plus(light.scaled(normal.dot(towards)));
+            if self.specular != Rgb::BLACK {
+                specular = specular.plus(light.through(Rgb::grey(self.model.part(&view, towards))));
+            }
+        }
+        let light = pigment
+            .scaled(self.ambient)
+            .plus(pigment.through(diffuse.scaled(self.diffuse)))
+            .plus(self.specular.through(specular));
+        Response { light, reflected: self.reflect, refracted: self.transmit }
+    }
+}

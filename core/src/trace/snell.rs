@@ -1,0 +1,204 @@
+//! Where light goes at a boundary: mirrored, or bent by Snell's law; and how much of it either way.
+//!
+//! With the unit direction `d`, the unit normal `n` against it and `eta` the index before the boundary over
+//! that behind it, `w = eta (d - (d . n) n)` is what of the refracted direction lies in the boundary, and
+//! `w - sqrt(1 - w^2) n` the direction. If `w` is longer than 1 there is none: total internal reflection.
+//!
+//! Formats: directions 30 fractional bits, `eta` 24.
+//!
+//! Source: the course unit V, section 5.9.1, as corrected: `sin t / c_2 = sin i / c_1`.
+
+use crate::num::{Real, Unit, Vec3, ratio, sqrt, square};
+
+/// Where refracted light goes, and which share of it is reflected instead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Refracted {
+    pub(super) direction: Vec3<Unit>,
+    /// The cosine of the angle to the normal behind the boundary.
+    cos: Unit,
+}
+
+fn bits(v: Vec3<Unit>) -> [i32; 3] {
+    [v.x, v.y, v.z].map(Unit::to_bits)
+}
+
+fn vector([x, y, z]: [i32; 3]) -> Vec3<Unit> {
+    Vec3::new(Unit::from_bits(x), Unit::from_bits(y), Unit::from_bits(z))
+}
+
+/// `d - 2 (d . n) n` for unit vectors: a unit vector.
+///
+/// Error: below `2^-28` in each component (`a_mirrored_ray_is_within_two_to_the_minus_28`).
+#[inline]
+pub(super) fn mirrored(d: Vec3<Unit>, n: Vec3<Unit>) -> Vec3<Unit> {
+    let along = d.dot(n).to_bits();
+    let part = |d: Unit, n: Unit| {
+        let twice = (i64::from(along) * i64::from(n.to_bits())) >> 29;
+        d.to_bits().wrapping_sub(twice as i32)
+    };
+    vector([part(d.x, n.x), part(d.y, n.y), part(d.z, n.z)])
+}
+
+/// The refracted direction; none where light is reflected totally.
+///
+/// Domain: unit vectors with `d . n <= 0`, `eta` from 0.01 to 100. Error: below `2^-22` in each component away
+/// from the critical angle (`a_refracted_ray_is_within_two_to_the_minus_22`).
+#[inline]
+pub(super) fn refracted(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Refracted> {
+    let along = i64::from(d.dot(n).to_bits());
+    let eta = i64::from(eta.to_bits());
+    let (d, n) = (bits(d), bits(n));
+    let mut inside = [0; 3];
+    for ((w, d), n) in inside.iter_mut().zip(d).zip(n) {
+        let tangential = i64::from(d) - ((along * i64::from(n)) >> 30);
+        // below 2^31 times 100 2^24
+        let bent = (eta * tangential) >> 24;
+        *w = i32::try_from(bent).ok().filter(|w| w.unsigned_abs() <= 1 << 30)?;
+    }
+    let rest = (1_u64 << 60).checked_sub(square(inside))?;
+    let cos = sqrt(rest) as i32;
+    for (w, n) in inside.iter_mut().zip(n) {
+        *w = w.wrapping_sub(((i64::from(cos) * i64::from(n)) >> 30) as i32);
+    }
+    Some(Refracted { direction: vector(inside), cos: Unit::from_bits(cos) })
+}
+
+impl Refracted {
+    /// Fresnel's reflectance of unpolarised light that met the boundary under the cosine `cos`.
+    ///
+    /// Error: below `2^-14` (`the_reflectance_is_fresnels`).
+    pub(super) fn reflectance(&self, cos: Unit, eta: Real) -> Unit {
+        // all with 24 fractional bits: at most 100
+        let unit = |c: Unit| u64::from(c.clamp(Unit::ZERO, Unit::ONE).to_bits().unsigned_abs());
+        let eta = u64::from(eta.to_bits().unsigned_abs());
+        let (i, t) = (unit(cos), unit(self.cos));
+        // (a - b)^2 / (a + b)^2, 30 fractional bits; all is reflected where both vanish
+        let share = |a: u64, b: u64| {
+            let part = ratio(a.abs_diff(b), 30, (a + b).max(1)).min(1 << 30);
+            (part * part) >> 30
+        };
+        let (bent_i, bent_t) = ((eta * i) >> 24, (eta * t) >> 24);
+        let sum = if i + t == 0 { 2 << 30 } else { share(bent_i, t) + share(i, bent_t) };
+        Unit::from_bits((sum / 2) as i32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    /// Unit vectors and normals against them, some nearly parallel or at right angles.
+    fn pairs() -> Vec<(Vec3<Unit>, Vec3<Unit>)> {
+        let mut word = 1_u64;
+        let mut random = || {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            Real::from_bits((word >> 34) as i32 - (1 << 29))
+        };
+        let mut all = Vec::new();
+        for k in 0..6000 {
+            let v = Vec3::new(random(), random(), random());
+            let mut other = Vec3::new(random(), random(), random());
+            let shift = k % 20;
+            if k % 3 == 0 {
+                other = Vec3::new(-v.x + (other.x >> shift), -v.y + (other.y >> shift), -v.z);
+            }
+            let (Some(d), Some(n)) = (v.normalised(), other.normalised()) else { continue };
+            let n = if d.dot(n) > 0 { Vec3::new(-n.x, -n.y, -n.z) } else { n };
+            all.push((d, n));
+        }
+        all
+    }
+
+    fn floats(v: Vec3<Unit>) -> [f64; 3] {
+        [v.x, v.y, v.z].map(|c| c.to_num())
+    }
+
+    fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    #[test]
+    fn a_mirrored_ray_is_within_two_to_the_minus_28() {
+        let mut worst = 0.0_f64;
+        for (d, n) in pairs() {
+            let (df, nf) = (floats(d), floats(n));
+            for (k, c) in floats(mirrored(d, n)).into_iter().enumerate() {
+                worst = worst.max((c - (df[k] - 2.0 * dot(df, nf) * nf[k])).abs());
+            }
+        }
+        assert!(worst < 2_f64.powi(-28) && worst > 2_f64.powi(-31), "2^{}", worst.log2());
+    }
+
+    #[test]
+    fn a_refracted_ray_is_within_two_to_the_minus_22() {
+        let (mut worst, mut total, mut tried) = (0.0_f64, 0, 0);
+        for eta in [0.01, 0.1, 0.66, 0.75, 1.0, 1.333, 1.5, 2.4, 10.0, 100.0] {
+            let eta = Real::from_num(eta);
+            let e = eta.to_num::<f64>();
+            for (d, n) in pairs() {
+                let (df, nf) = (floats(d), floats(n));
+                let along = dot(df, nf);
+                let w: Vec<f64> = (0..3).map(|k| e * (df[k] - along * nf[k])).collect();
+                let rest = 1.0 - w.iter().map(|w| w * w).sum::<f64>();
+                if rest.abs() < 0.01 {
+                    continue;
+                }
+                let got = refracted(d, n, eta);
+                assert_eq!(got.is_some(), rest > 0.0, "{eta} {along} {rest}");
+                total += u32::from(got.is_none());
+                if let Some(got) = got {
+                    for (k, c) in floats(got.direction).into_iter().enumerate() {
+                        worst = worst.max((c - (w[k] - rest.sqrt() * nf[k])).abs());
+                        tried += 1;
+                    }
+                }
+            }
+        }
+        assert!(
+            worst < 2_f64.powi(-22) && total > 5000 && tried > 50_000,
+            "2^{} {total} {tried}",
+            worst.log2()
+        );
+        assert!(worst > 2_f64.powi(-27), "2^{}", worst.log2());
+    }
+
+    #[test]
+    fn light_at_right_angles_goes_straight_on_and_equal_media_bend_nothing() {
+        let down = Vec3::new(Unit::ZERO, Unit::ZERO, -Unit::ONE);
+        let up = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
+        for eta in [1, 2, 50] {
+            assert_eq!(refracted(down, up, Real::from_num(eta)).unwrap().direction, down);
+        }
+        for (d, n) in pairs().into_iter().filter(|(d, n)| d.dot(*n) < -0.1) {
+            let got = refracted(d, n, Real::ONE).unwrap().direction;
+            for (a, b) in floats(got).into_iter().zip(floats(d)) {
+                assert!((a - b).abs() < 2_f64.powi(-25));
+            }
+        }
+    }
+
+    #[test]
+    fn the_reflectance_is_fresnels() {
+        let (mut worst, mut tried) = (0.0_f64, 0);
+        for eta in [0.1, 0.5, 0.75, 1.0, 1.333, 2.0, 10.0] {
+            let eta = Real::from_num(eta);
+            let e = eta.to_num::<f64>();
+            for (d, n) in pairs() {
+                let i = -dot(floats(d), floats(n));
+                let t2 = 1.0 - e * e * (1.0 - i * i);
+                let Some(got) = refracted(d, n, eta) else { continue };
+                if t2 < 0.01 || i < 0.01 {
+                    continue;
+                }
+                let t = t2.sqrt();
+                let exact =
+                    ((e * i - t) / (e * i + t)).powi(2) / 2.0 + ((i - e * t) / (i + e * t)).powi(2) / 2.0;
+                let off = (got.reflectance(Unit::from_num(i), eta).to_num::<f64>() - exact).abs();
+                worst = worst.max(off);
+                tried += 1;
+            }
+        }
+        assert!(worst < 2_f64.powi(-14) && worst > 2_f64.powi(-28) && tried > 10_000, "2^{}", worst.log2());
+    }
+}

@@ -1,0 +1,377 @@
+//! An object: a Boolean function of the shapes of which it is made, as a program.
+//!
+//! The bowl `(S1 - S2) - C` of the text, as data: `S1 S2 - C -`, reverse Polish. Whether a point is inside is
+//! found from one bit for each shape, in a pass over the program with a stack of bits in a word. The box of
+//! every node of the tree is stored beside its step, so that a ray crosses no shape of a part that it misses:
+//! a union's parts are tried each for itself, an intersection's only by a ray that meets what both boxes have
+//! in common, what is taken away from a difference only by a ray that meets the rest.
+//!
+//! Source: the course unit V, section 5.10.
+
+use super::super::ray::Ray;
+use super::super::surface::{Extent, Surface};
+use crate::Error;
+use crate::num::Wide;
+
+/// A step of an object's program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Op {
+    /// A leaf of the world by its number.
+    Leaf(u8),
+    /// What is in one of the last two or in both.
+    Union,
+    /// What is in both of the last two.
+    Intersection,
+    /// What is in the last but one and not in the last.
+    Difference,
+}
+
+/// A thing of a world: one leaf, or a compound of several.
+#[derive(Debug, Clone, Copy)]
+pub struct Object<'a> {
+    ops: &'a [Op],
+    extents: &'a [Extent],
+}
+
+/// The most leaves of a world: one bit each.
+pub(super) const LEAVES: usize = 64;
+
+impl<'a> Object<'a> {
+    /// How many boxes [`Object::new`] is to be lent for a program of so many steps.
+    pub const fn extents(ops: usize) -> usize {
+        ops
+    }
+
+    /// The object that a program makes of these surfaces, the leaves of the world. Its boxes are kept in
+    /// `memory`.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for an empty program or a step without operands, [`Error::Capacity`] for more than 64
+    /// leaves, [`Error::LengthMismatch`] if more than one thing is left at the end, [`Error::OutOfRange`] for
+    /// a leaf that is not there, [`Error::Unsupported`] for an open surface in a compound,
+    /// [`Error::BufferLength`] for too little memory.
+    pub fn new<'s, L: Surface + 's>(
+        ops: &'a [Op],
+        surface: impl Fn(usize) -> Option<&'s L>,
+        memory: &'a mut [Extent],
+    ) -> Result<Self, Error> {
+        let needed = Self::extents(ops.len());
+        if memory.len() < needed {
+            return Err(Error::BufferLength { what: "boxes of an object", given: memory.len(), needed });
+        }
+        if ops.len() >= 2 * LEAVES {
+            let needed = ops.len().div_ceil(2);
+            return Err(Error::Capacity { what: "leaves of an object", needed, capacity: LEAVES });
+        }
+        let mut height = 0_usize;
+        for (index, op) in ops.iter().enumerate() {
+            let extent = match *op {
+                Op::Leaf(leaf) => {
+                    height += 1;
+                    let Some(surface) = surface(leaf.into()) else {
+                        let (value, max) = (Wide::from_num(leaf), Wide::from_num(LEAVES as u8 - 1));
+                        return Err(Error::OutOfRange {
+                            what: "number of a leaf",
+                            index: Some(index),
+                            value,
+                            min: Wide::ZERO,
+                            max,
+                        });
+                    };
+                    if ops.len() > 1 && !surface.is_closed() {
+                        return Err(Error::Unsupported {
+                            what: "open shape in a compound",
+                            allowed: "closed shapes",
+                        });
+                    }
+                    surface.extent()
+                }
+                operation => {
+                    if height < 2 {
+                        return Err(Error::TooFew {
+                            what: "operands of a compound",
+                            given: height,
+                            at_least: 2,
+                        });
+                    }
+                    height -= 1;
+                    let right = index.saturating_sub(1);
+                    let left = begin(ops, right).saturating_sub(1);
+                    let box_of = |k: usize| memory.get(k).copied().unwrap_or(Extent::NOTHING);
+                    let (left, right) = (box_of(left), box_of(right));
+                    match operation {
+                        Op::Union => left.hull(right),
+                        Op::Intersection => left.overlap(right),
+                        _ => left,
+                    }
+                }
+            };
+            if let Some(place) = memory.get_mut(index) {
+                *place = extent;
+            }
+        }
+        match height {
+            0 => Err(Error::TooFew { what: "steps of an object", given: 0, at_least: 1 }),
+            1 => Ok(Self { ops, extents: memory }),
+            _ => Err(Error::LengthMismatch {
+                what: "things that a program leaves",
+                given: height,
+                expected: 1,
+            }),
+        }
+    }
+
+    /// The box that holds it.
+    pub fn extent(&self) -> Extent {
+        self.ops
+            .len()
+            .checked_sub(1)
+            .and_then(|last| self.extents.get(last))
+            .copied()
+            .unwrap_or(Extent::NOTHING)
+    }
+
+    /// Its leaves, in the order of the program.
+    pub(super) fn leaves(&self) -> impl Iterator<Item = u8> + '_ {
+        self.ops.iter().filter_map(|op| if let Op::Leaf(leaf) = op { Some(*leaf) } else { None })
+    }
+
+    /// Its only leaf.
+    #[inline]
+    pub(super) fn only(&self) -> Option<u8> {
+        if let [Op::Leaf(leaf)] = self.ops { Some(*leaf) } else { None }
+    }
+
+    /// Whether a point is inside that is inside these leaves, a bit each.
+    #[inline]
+    pub(super) fn is_inside(&self, leaves: u64) -> bool {
+        // the top of the stack is the lowest bit
+        let mut stack = 0_u64;
+        for op in self.ops {
+            let (last, rest) = (stack & 1, stack >> 1);
+            stack = match *op {
+                Op::Leaf(leaf) => stack << 1 | (leaves >> (leaf & 63)) & 1,
+                Op::Union => rest | last,
+                Op::Intersection => rest & (last | !1),
+                Op::Difference => rest & !last,
+            };
+        }
+        stack & 1 > 0
+    }
+
+    /// Hands over the leaves that a ray may have to cross, each with whether it has to.
+    #[inline]
+    pub(super) fn tried(&self, ray: &Ray, mut leaf: impl FnMut(u8, bool)) {
+        if let Some(only) = self.only() {
+            return leaf(only, true);
+        }
+        let axes = ray.axes();
+        // from the root on, the right part first; a bit for each part that is still to come: whether its
+        // parent is met
+        let mut met = 1_u64;
+        for (op, extent) in self.ops.iter().zip(self.extents).rev() {
+            let parent = met & 1;
+            met >>= 1;
+            if let Op::Leaf(number) = op {
+                leaf(*number, parent > 0);
+            } else {
+                let node = parent & u64::from(parent > 0 && extent.is_met(&axes));
+                met = met << 2 | node << 1 | node;
+            }
+        }
+    }
+}
+
+/// The first step of the part whose last one is `last`.
+fn begin(ops: &[Op], last: usize) -> usize {
+    let (mut wanted, mut at) = (1_usize, last);
+    while let Some(op) = ops.get(at) {
+        wanted = if let Op::Leaf(_) = op { wanted.saturating_sub(1) } else { wanted + 1 };
+        if wanted == 0 || at == 0 {
+            break;
+        }
+        at -= 1;
+    }
+    at
+}
+
+#[cfg(test)]
+mod tests {
+    use core::ops::ControlFlow;
+
+    use super::super::super::surface::{Crossing, SurfacePoint};
+    use super::*;
+    use crate::num::{Real, Unit, Vec3};
+    use std::boxed::Box;
+    use std::vec::Vec;
+
+    /// A box without crossings.
+    struct Bounds(Extent, bool);
+
+    impl Surface for Bounds {
+        fn extent(&self) -> Extent {
+            self.0
+        }
+        fn is_closed(&self) -> bool {
+            self.1
+        }
+        fn most_crossings(&self) -> u32 {
+            2
+        }
+        fn error(&self) -> Real {
+            Real::ZERO
+        }
+        fn cross(&self, _: &Ray, _: Unit, _: &mut impl FnMut(Crossing) -> ControlFlow<()>) {}
+        fn value(&self, _: Vec3) -> Wide {
+            Wide::ZERO
+        }
+        fn point(&self, _: &Ray, _: Unit, _: &Crossing, _: bool) -> SurfacePoint {
+            unreachable!("no crossings")
+        }
+    }
+
+    fn at(x: i32, y: i32, z: i32) -> Vec3 {
+        Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z))
+    }
+
+    fn unit_box(x: i32) -> Bounds {
+        Bounds(Extent { low: at(x, 0, 0), high: at(x + 2, 2, 2) }, true)
+    }
+
+    enum Tree {
+        Leaf(u8),
+        Node(Op, Box<Tree>, Box<Tree>),
+    }
+
+    impl Tree {
+        fn random(first: u8, count: u8, word: &mut impl FnMut() -> u64) -> Self {
+            if count == 1 {
+                return Self::Leaf(first);
+            }
+            let left = 1 + (word() % u64::from(count - 1)) as u8;
+            let op = [Op::Union, Op::Intersection, Op::Difference][(word() % 3) as usize];
+            let parts = [Self::random(first, left, word), Self::random(first + left, count - left, word)];
+            let [a, b] = parts.map(Box::new);
+            Self::Node(op, a, b)
+        }
+
+        fn program(&self, ops: &mut Vec<Op>) {
+            match self {
+                Self::Leaf(leaf) => ops.push(Op::Leaf(*leaf)),
+                Self::Node(op, a, b) => {
+                    a.program(ops);
+                    b.program(ops);
+                    ops.push(*op);
+                }
+            }
+        }
+
+        fn holds(&self, leaves: u64) -> bool {
+            match self {
+                Self::Leaf(leaf) => leaves >> leaf & 1 > 0,
+                Self::Node(Op::Union, a, b) => a.holds(leaves) || b.holds(leaves),
+                Self::Node(Op::Intersection, a, b) => a.holds(leaves) && b.holds(leaves),
+                Self::Node(_, a, b) => a.holds(leaves) && !b.holds(leaves),
+            }
+        }
+    }
+
+    fn words() -> impl FnMut() -> u64 {
+        let mut word = 9_u64;
+        move || {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            word >> 33
+        }
+    }
+
+    /// Against a recursive tree, for random trees and states; also a tree that leans to the right, which takes
+    /// the deepest stack.
+    #[test]
+    fn a_program_is_the_boolean_function_of_its_tree() {
+        let mut word = words();
+        let surfaces: Vec<Bounds> = (0..64).map(|_| unit_box(0)).collect();
+        let mut inside = 0;
+        for k in 0..300_u32 {
+            let tree = Tree::random(0, 1 + (k % 64) as u8, &mut word);
+            let mut ops = Vec::new();
+            tree.program(&mut ops);
+            let mut memory = [Extent::NOTHING; 127];
+            let object = Object::new(&ops, |leaf| surfaces.get(leaf), &mut memory).unwrap();
+            for _ in 0..50 {
+                let states = word() << 32 ^ word();
+                assert_eq!(object.is_inside(states), tree.holds(states), "{ops:?} {states:b}");
+                inside += u32::from(tree.holds(states));
+            }
+        }
+        assert!((1000..14_000).contains(&inside), "{inside}");
+        let mut ops: Vec<Op> = (0..64).map(Op::Leaf).collect();
+        ops.extend([Op::Intersection; 63]);
+        let mut memory = [Extent::NOTHING; 127];
+        let object = Object::new(&ops, |leaf| surfaces.get(leaf), &mut memory).unwrap();
+        assert!(
+            object.is_inside(u64::MAX) && !object.is_inside(u64::MAX - 1) && !object.is_inside(u64::MAX / 2)
+        );
+    }
+
+    /// The three early outs: a ray that misses what two parts have in common tries neither; one that misses
+    /// the left part of a difference tries nothing; parts of a union are tried each for itself.
+    #[test]
+    fn a_ray_tries_only_the_parts_that_it_may_need() {
+        // boxes from 0 to 2, 1 to 3, 10 to 12 along x
+        let surfaces = [unit_box(0), unit_box(1), unit_box(10)];
+        let tried = |ops: &[Op], x: i32| {
+            let mut memory = [Extent::NOTHING; 8];
+            let object = Object::new(ops, |leaf| surfaces.get(leaf), &mut memory).unwrap();
+            let mut leaves = Vec::new();
+            // down along z, a little inside the edge
+            let eye = Vec3::new(Real::from_num(x) + Real::from_num(0.5), Real::ONE, Real::from_num(9));
+            let ray = Ray::new(eye, at(0, 0, -1));
+            object.tried(&ray, |leaf, tried| {
+                if tried {
+                    leaves.push(leaf)
+                }
+            });
+            leaves.sort_unstable();
+            leaves
+        };
+        let both = |op| [Op::Leaf(0), Op::Leaf(1), op];
+        for (op, x, expected) in [
+            (Op::Union, 0, [0, 1].as_slice()),
+            (Op::Union, 5, &[]),
+            (Op::Intersection, 1, &[0, 1]),
+            (Op::Intersection, 0, &[]),
+            (Op::Intersection, 2, &[]),
+            (Op::Difference, 0, &[0, 1]),
+            (Op::Difference, 2, &[]),
+        ] {
+            assert_eq!(tried(&both(op), x), expected, "{op:?} {x}");
+        }
+        let nested = [Op::Leaf(0), Op::Leaf(1), Op::Intersection, Op::Leaf(2), Op::Union];
+        for (x, expected) in [(0, [].as_slice()), (1, &[0, 1, 2]), (10, &[2]), (5, &[2])] {
+            assert_eq!(tried(&nested, x), expected, "{x}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_program_is_refused() {
+        let surfaces = [unit_box(0), Bounds(Extent::SPACE, false)];
+        let refused = |ops: &[Op], memory: usize| {
+            let mut memory = std::vec![Extent::NOTHING; memory];
+            Object::new(ops, |leaf| surfaces.get(leaf), &mut memory)
+                .map(|object| object.extent())
+                .unwrap_err()
+        };
+        let (a, open) = (Op::Leaf(0), Op::Leaf(1));
+        assert!(matches!(refused(&[], 9), Error::TooFew { given: 0, at_least: 1, .. }));
+        assert!(matches!(refused(&[a, Op::Union], 9), Error::TooFew { given: 1, at_least: 2, .. }));
+        assert!(matches!(refused(&[a, a], 9), Error::LengthMismatch { given: 2, expected: 1, .. }));
+        assert!(matches!(refused(&[a, Op::Leaf(2), Op::Union], 9), Error::OutOfRange { index: Some(1), .. }));
+        assert!(matches!(refused(&[a, open, Op::Union], 9), Error::Unsupported { .. }));
+        assert!(matches!(refused(&[a, a, Op::Union], 2), Error::BufferLength { given: 2, needed: 3, .. }));
+        assert!(matches!(refused(&[a; 128], 200), Error::Capacity { needed: 64, capacity: 64, .. }));
+        let (program, mut memory) = ([open], [Extent::NOTHING; 1]);
+        let alone = Object::new(&program, |leaf| surfaces.get(leaf), &mut memory).unwrap();
+        assert_eq!((alone.extent(), alone.only(), Object::extents(5)), (Extent::SPACE, Some(1), 5));
+    }
+}
