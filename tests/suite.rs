@@ -13,3 +13,4 @@ mod pictures;
 mod promises;
 mod robust;
 mod worked_examples;
+mod worlds;

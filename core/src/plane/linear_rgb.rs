@@ -29,7 +29,7 @@ impl From<Rgb> for LinearRgb {
         let part = |bits: u32| {
             let bits = bits.min(1 << 16);
             // times 65535 / 65536
-            (bits - (bits >> 15)) as u16
+            (bits - ((bits + (1 << 15)) >> 16)) as u16
         };
         Self::new(part(light.r.to_bits()), part(light.g.to_bits()), part(light.b.to_bits()))
     }

@@ -180,7 +180,7 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
         for (number, leaf) in self.leaves.iter().enumerate() {
             let bit = 1_u64 << (number & 63);
             if which & bit > 0 && leaf.surface.is_closed() {
-                let inside = leaf.surface.extent().holds(place) && leaf.surface.value(place) < Wide::ZERO;
+                let inside = leaf.surface.extent().holds(place) && leaf.surface.value(place) <= Wide::ZERO;
                 states = if inside { states | bit } else { states & !bit };
             }
         }
