@@ -63,3 +63,41 @@ impl Specular for Anisotropic {
         Lumen::from_bits(u32::try_from(part).unwrap_or(u32::MAX))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::specular::tests::{dot, floats, half_of, views};
+    use super::*;
+
+    /// Relative to the value where it exceeds 1.
+    #[test]
+    fn wards_highlight_is_within_two_to_the_minus_10() {
+        let (mut worst, mut bright) = (0.0_f64, 0);
+        for (s, q) in [(1.0, 1.0), (0.5, 0.125), (0.0625, 0.25), (0.03125, 0.03125)] {
+            let model = Anisotropic::new(Unit::from_num(s), Unit::from_num(q)).unwrap();
+            for (view, towards) in views() {
+                let (n, t, l, h) =
+                    (floats(view.normal), floats(view.tangent), floats(towards), half_of(&view, towards));
+                let b = [n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]];
+                let (nv, nl) = (-dot(n, floats(view.direction)), dot(n, l));
+                let e = ((dot(h, t) / s).powi(2) + (dot(h, b) / q).powi(2)) / dot(h, n).powi(2);
+                let exact = (nl / nv).sqrt() * (-e).exp() / (4.0 * s * q);
+                let off = (model.part(&view, towards).to_num::<f64>() - exact).abs() / exact.max(1.0);
+                worst = worst.max(off);
+                bright += u32::from(exact > 0.5);
+            }
+        }
+        assert!(
+            worst < 2_f64.powi(-10) && worst > 2_f64.powi(-18) && bright > 1000,
+            "2^{} {bright}",
+            worst.log2()
+        );
+    }
+
+    #[test]
+    fn a_grain_is_refused_outside_its_ranges() {
+        let new = |s: i32, q: i32| Anisotropic::new(Unit::from_bits(s), Unit::from_bits(q)).is_ok();
+        assert!(new(1 << 25, 1 << 30) && new(1 << 30, 1 << 25));
+        assert!(!new((1 << 25) - 1, 1 << 28) && !new(1 << 28, (1 << 30) + 1));
+    }
+}

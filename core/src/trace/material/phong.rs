@@ -29,3 +29,25 @@ impl Specular for Phong {
         Lumen::from_bits((result.to_bits() as u32 + (1 << 13)) >> 14)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::specular::tests::{dot, floats, views};
+    use super::*;
+
+    #[test]
+    fn phongs_highlight_is_within_two_to_the_minus_16() {
+        let (mut worst, mut bright) = (0.0_f64, 0);
+        for (view, towards) in views() {
+            let (d, n) = (floats(view.direction), floats(view.normal));
+            let m: [f64; 3] = core::array::from_fn(|k| d[k] - 2.0 * dot(d, n) * n[k]);
+            for shininess in [0, 1, 10, 64] {
+                let exact = dot(m, floats(towards)).max(0.0).powi(shininess.into());
+                let got = Phong { shininess }.part(&view, towards).to_num::<f64>();
+                worst = worst.max((got - exact).abs());
+                bright += u32::from(exact > 0.5);
+            }
+        }
+        assert!(worst < 2_f64.powi(-16) && worst > 2_f64.powi(-18) && bright > 2000, "{worst:e} {bright}");
+    }
+}

@@ -75,8 +75,8 @@ impl View {
         let along = bits.iter().zip(n).map(|(g, n)| (g * n) >> 30).sum::<i64>();
         let mut tangent = [0; 3];
         for ((t, g), n) in tangent.iter_mut().zip(bits).zip(n) {
-            // below 2^31 times 4
-            *t = ((g - ((along * n) >> 30)) >> 2) as i32;
+            // no longer than the grain: below 2^32
+            *t = ((g - ((along * n) >> 30)) >> 1) as i32;
         }
         Self { normal, direction, tangent: unit(tangent) }
     }
@@ -98,4 +98,97 @@ impl View {
 #[inline]
 pub(super) fn times(a: Unit, b: Unit) -> Unit {
     Unit::from_bits(((i64::from(a.to_bits()) * i64::from(b.to_bits()) + (1 << 29)) >> 30) as i32)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::num::Real;
+    use std::vec::Vec;
+
+    pub(in super::super) fn floats(v: Vec3<Unit>) -> [f64; 3] {
+        [v.x, v.y, v.z].map(|c| c.to_num())
+    }
+
+    pub(in super::super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    /// Views from above a surface, each with a light above it: at random, and near the mirrored direction.
+    pub(in super::super) fn views() -> Vec<(View, Vec3<Unit>)> {
+        let mut word = 5_u64;
+        let mut random = || {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            Real::from_bits((word >> 38) as i32 - (1 << 25))
+        };
+        let mut all = Vec::new();
+        while all.len() < 4000 {
+            let vector = Vec3::new(random(), random(), random());
+            let (Some(normal), Some(eye)) =
+                (vector.normalised(), Vec3::new(random(), random(), random()).normalised())
+            else {
+                continue;
+            };
+            let direction = if eye.dot(normal) > 0 { Vec3::new(-eye.x, -eye.y, -eye.z) } else { eye };
+            let mut towards = Vec3::new(random(), random(), random());
+            if all.len() % 2 == 0 {
+                let m = super::super::super::snell::mirrored(direction, normal);
+                let near = |m: Unit, r: Real| Real::from_bits((m.to_bits() >> 4) + (r.to_bits() >> 3));
+                towards = Vec3::new(near(m.x, towards.x), near(m.y, towards.y), near(m.z, towards.z));
+            }
+            let Some(towards) = towards.normalised().filter(|l| l.dot(normal) > 0.02) else { continue };
+            if direction.dot(normal) > -0.02 {
+                continue;
+            }
+            // not along the normal, where a grain tells little
+            if normal.x.abs() > 0.9 {
+                continue;
+            }
+            let chart = crate::trace::Chart { along_u: Vec3::X, ..Default::default() };
+            let origin = Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO);
+            let point =
+                SurfacePoint { position: origin, place: origin, normal, chart, face: 0, width: Real::ZERO };
+            all.push((View::new(&point, normal, direction), towards));
+        }
+        all
+    }
+
+    /// `h` as the definition has it.
+    pub(in super::super) fn half_of(view: &View, towards: Vec3<Unit>) -> [f64; 3] {
+        let (d, l) = (floats(view.direction), floats(towards));
+        let h: [f64; 3] = core::array::from_fn(|k| l[k] - d[k]);
+        h.map(|c| c / dot(h, h).sqrt())
+    }
+
+    #[test]
+    fn a_frame_is_at_right_angles_and_of_unit_length() {
+        for (view, towards) in views() {
+            let (n, t) = (floats(view.normal), floats(view.tangent));
+            assert!(
+                dot(n, t).abs() < 2_f64.powi(-22) && (dot(t, t) - 1.0).abs() < 2_f64.powi(-26),
+                "{view:?}"
+            );
+            for (got, exact) in floats(view.half(towards)).into_iter().zip(half_of(&view, towards)) {
+                // a sum of 0.04 and more, known to 2^-29
+                assert!((got - exact).abs() < 2_f64.powi(-24));
+            }
+        }
+    }
+
+    #[test]
+    fn a_choice_of_models_is_what_each_of_them_is() {
+        let phong = Phong { shininess: 9 };
+        let rough = TorranceSparrow::new(Unit::from_num(0.3), Unit::from_num(0.5)).unwrap();
+        let brushed = Anisotropic::new(Unit::from_num(0.1), Unit::from_num(0.4)).unwrap();
+        for (view, towards) in views().iter().take(50) {
+            assert_eq!(Highlight::Phong(phong).part(view, *towards), phong.part(view, *towards));
+            assert_eq!(Highlight::TorranceSparrow(rough).part(view, *towards), rough.part(view, *towards));
+            assert_eq!(Highlight::Anisotropic(brushed).part(view, *towards), brushed.part(view, *towards));
+            assert_eq!(
+                (Highlight::None.part(view, *towards), ().part(view, *towards)),
+                (Lumen::ZERO, Lumen::ZERO)
+            );
+        }
+        assert!(Highlight::Anisotropic(brushed).is_charted() && !Highlight::Phong(phong).is_charted());
+    }
 }
