@@ -163,9 +163,10 @@ pub(super) mod tests {
     #[test]
     fn a_frame_is_at_right_angles_and_of_unit_length() {
         for (view, towards) in views() {
+            // each component is known to 2^-23, and 0.43 and more of the grain lies across the normal
             let (n, t) = (floats(view.normal), floats(view.tangent));
             assert!(
-                dot(n, t).abs() < 2_f64.powi(-22) && (dot(t, t) - 1.0).abs() < 2_f64.powi(-26),
+                dot(n, t).abs() < 2_f64.powi(-21) && (dot(t, t) - 1.0).abs() < 2_f64.powi(-26),
                 "{view:?}"
             );
             for (got, exact) in floats(view.half(towards)).into_iter().zip(half_of(&view, towards)) {
