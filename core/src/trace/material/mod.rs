@@ -3,6 +3,7 @@
 //! Source: the course unit V, section 5.9; Cochran, Lewis, Hart, sections 4 to 6.
 
 mod anisotropic;
+mod highlight;
 mod mixture;
 mod phong;
 mod respond;
@@ -10,8 +11,9 @@ mod specular;
 mod torrance_sparrow;
 
 pub use anisotropic::Anisotropic;
+pub use highlight::Highlight;
 pub use mixture::Mixture;
 pub use phong::Phong;
 pub use respond::{Lit, Material, Medium, Response};
-pub use specular::{Highlight, Specular, View};
+pub use specular::{Specular, View};
 pub use torrance_sparrow::TorranceSparrow;

@@ -1,9 +1,6 @@
 //! What a highlight is: light that leaves a surface near the direction in which it is mirrored.
 
 use super::super::surface::SurfacePoint;
-use super::anisotropic::Anisotropic;
-use super::phong::Phong;
-use super::torrance_sparrow::TorranceSparrow;
 use crate::num::{Lumen, Unit, Vec3, unit};
 
 /// From where a point is looked at: unit vectors.
@@ -33,35 +30,6 @@ pub trait Specular {
 impl Specular for () {
     fn part(&self, _: &View, _: Vec3<Unit>) -> Lumen {
         Lumen::ZERO
-    }
-}
-
-/// Any of the models, for a choice at run time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Highlight {
-    /// None.
-    None,
-    /// Phong's.
-    Phong(Phong),
-    /// Torrance's and Sparrow's.
-    TorranceSparrow(TorranceSparrow),
-    /// Ward's, along a grain.
-    Anisotropic(Anisotropic),
-}
-
-impl Specular for Highlight {
-    fn is_charted(&self) -> bool {
-        matches!(self, Self::Anisotropic(_))
-    }
-
-    fn part(&self, view: &View, towards: Vec3<Unit>) -> Lumen {
-        match self {
-            Self::None => Lumen::ZERO,
-            Self::Phong(model) => model.part(view, towards),
-            Self::TorranceSparrow(model) => model.part(view, towards),
-            Self::Anisotropic(model) => model.part(view, towards),
-        }
     }
 }
 
@@ -101,21 +69,21 @@ pub(super) fn times(a: Unit, b: Unit) -> Unit {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::num::Real;
     use std::vec::Vec;
 
-    pub(in super::super) fn floats(v: Vec3<Unit>) -> [f64; 3] {
+    pub(crate) fn floats(v: Vec3<Unit>) -> [f64; 3] {
         [v.x, v.y, v.z].map(|c| c.to_num())
     }
 
-    pub(in super::super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
         a.iter().zip(b).map(|(a, b)| a * b).sum()
     }
 
     /// Views from above a surface, each with a light above it: at random, and near the mirrored direction.
-    pub(in super::super) fn views() -> Vec<(View, Vec3<Unit>)> {
+    pub(crate) fn views() -> Vec<(View, Vec3<Unit>)> {
         let mut word = 5_u64;
         let mut random = || {
             word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -154,7 +122,7 @@ pub(super) mod tests {
     }
 
     /// `h` as the definition has it.
-    pub(in super::super) fn half_of(view: &View, towards: Vec3<Unit>) -> [f64; 3] {
+    pub(crate) fn half_of(view: &View, towards: Vec3<Unit>) -> [f64; 3] {
         let (d, l) = (floats(view.direction), floats(towards));
         let h: [f64; 3] = core::array::from_fn(|k| l[k] - d[k]);
         h.map(|c| c / dot(h, h).sqrt())
@@ -174,22 +142,5 @@ pub(super) mod tests {
                 assert!((got - exact).abs() < 2_f64.powi(-24));
             }
         }
-    }
-
-    #[test]
-    fn a_choice_of_models_is_what_each_of_them_is() {
-        let phong = Phong { shininess: 9 };
-        let rough = TorranceSparrow::new(Unit::from_num(0.3), Unit::from_num(0.5)).unwrap();
-        let brushed = Anisotropic::new(Unit::from_num(0.1), Unit::from_num(0.4)).unwrap();
-        for (view, towards) in views().iter().take(50) {
-            assert_eq!(Highlight::Phong(phong).part(view, *towards), phong.part(view, *towards));
-            assert_eq!(Highlight::TorranceSparrow(rough).part(view, *towards), rough.part(view, *towards));
-            assert_eq!(Highlight::Anisotropic(brushed).part(view, *towards), brushed.part(view, *towards));
-            assert_eq!(
-                (Highlight::None.part(view, *towards), ().part(view, *towards)),
-                (Lumen::ZERO, Lumen::ZERO)
-            );
-        }
-        assert!(Highlight::Anisotropic(brushed).is_charted() && !Highlight::Phong(phong).is_charted());
     }
 }

@@ -1,0 +1,59 @@
+//! A model of highlights that is chosen at run time.
+
+use super::anisotropic::Anisotropic;
+use super::phong::Phong;
+use super::specular::{Specular, View};
+use super::torrance_sparrow::TorranceSparrow;
+use crate::num::{Lumen, Unit, Vec3};
+
+/// Any of the models, for a choice at run time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Highlight {
+    /// None.
+    None,
+    /// Phong's.
+    Phong(Phong),
+    /// Torrance's and Sparrow's.
+    TorranceSparrow(TorranceSparrow),
+    /// Ward's, along a grain.
+    Anisotropic(Anisotropic),
+}
+
+impl Specular for Highlight {
+    fn is_charted(&self) -> bool {
+        matches!(self, Self::Anisotropic(_))
+    }
+
+    fn part(&self, view: &View, towards: Vec3<Unit>) -> Lumen {
+        match self {
+            Self::None => Lumen::ZERO,
+            Self::Phong(model) => model.part(view, towards),
+            Self::TorranceSparrow(model) => model.part(view, towards),
+            Self::Anisotropic(model) => model.part(view, towards),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::specular::tests::views;
+    use super::*;
+
+    #[test]
+    fn a_choice_of_models_is_what_each_of_them_is() {
+        let phong = Phong { shininess: 9 };
+        let rough = TorranceSparrow::new(Unit::from_num(0.3), Unit::from_num(0.5)).unwrap();
+        let brushed = Anisotropic::new(Unit::from_num(0.1), Unit::from_num(0.4)).unwrap();
+        for (view, towards) in views().iter().take(50) {
+            assert_eq!(Highlight::Phong(phong).part(view, *towards), phong.part(view, *towards));
+            assert_eq!(Highlight::TorranceSparrow(rough).part(view, *towards), rough.part(view, *towards));
+            assert_eq!(Highlight::Anisotropic(brushed).part(view, *towards), brushed.part(view, *towards));
+            assert_eq!(
+                (Highlight::None.part(view, *towards), ().part(view, *towards)),
+                (Lumen::ZERO, Lumen::ZERO)
+            );
+        }
+        assert!(Highlight::Anisotropic(brushed).is_charted() && !Highlight::Phong(phong).is_charted());
+    }
+}
