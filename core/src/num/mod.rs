@@ -64,6 +64,7 @@
 //! converting takes. On the host it is convenient; the examples in this documentation use it where the number
 //! does not matter.
 
+mod affine3;
 mod alias;
 mod atan;
 mod complex;
@@ -82,6 +83,7 @@ mod vector;
 mod wide;
 mod zeros;
 
+pub use affine3::Affine3;
 pub use alias::Alias;
 pub use atan::atan2;
 pub use complex::Complex;
