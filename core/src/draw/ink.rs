@@ -366,7 +366,8 @@ mod tests {
         }
         let by_value = drawn(flat, Srgb);
         assert_eq!(by_value[0], by_value[1]);
-        assert_eq!([drawn(flat, &Srgb), drawn(flat, &Srgb as &dyn Palette<LinearRgb>)], [by_value; 2]);
+        let choice: &dyn Palette<LinearRgb> = &Srgb;
+        assert_eq!([drawn(flat, Dithered(&Srgb)), drawn(flat, choice)], [by_value; 2]);
         assert_ne!(drawn(flat, |value: LinearRgb| Srgb.rgb(value)), by_value);
     }
 
