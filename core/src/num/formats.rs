@@ -39,6 +39,7 @@ pub(crate) type Q48 = i64;
 pub(crate) type Q52 = i64;
 pub(crate) type Q54 = i64;
 pub(crate) type Q56 = i64;
+pub(crate) type Q58 = i64;
 pub(crate) type Q60 = i64;
 pub(crate) type Q124 = i128;
 

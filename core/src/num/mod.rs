@@ -64,7 +64,9 @@
 //! converting takes. On the host it is convenient; the examples in this documentation use it where the number
 //! does not matter.
 
+mod affine3;
 mod alias;
+mod atan;
 mod complex;
 mod decimal;
 mod exponential;
@@ -81,7 +83,9 @@ mod vector;
 mod wide;
 mod zeros;
 
+pub use affine3::Affine3;
 pub use alias::Alias;
+pub use atan::atan2;
 pub use complex::Complex;
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;

@@ -2,6 +2,12 @@
 //!
 //! Source: the course unit V, sections 5.7 and 5.10.
 
+mod placed;
+mod plane;
 mod shape;
+mod sphere;
 
+pub use placed::Placed;
+pub use plane::Plane;
 pub use shape::{NearCrossing, NearRay, Shape};
+pub use sphere::Sphere;

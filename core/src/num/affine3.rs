@@ -1,0 +1,337 @@
+//! Affine maps of space: what puts a thing, described in coordinates of its own, into a world.
+//!
+//! A map is `x -> A x + b`; entries have 48 fractional bits, so that one composed of many keeps what they say.
+//! Its inverse, which brings rays to the thing, is the adjugate over the determinant, both exact for the
+//! matrix rounded to 30 bits: `A^-1 = adj A / det A`.
+
+use super::formats::{Q30, Q48, Real, UQ63, Unit, Wide};
+use super::quotient::quotient;
+use super::trig::{Angle, sin_cos};
+use super::vector::Vec3;
+use crate::Error;
+
+/// An affine map of space.
+///
+/// It holds any numbers; what needs an inverse refuses those that have none.
+///
+/// ```
+/// use attractor::num::{Affine3, Angle, Real, Vec3};
+/// # fn main() -> Result<(), attractor::Error> {
+/// // twice as high, a quarter of a turn about z, then one to the right
+/// let map = Affine3::scale(Vec3::lit("1", "1", "2"))
+///     .then(&Affine3::rotate(Vec3::Z, Angle::from_num(0.25))?)
+///     .then(&Affine3::translate(Vec3::X));
+/// assert_eq!(map.at(Vec3::lit("1", "0", "3")), Vec3::lit("1", "1", "6"));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Affine3 {
+    rows: [[Q48; 3]; 3],
+    translation: [Q48; 3],
+}
+
+/// The linear part of an inverse: `rows 2^exponent`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Inverse {
+    /// The greatest magnitude is in `[1/2, 1]`.
+    pub(crate) rows: [[Q30; 3]; 3],
+    pub(crate) exponent: i32,
+}
+
+const ONE: Q48 = 1 << 48;
+
+/// What lies farther than 64 bits is at their end.
+fn saturated(v: i128) -> i64 {
+    v.clamp(i128::from(i64::MIN), i128::from(i64::MAX)) as i64
+}
+
+/// The scalar product of numbers with 48 fractional bits, which has 96.
+fn dot(a: [Q48; 3], b: [Q48; 3]) -> i128 {
+    let [x, y, z] = [0, 1, 2].map(|k: usize| (i128::from(a[k]) * i128::from(b[k])) >> 2);
+    // 126 bits and two more, less the two that were left out
+    x + y + z
+}
+
+impl Affine3 {
+    /// The map that leaves everything where it is.
+    pub const IDENTITY: Self = Self { rows: [[ONE, 0, 0], [0, ONE, 0], [0, 0, ONE]], translation: [0; 3] };
+
+    /// `x -> A x + translation`, `A` by its rows.
+    pub const fn matrix(rows: [Vec3<Wide>; 3], translation: Vec3<Wide>) -> Self {
+        const fn bits(v: Vec3<Wide>) -> [i64; 3] {
+            [v.x.to_bits(), v.y.to_bits(), v.z.to_bits()]
+        }
+        let [x, y, z] = rows;
+        Self { rows: [bits(x), bits(y), bits(z)], translation: bits(translation) }
+    }
+
+    /// `x -> x + by`.
+    pub fn translate(by: Vec3) -> Self {
+        Self { translation: [by.x, by.y, by.z].map(|c| Wide::from(c).to_bits()), ..Self::IDENTITY }
+    }
+
+    /// `x -> (f_x x, f_y y, f_z z)`: from the origin, and mirrored where a factor is below 0.
+    pub fn scale(factors: Vec3) -> Self {
+        let [x, y, z] = [factors.x, factors.y, factors.z].map(|c| Wide::from(c).to_bits());
+        Self { rows: [[x, 0, 0], [0, y, 0], [0, 0, z]], translation: [0; 3] }
+    }
+
+    /// The turn by `angle` about an axis through the origin, counter-clockwise when the axis points to the
+    /// eye. Error: below `2^-26` in each entry (`a_turn_is_within_two_to_the_minus_26`). Source: Rodrigues'
+    /// formula, `cos I + sin [a] + (1 - cos) a a^T`.
+    ///
+    /// # Errors
+    /// [`Error::Degenerate`] for an axis of length 0.
+    pub fn rotate(axis: Vec3, angle: Angle) -> Result<Self, Error> {
+        let axis = axis.normalised().ok_or(Error::Degenerate { what: "axis of a rotation" })?;
+        let (sin, cos) = sin_cos(angle);
+        let wide = |v: Unit| i64::from(v.to_bits());
+        let (a, sin, cos) = ([wide(axis.x), wide(axis.y), wide(axis.z)], wide(sin), wide(cos));
+        // 60 fractional bits, then 48
+        let entry = |i: usize, j: usize, turned: i64| -> Q48 {
+            let projected = (((1 << 30) - cos) * ((a[i] * a[j]) >> 30)) >> 12;
+            let kept = if i == j { cos << 18 } else { 0 };
+            kept + projected + ((sin * turned) >> 12)
+        };
+        let rows = [
+            [entry(0, 0, 0), entry(0, 1, -a[2]), entry(0, 2, a[1])],
+            [entry(1, 0, a[2]), entry(1, 1, 0), entry(1, 2, -a[0])],
+            [entry(2, 0, -a[1]), entry(2, 1, a[0]), entry(2, 2, 0)],
+        ];
+        Ok(Self { rows, translation: [0; 3] })
+    }
+
+    /// First this map, then `next`. Each entry rounded down, and saturated.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        let column = |j: usize| self.rows.map(|row| row[j]);
+        let columns = [column(0), column(1), column(2)];
+        let rows = next.rows.map(|row| columns.map(|column| saturated(dot(row, column) >> 46)));
+        let moved = next.rows.map(|row| dot(row, self.translation) >> 46);
+        let translation = [0, 1, 2].map(|k: usize| saturated(moved[k] + i128::from(next.translation[k])));
+        Self { rows, translation }
+    }
+
+    /// Where it takes a place, to nearest, saturated.
+    pub fn at(&self, place: Vec3) -> Vec3 {
+        let place = [place.x, place.y, place.z].map(|c| Wide::from(c).to_bits());
+        let [x, y, z] = [0, 1, 2].map(|k: usize| {
+            let sum = (dot(self.rows[k], place) >> 46) + i128::from(self.translation[k]);
+            real(saturated(sum))
+        });
+        Vec3::new(x, y, z)
+    }
+
+    /// The linear part's entries and the translation, to nearest, saturated.
+    pub(crate) fn parts(&self) -> ([Vec3; 3], Vec3) {
+        let vector = |[x, y, z]: [Q48; 3]| Vec3::new(real(x), real(y), real(z));
+        (self.rows.map(vector), vector(self.translation))
+    }
+
+    /// The greatest magnitude of an entry.
+    pub(crate) fn greatest(&self) -> Wide {
+        let greatest = self.rows.iter().flatten().map(|c| c.saturating_abs()).max();
+        Wide::from_bits(greatest.unwrap_or(0))
+    }
+
+    /// The inverse of the linear part. Error: 3/4 of a unit of its 30 bits, for the matrix
+    /// whose entries are rounded to 30 bits below the greatest (`an_inverse_is_the_exact_one_rounded`).
+    ///
+    /// # Errors
+    /// [`Error::Degenerate`] for a matrix whose determinant is 0.
+    pub(crate) fn inverse(&self) -> Result<Inverse, Error> {
+        let degenerate = Error::Degenerate { what: "determinant of an affine map" };
+        let greatest = self.greatest().to_bits().unsigned_abs();
+        if greatest == 0 {
+            return Err(degenerate);
+        }
+        // mantissas with 30 fractional bits, the greatest in [1/2, 1]; a = mantissa 2^exponent
+        let length = 64 - greatest.leading_zeros() as i32;
+        let mantissa = |v: i64| -> i64 {
+            if length <= 30 {
+                v << (30 - length)
+            } else {
+                // half a unit more, where it does not leave 64 bits
+                ((v >> (length - 31)) + 1) >> 1
+            }
+        };
+        let a = self.rows.map(|row| row.map(mantissa));
+        // products of two: 61 bits; the cofactors of a row, in its own order
+        let minor = |i: usize, j: usize| {
+            let (r, s, p, q) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            a[r][p] * a[s][q] - a[r][q] * a[s][p]
+        };
+        let cofactors = [0, 1, 2].map(|i: usize| [0, 1, 2].map(|j: usize| minor(i, j)));
+        let determinant: i128 =
+            (0..3).map(|j: usize| i128::from(a[0][j]) * i128::from(cofactors[0][j])).sum();
+        let most = cofactors.iter().flatten().map(|c| c.unsigned_abs()).max().unwrap_or(0);
+        if determinant == 0 || most == 0 {
+            return Err(degenerate);
+        }
+        // the determinant with 63 bits, the greatest cofactor with 62
+        let size = determinant.unsigned_abs();
+        let places = 65 - size.leading_zeros() as i32;
+        let divisor: UQ63 = if places >= 0 { (size >> places) as u64 } else { (size as u64) << -places };
+        let shift = most.leading_zeros() as i32 - 2;
+        let sign = if determinant < 0 { -1 } else { 1 };
+        // 33 fractional bits, the greatest in (1/4, 1]; transposed
+        let entry = |i: usize, j: usize| {
+            let c = cofactors[j][i];
+            let c = if shift >= 0 { c << shift } else { c >> -shift };
+            quotient(sign * c, 33, divisor)
+        };
+        let entries = [0, 1, 2].map(|i: usize| [0, 1, 2].map(|j: usize| entry(i, j)));
+        let halved = i32::from(entries.iter().flatten().any(|v| v.unsigned_abs() >= (1 << 32) - 2));
+        let rows = entries.map(|row| row.map(|v| (((v >> (1 + halved)) + 1) >> 1) as i32));
+        // cofactors have 60 fractional bits, the determinant 90
+        let exponent = 30 - shift - places - (length - 48) - 1 + halved;
+        Ok(Inverse { rows, exponent })
+    }
+}
+
+#[cfg(test)]
+impl Affine3 {
+    /// Linear part and translation.
+    pub(crate) fn numbers(&self) -> ([[f64; 3]; 3], [f64; 3]) {
+        let number = |v: i64| v as f64 / 2_f64.powi(48);
+        (self.rows.map(|row| row.map(number)), self.translation.map(number))
+    }
+}
+
+/// To nearest, saturated.
+fn real(v: Q48) -> Real {
+    let rounded = ((v >> 23) + 1) >> 1;
+    Real::from_bits(rounded.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use rand_xoshiro::Xoshiro128PlusPlus;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    fn numbers(map: &Affine3) -> [[f64; 3]; 3] {
+        map.numbers().0
+    }
+
+    fn axis(rng: &mut Xoshiro128PlusPlus) -> Vec3 {
+        let [x, y, z] = [(); 3].map(|()| Real::from_bits(rng.next_u32() as i32 >> 4));
+        Vec3::new(x, y, z)
+    }
+
+    #[test]
+    fn a_turn_is_within_two_to_the_minus_26() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(3);
+        let mut worst: f64 = 0.0;
+        for _ in 0..10_000 {
+            let (about, angle) = (axis(&mut rng), rng.next_u32());
+            let turn = numbers(&Affine3::rotate(about, Angle::from_bits(angle)).unwrap());
+            let v = [about.x, about.y, about.z].map(|c| c.to_num::<f64>());
+            let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let [x, y, z] = v.map(|c| c / length);
+            let (s, c) = (f64::from(angle) / 2_f64.powi(32) * core::f64::consts::TAU).sin_cos();
+            let k = 1.0 - c;
+            let exact = [
+                [c + k * x * x, k * x * y - s * z, k * x * z + s * y],
+                [k * x * y + s * z, c + k * y * y, k * y * z - s * x],
+                [k * x * z - s * y, k * y * z + s * x, c + k * z * z],
+            ];
+            for (got, exact) in turn.iter().flatten().zip(exact.iter().flatten()) {
+                worst = worst.max((got - exact).abs());
+            }
+        }
+        assert!(worst > 2_f64.powi(-29) && worst < 2_f64.powi(-26), "{worst:e}");
+        assert_eq!(
+            Affine3::rotate(Vec3::default(), Angle::ZERO),
+            Err(Error::Degenerate { what: "axis of a rotation" })
+        );
+    }
+
+    /// The inverse times the matrix is 1, in double precision, for matrices of all sizes and shapes.
+    #[test]
+    fn an_inverse_is_the_exact_one_rounded() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(4);
+        let (mut worst, mut halves): (f64, _) = (0.0, [0; 2]);
+        for k in 0..20_000 {
+            let mut word = || i64::from(rng.next_u32() as i32) << 23 >> (k % 20);
+            // every entry a whole number of the 30 bits that are looked at
+            let rows = [[(); 3]; 3].map(|row| row.map(|()| word() >> 25 << 25));
+            let mut map = Affine3 { rows, translation: [0; 3] };
+            let greatest = map.greatest().to_bits();
+            let length = 64 - greatest.leading_zeros();
+            map.rows = map.rows.map(|row| row.map(|v| v >> (length - 30).min(40) << (length - 30).min(40)));
+            let inverse = map.inverse().unwrap();
+            let most = inverse.rows.iter().flatten().map(|v| v.unsigned_abs()).max().unwrap();
+            assert!((1 << 29..=1 << 30).contains(&most), "{inverse:?}");
+            let (a, scale) = (numbers(&map), 2_f64.powi(inverse.exponent - 30));
+            // exact adjugate over determinant
+            let minor = |i: usize, j: usize| {
+                let (r, s, p, q) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+                a[r][p] * a[s][q] - a[r][q] * a[s][p]
+            };
+            let determinant: f64 = (0..3).map(|j| a[0][j] * minor(0, j)).sum();
+            let size = a.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+            // what double precision itself leaves of a determinant that cancels
+            if determinant.abs() < 1e-4 * size.powi(3) {
+                continue;
+            }
+            halves[usize::from(k % 2 == 0)] += 1;
+            for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+                let exact = minor(j, i) / determinant;
+                let got = f64::from(inverse.rows[i][j]);
+                worst = worst.max((got - exact / scale).abs());
+            }
+        }
+        assert!(halves[0] > 9_000 && halves[1] > 9_000, "{halves:?}");
+        assert!(worst > 0.7 && worst < 0.76, "{worst}");
+    }
+
+    #[test]
+    fn a_singular_matrix_has_no_inverse() {
+        let degenerate = Err(Error::Degenerate { what: "determinant of an affine map" });
+        let w = |n: i32| Wide::from_num(n);
+        let row = |x, y, z| Vec3::new(w(x), w(y), w(z));
+        for rows in [
+            [row(0, 0, 0), row(0, 0, 0), row(0, 0, 0)],
+            [row(1, 2, 3), row(4, 5, 6), row(7, 8, 9)],
+            [row(1, 0, 0), row(0, 1, 0), row(0, 0, 0)],
+            [row(5, 0, 0), row(0, 0, 0), row(0, 0, 0)],
+        ] {
+            assert_eq!(Affine3::matrix(rows, row(1, 2, 3)).inverse(), degenerate);
+        }
+        let identity = Affine3::IDENTITY.inverse().unwrap();
+        let half = 1 << 29;
+        assert_eq!(identity, Inverse { rows: [[half, 0, 0], [0, half, 0], [0, 0, half]], exponent: 1 });
+        // the ends of the format
+        let ends = Affine3 { rows: [[i64::MIN, 0, 0], [0, i64::MAX, 0], [0, 0, i64::MIN]], ..identity_map() };
+        assert_eq!(ends.inverse().unwrap().exponent, -14);
+    }
+
+    fn identity_map() -> Affine3 {
+        Affine3::IDENTITY
+    }
+
+    #[test]
+    fn maps_are_composed_in_the_order_of_then() {
+        let mut rng = Xoshiro128PlusPlus::seed_from_u64(5);
+        for _ in 0..1000 {
+            let turn = Affine3::rotate(axis(&mut rng), Angle::from_bits(rng.next_u32())).unwrap();
+            let scale = Affine3::scale(axis(&mut rng));
+            let shift = Affine3::translate(axis(&mut rng));
+            let place = axis(&mut rng);
+            let place = Vec3::new(place.x >> 4, place.y >> 4, place.z >> 4);
+            let at_once = scale.then(&turn).then(&shift).at(place);
+            let steps = shift.at(turn.at(scale.at(place)));
+            for (a, b) in [(at_once.x, steps.x), (at_once.y, steps.y), (at_once.z, steps.z)] {
+                assert!(a.abs_diff(b).to_bits() <= 3, "{at_once:?} {steps:?}");
+            }
+        }
+        let far = Affine3::scale(Vec3::new(Real::MAX, Real::MAX, Real::MIN));
+        let farther = far.then(&far).then(&far).then(&far).then(&far);
+        assert_eq!(farther.rows.map(|row| row[0])[0], i64::MAX);
+        assert_eq!(farther.at(Vec3::lit("1", "-1", "1")), Vec3::new(Real::MAX, Real::MIN, Real::MIN));
+        assert_eq!(farther.parts().0[2].z, Real::MIN);
+    }
+}
