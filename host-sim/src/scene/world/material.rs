@@ -106,7 +106,7 @@ impl Matter {
             name: String::new(),
             pigment: Pigment::Color(Rgb::WHITE),
             ambient: Unit::ONE / 8,
-            diffuse: Unit::ONE * 7 / 8,
+            diffuse: Unit::ONE / 8 * 7,
             specular: Rgb::BLACK,
             gloss: Gloss::None,
             reflect: Rgb::BLACK,

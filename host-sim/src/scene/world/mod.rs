@@ -1,6 +1,7 @@
 //! `kind = "world"`: objects, lights and materials under a ray tracer, in colour.
 
 mod color;
+mod figure;
 mod file;
 mod lamp;
 mod material;

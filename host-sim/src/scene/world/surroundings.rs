@@ -151,3 +151,39 @@ fn check_keys(source: &Source, given: &Table, kind: Kind) -> Result<(), Fail> {
     }
     Ok(())
 }
+
+/// Three tones in every direction.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sky([attractor::trace::Environment; 3]);
+
+impl attractor::trace::Surroundings for Sky {
+    fn light(&self, direction: attractor::num::Vec3<Unit>, _: Unit) -> Rgb {
+        let [r, g, b] = self.0.map(|one| Rgb::from_tone(one.tone(direction)).r);
+        Rgb::new(r, g, b)
+    }
+}
+
+impl Around {
+    pub(crate) fn sky(&self) -> Sky {
+        use attractor::trace::Environment as E;
+        let parts = |c: Rgb| [c.r, c.g, c.b].map(|l| Unit::from_bits((l.to_bits() << 14) as i32));
+        Sky(match *self {
+            Self::Plain(c) => parts(c).map(E::Plain),
+            Self::Sky { zenith, horizon, nadir } => [0, 1, 2].map(|k: usize| E::Gradient {
+                zenith: parts(zenith)[k],
+                horizon: parts(horizon)[k],
+                nadir: parts(nadir)[k],
+            }),
+            Self::Checkerboard { bright, dark, horizon, scale, fade } => {
+                [0, 1, 2].map(|k: usize| E::Checkerboard {
+                    bright: parts(bright)[k],
+                    dark: parts(dark)[k],
+                    horizon: parts(horizon)[k],
+                    scale,
+                    fade,
+                })
+            }
+            Self::Image(_) => [E::Plain(Unit::ZERO); 3],
+        })
+    }
+}
