@@ -117,6 +117,11 @@ pub(crate) struct Dump {
   copier               x,y of the first N vertices of the last order
   julia-set            x,y of the first N points, or of the first N pixels that the set meets
   mandelbrot, julia    re,im,dwell,reference for every pixel of --size; no reference for a deep zoom
+  world                --pixels: i,j,r,g,b of every pixel of --size, linear light before it is dithered, beside the reference's; so without an option
+                       --rays FILE: ray,crossing,t,object,face,enters,x,y,z,nx,ny,nz,u,v,t_reference, every crossing of every object
+                       --along RAY: t and the inside-outside function of each object at N places of a ray
+                       --at FILE: the value of each texture at places
+  texture              --at FILE: the value at places; else i,j,r,g,b of every pixel of --size
 
 Fixed-point numbers are printed exactly, those of the reference with the digits that give the same f64 back.
 An abscissa is a multiple of 2^-48 and an f64. The reference of a function passes through the knots that the format has,
@@ -133,6 +138,18 @@ pub(crate) struct Sample {
     /// Size of the picture whose pixels are listed
     #[arg(long, allow_hyphen_values = true, value_name = "WxH", default_value = "240x240", value_parser = parse_size)]
     pub(crate) size: Size,
+    /// Of a world: every crossing of the rays in a CSV file of lines ox,oy,oz,dx,dy,dz
+    #[arg(long, value_name = "FILE", group = "question")]
+    pub(crate) rays: Option<PathBuf>,
+    /// Of a world: the inside-outside functions along a ray
+    #[arg(long, allow_hyphen_values = true, value_name = "ox,oy,oz,dx,dy,dz", group = "question")]
+    pub(crate) along: Option<String>,
+    /// Of a world or a texture: the textures at the places in a CSV file of lines x,y,z
+    #[arg(long, value_name = "FILE", group = "question")]
+    pub(crate) at: Option<PathBuf>,
+    /// Of a world or a texture: the linear light of every pixel of --size
+    #[arg(long, group = "question")]
+    pub(crate) pixels: bool,
 }
 
 #[derive(Debug, Args)]

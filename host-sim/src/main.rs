@@ -14,6 +14,7 @@ mod dump;
 mod export;
 mod fail;
 mod fit;
+mod lines;
 mod list;
 mod number;
 mod output;

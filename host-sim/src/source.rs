@@ -165,7 +165,7 @@ impl Source {
     }
 }
 
-fn read_text(path: &Path) -> Result<String, Fail> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Fail> {
     let fail = |reason: String| Fail::new(format_args!("{}: cannot be read: {reason}", path.display()));
     if path.is_dir() {
         return Err(fail("it is a directory".to_owned()));

@@ -6,16 +6,16 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 
 use attractor::draw::{
-    Brightened, ColoredDots, CourseUnit, Cycled, Dots, Equalised, Gradient, Grey, Ink, Inside, Inverted,
-    Level, Leveled, Lines, LsbPages, Luminance, MsbRows, Packing, Palette, Picture, PixelBytes, PixelWords,
-    Ramp, RowCursor, Strips, Stroke, bayer, dithered, gradients, hex, luma,
+    Brightened, ColoredDots, CourseUnit, Cycled, Dithered, Dots, Equalised, Gradient, Grey, Ink, Inside,
+    Inverted, Level, Leveled, Lines, LsbPages, Luminance, MsbRows, Packing, Palette, Picture, PixelBytes,
+    PixelWords, Ramp, RowCursor, Srgb, Strips, Stroke, bayer, dithered, gradients, hex, luma,
 };
 use attractor::escape::{Dwell, FractionalDwell, Period};
 use attractor::fixed::types::U21F11;
 use attractor::num::Real;
-use attractor::plane::Hits;
 use attractor::plane::Tone;
 use attractor::plane::{Bounds2, Field, FromFn, PathElement, Point2, Window, from_fn};
+use attractor::plane::{Hits, LinearRgb};
 use embedded_graphics::geometry::{Dimensions, OriginDimensions, Point, Size};
 use embedded_graphics::image::{GetPixel, ImageDrawable};
 use embedded_graphics::pixelcolor::{
@@ -274,6 +274,7 @@ fn ink<C: Ink + Debug>(rgb: Rgb888, at: Point) -> C {
     // a square of the matrix on, the same
     let on = Point::new(at.x.wrapping_add(8), at.y.wrapping_sub(64));
     assert_eq!(C::ink(rgb, on), color);
+    assert_eq!(C::dithered_ink(rgb, on), C::dithered_ink(rgb, at));
     color
 }
 
@@ -289,6 +290,10 @@ fn inks_of_any_colour_anywhere() {
         let (on, two, four) = (ink::<BinaryColor>(rgb, at), ink::<Gray2>(rgb, at), ink::<Gray4>(rgb, at));
         assert!(two.luma() <= 3 && four.luma() <= 15 && ink::<Gray8>(rgb, at).luma() == luma(rgb));
         assert!(on.is_on() || luma(rgb) < 255);
+        let light = LinearRgb::new(color as u16, (color >> 8) as u16, (color >> 16) as u16);
+        let shown = Picture::<_, _, Rgb565>::new(from_fn(Size::new(1, 1), |_, _| light), Srgb);
+        let again = Picture::<_, _, Rgb565>::new(from_fn(Size::new(1, 1), |_, _| light), Dithered(&Srgb));
+        assert_eq!(shown.pixel(Point::zero()), again.pixel(Point::zero()));
         let wide = ink::<Rgb888>(rgb, at);
         assert_eq!((wide, Rgb888::from(ink::<Bgr888>(rgb, at))), (rgb, rgb));
         assert_eq!(Rgb565::from(ink::<Bgr565>(rgb, at)), ink::<Rgb565>(rgb, at));

@@ -9,7 +9,7 @@ use embedded_graphics_core::geometry::{Dimensions, OriginDimensions, Point, Size
 use embedded_graphics_core::image::{GetPixel, ImageDrawable};
 use embedded_graphics_core::primitives::Rectangle;
 
-use super::ink::Ink;
+use super::ink::{Ink, shown};
 use super::palette::Palette;
 use crate::draw::clip::visible;
 use crate::plane::Field;
@@ -214,10 +214,10 @@ impl<V: Iterator, P: Palette<V::Item>, C: Ink> Iterator for Colors<'_, V, P, C> 
     #[inline(always)]
     fn next(&mut self) -> Option<C> {
         self.remaining = self.remaining.checked_sub(1)?;
-        let rgb = self.palette.rgb(self.values.next()?);
+        let value = self.values.next()?;
         let at = self.at;
         self.at.x = at.x.wrapping_add(1);
-        Some(C::ink(rgb, at))
+        Some(shown(self.palette, value, at))
     }
 
     #[inline]
@@ -228,10 +228,10 @@ impl<V: Iterator, P: Palette<V::Item>, C: Ink> Iterator for Colors<'_, V, P, C> 
             return None;
         };
         self.remaining -= skipped + 1;
-        let rgb = self.palette.rgb(self.values.nth(n)?);
+        let value = self.values.nth(n)?;
         let at = Point::new(self.at.x.wrapping_add(skipped as i32), self.at.y);
         self.at.x = at.x.wrapping_add(1);
-        Some(C::ink(rgb, at))
+        Some(shown(self.palette, value, at))
     }
 
     #[inline]

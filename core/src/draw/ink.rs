@@ -7,6 +7,9 @@ use embedded_graphics_core::pixelcolor::{
     Rgb888, RgbColor,
 };
 
+use super::palette::Palette;
+use super::srgb::{encoded, luminance};
+
 /// A colour that a display can show.
 ///
 /// Displays with 5 bits a channel or more get the nearest colour. Black-and-white and 4 or 16 greys get
@@ -85,6 +88,29 @@ use embedded_graphics_core::pixelcolor::{
 pub trait Ink: PixelColor {
     /// The closest this colour comes to `rgb` at the position `at`, counted from the top left of the picture.
     fn ink(rgb: Rgb888, at: Point) -> Self;
+
+    /// The same for palettes that ask for it by [`Palette::is_dithered`]: true to the light of the colours,
+    /// and dithered wherever there are fewer than 256 levels.
+    ///
+    /// Over every square of 8 x 8 pixels the mean of each channel is that of `rgb` within 1/128 of a level of
+    /// the display (`the_mean_of_a_dithered_square_is_the_colour`). Greys have the luminance of ITU-R BT.709,
+    /// computed in linear light and encoded; of dots of one bit, which nothing encodes, as many are lit as
+    /// there is light. A colour type that does not say otherwise is inked as ever.
+    #[inline]
+    fn dithered_ink(rgb: Rgb888, at: Point) -> Self {
+        Self::ink(rgb, at)
+    }
+}
+
+/// The colour of a value at a pixel, by the one ink or the other.
+#[inline(always)]
+pub(super) fn shown<V, P: Palette<V>, C: Ink>(palette: &P, value: V, at: Point) -> C {
+    inked(palette.is_dithered(), palette.rgb(value), at)
+}
+
+#[inline(always)]
+pub(super) fn inked<C: Ink>(is_dithered: bool, rgb: Rgb888, at: Point) -> C {
+    if is_dithered { C::dithered_ink(rgb, at) } else { C::ink(rgb, at) }
 }
 
 /// The luma of ITU-R BT.601, `0.299 R + 0.587 G + 0.114 B`, in 8 bits: how bright an encoded colour looks,
@@ -133,10 +159,23 @@ pub const fn dithered(value: u8, max: u8, at: Point) -> u8 {
     level as u8 + ((bayer(at) as u32) < dots) as u8
 }
 
+/// The code of the grey that gives off as much light as a colour.
+#[inline]
+fn grey_of(rgb: Rgb888) -> u8 {
+    encoded(luminance(rgb))
+}
+
 impl Ink for BinaryColor {
     #[inline]
     fn ink(rgb: Rgb888, at: Point) -> Self {
         if dithered(luma(rgb), 1, at) == 0 { Self::Off } else { Self::On }
+    }
+
+    #[inline]
+    fn dithered_ink(rgb: Rgb888, at: Point) -> Self {
+        // of 64 positions, round(64 luminance)
+        let dots = (u32::from(luminance(rgb)) * 64 + 32_767) / 65_535;
+        if u32::from(bayer(at)) < dots { Self::On } else { Self::Off }
     }
 }
 
@@ -145,6 +184,11 @@ impl Ink for Gray2 {
     fn ink(rgb: Rgb888, at: Point) -> Self {
         Self::new(dithered(luma(rgb), 3, at))
     }
+
+    #[inline]
+    fn dithered_ink(rgb: Rgb888, at: Point) -> Self {
+        Self::new(dithered(grey_of(rgb), 3, at))
+    }
 }
 
 impl Ink for Gray4 {
@@ -152,12 +196,22 @@ impl Ink for Gray4 {
     fn ink(rgb: Rgb888, at: Point) -> Self {
         Self::new(dithered(luma(rgb), 15, at))
     }
+
+    #[inline]
+    fn dithered_ink(rgb: Rgb888, at: Point) -> Self {
+        Self::new(dithered(grey_of(rgb), 15, at))
+    }
 }
 
 impl Ink for Gray8 {
     #[inline]
     fn ink(rgb: Rgb888, _at: Point) -> Self {
         Self::new(luma(rgb))
+    }
+
+    #[inline]
+    fn dithered_ink(rgb: Rgb888, _at: Point) -> Self {
+        Self::new(grey_of(rgb))
     }
 }
 
@@ -167,6 +221,13 @@ macro_rules! nearest {
             #[inline]
             fn ink(rgb: Rgb888, _at: Point) -> Self {
                 rgb.into()
+            }
+
+            #[inline]
+            fn dithered_ink(rgb: Rgb888, at: Point) -> Self {
+                let [r, g, b] = [(rgb.r(), Self::MAX_R), (rgb.g(), Self::MAX_G), (rgb.b(), Self::MAX_B)]
+                    .map(|(value, max)| dithered(value, max, at));
+                Self::new(r, g, b)
             }
         }
     )*};
@@ -213,6 +274,101 @@ mod tests {
         assert!(
             square().all(|at| BinaryColor::ink(grey(255), at).is_on() && Gray4::ink(grey(0), at).luma() == 0)
         );
+    }
+
+    /// The sum over a square of what an ink shows of a colour.
+    fn sum<C: Ink>(rgb: Rgb888, part: fn(C) -> u8) -> u32 {
+        square().map(|at| u32::from(part(C::dithered_ink(rgb, at)))).sum()
+    }
+
+    /// All channels of all colour types, each with a value of its own.
+    #[test]
+    fn the_mean_of_a_dithered_square_is_the_colour() {
+        let mut worst = 0;
+        macro_rules! all {
+            ($($color:ty),*) => {$(
+                for value in 0..=u8::MAX {
+                    let rgb = Rgb888::new(value, value.wrapping_mul(7), 255 - value);
+                    let parts = [
+                        (sum(rgb, |c: $color| c.r()), <$color>::MAX_R, rgb.r()),
+                        (sum(rgb, |c: $color| c.g()), <$color>::MAX_G, rgb.g()),
+                        (sum(rgb, |c: $color| c.b()), <$color>::MAX_B, rgb.b()),
+                    ];
+                    for (sum, max, value) in parts {
+                        // |sum / 64 - max value / 255| <= 1 / 128
+                        let difference = (sum * 255).abs_diff(64 * u32::from(max) * u32::from(value));
+                        assert!(2 * difference <= 255, "{rgb:?}: {sum} of {max}");
+                        worst = worst.max(difference);
+                    }
+                }
+            )*};
+        }
+        all!(Rgb555, Bgr555, Rgb565, Bgr565, Rgb666, Bgr666, Rgb888, Bgr888);
+        assert!(worst > 120, "{worst}");
+    }
+
+    /// Against IEC 61966-2-1 and ITU-R BT.709 in double precision.
+    #[test]
+    fn dithered_greys_and_dots_give_off_the_light_of_the_colour() {
+        let decoded = |code: u8| {
+            let v = f64::from(code) / 255.0;
+            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+        };
+        let channel = || (0..=255_u8).step_by(15);
+        let cube = channel().flat_map(|r| channel().flat_map(move |g| channel().map(move |b| (r, g, b))));
+        let [mut dots, mut two, mut four, mut eight] = [0.0_f64; 4];
+        for (r, g, b) in cube {
+            let rgb = Rgb888::new(r, g, b);
+            let light = 0.2126 * decoded(r) + 0.7152 * decoded(g) + 0.0722 * decoded(b);
+            let code =
+                if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
+            let off = |sum: u32, max: f64, exact: f64| (f64::from(sum) / 64.0 - max * exact).abs();
+            dots = dots.max(off(sum(rgb, |c: BinaryColor| u8::from(c.is_on())), 1.0, light));
+            two = two.max(off(sum(rgb, |c: Gray2| c.luma()), 3.0, code));
+            four = four.max(off(sum(rgb, |c: Gray4| c.luma()), 15.0, code));
+            eight = eight.max(off(sum(rgb, |c: Gray8| c.luma()), 255.0, code));
+        }
+        // half a dot of 64; of greys half a code of 255 as well
+        assert!(dots > 0.0077 && dots < 0.5 / 64.0 + 5e-5, "{dots}");
+        assert!(two > 0.012 && two < 0.5 / 64.0 + 1.51 / 255.0, "{two}");
+        assert!(four > 0.03 && four < 0.5 / 64.0 + 7.51 / 255.0, "{four}");
+        assert!(eight > 0.49 && eight < 0.51, "{eight}");
+    }
+
+    #[test]
+    fn only_palettes_that_ask_for_it_are_dithered_everywhere() {
+        use crate::draw::{Dithered, Grey, Inverted, Luminance, Picture, Srgb};
+        use crate::plane::{LinearRgb, from_fn};
+        use embedded_graphics_core::geometry::Size;
+
+        let asks = |palette: &dyn Palette<u8>| palette.is_dithered();
+        assert!(asks(&Dithered(Grey)) && asks(&&Dithered(Grey)) && !asks(&Inverted(Dithered(Grey))));
+        assert!(!asks(&Grey) && !asks(&Luminance(Grey)) && !asks(&|_: u8| Rgb888::BLACK));
+        // by value, by reference, by a choice at run time, row by row and pixel by pixel
+        let flat = from_fn(Size::new(16, 16), |_, _| LinearRgb::new(9000, 20, 777));
+        fn drawn<P: Palette<LinearRgb>>(
+            flat: impl crate::plane::Field<Value = LinearRgb>,
+            palette: P,
+        ) -> [u64; 2] {
+            let picture = Picture::<_, _, Rgb565>::new(flat, palette);
+            let hash = |sum: u64, color: Rgb565| {
+                sum * 31 % 1_000_003
+                    + u64::from(color.r())
+                    + u64::from(color.g()) * 64
+                    + u64::from(color.b()) * 4096
+            };
+            let row = picture.colors(5, 0..16).unwrap().fold(0, hash);
+            let mut strided = 0;
+            for x in 0..16 {
+                strided = hash(strided, picture.colors(5, 0..16).unwrap().nth(x).unwrap());
+            }
+            [row, strided]
+        }
+        let by_value = drawn(flat, Srgb);
+        assert_eq!(by_value[0], by_value[1]);
+        let choice: &dyn Palette<LinearRgb> = &Srgb;
+        assert_eq!([drawn(flat, Dithered(&Srgb)), drawn(flat, choice)], [by_value; 2]);
+        assert_ne!(drawn(flat, |value: LinearRgb| Srgb.rgb(value)), by_value);
     }
 
     #[test]

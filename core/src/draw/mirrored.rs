@@ -15,7 +15,7 @@ use embedded_graphics_core::pixelcolor::Rgb888;
 use embedded_graphics_core::primitives::Rectangle;
 
 use super::image::Picture;
-use super::ink::Ink;
+use super::ink::{Ink, inked};
 use super::palette::Palette;
 use crate::Error;
 use crate::draw::clip::visible;
@@ -93,10 +93,11 @@ impl<F: Symmetric, P: Palette<F::Value>, C: Ink> Mirrored<'_, F, P, C> {
             *slot = self.picture.palette().rgb(value);
         }
         let shown = row.get(..x.len()).unwrap_or_default();
+        let palette = self.picture.palette();
         let fill = |target: &mut D, y: u32| {
             let corner = Point::new(x.start as i32, y as i32);
             let at = |i: i32| self.picture.dithered_at(Point::new(corner.x.wrapping_add(i), corner.y));
-            let colors = (0_i32..).zip(shown).map(|(i, rgb)| C::ink(*rgb, at(i)));
+            let colors = (0_i32..).zip(shown).map(|(i, rgb)| inked(palette.is_dithered(), *rgb, at(i)));
             let corner = Point::new(corner.x.wrapping_sub(origin.x), corner.y.wrapping_sub(origin.y));
             target.fill_contiguous(&Rectangle::new(corner, Size::new(x.end - x.start, 1)), colors)
         };

@@ -12,7 +12,8 @@
 //!
 //! Colour has two halves. A [`Palette`] turns a value into a display-independent colour, [`Ink`] turns that
 //! colour into what one display can show at one position: the nearest colour, or ordered dithering where
-//! there are few levels. Both are open: a closure is a palette, and a colour type of your own becomes usable
+//! there are few levels; a palette may ask for dithering everywhere ([`Dithered`]), and that of pictures in
+//! colour, [`Srgb`], does. Both are open: a closure is a palette, and a colour type of your own becomes usable
 //! with one `impl Ink`.
 //!
 //! ```
@@ -49,6 +50,7 @@ mod by_reference;
 mod clip;
 mod cursor;
 mod cycle;
+mod dither;
 mod equalised;
 mod gradient;
 pub mod gradients;
@@ -63,6 +65,7 @@ mod palette;
 mod path;
 mod points;
 mod rows;
+mod srgb;
 #[cfg(test)]
 mod testing;
 #[cfg(any(test, feature = "embedded-graphics"))]
@@ -70,6 +73,7 @@ mod transform;
 
 pub use cursor::RowCursor;
 pub use cycle::{Cycled, Ramp};
+pub use dither::Dithered;
 pub use equalised::Equalised;
 pub use gradient::Gradient;
 pub use image::Picture;
@@ -82,3 +86,4 @@ pub use palette::{Brightened, CourseUnit, Grey, Inside, Palette, hex};
 pub use path::Stroke;
 pub use points::{ColoredDots, Dots};
 pub use rows::Strips;
+pub use srgb::Srgb;

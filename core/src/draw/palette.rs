@@ -34,6 +34,14 @@ use super::level::{Level, Leveled};
 pub trait Palette<V> {
     /// The colour of `value`.
     fn rgb(&self, value: V) -> Rgb888;
+
+    /// Whether displays show it by [`Ink::dithered_ink`](crate::draw::Ink::dithered_ink), true to its light,
+    /// instead of [`Ink::ink`](crate::draw::Ink::ink). [`Srgb`](crate::draw::Srgb) asks for it, and
+    /// [`Dithered`](crate::draw::Dithered) for any other palette.
+    #[inline]
+    fn is_dithered(&self) -> bool {
+        false
+    }
 }
 
 impl<V, F: Fn(V) -> Rgb888> Palette<V> for F {
@@ -47,6 +55,11 @@ impl<V> Palette<V> for &dyn Palette<V> {
     #[inline]
     fn rgb(&self, value: V) -> Rgb888 {
         (**self).rgb(value)
+    }
+
+    #[inline]
+    fn is_dithered(&self) -> bool {
+        (**self).is_dithered()
     }
 }
 

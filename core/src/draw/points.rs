@@ -8,7 +8,7 @@ use embedded_graphics_core::pixelcolor::PixelColor;
 use embedded_graphics_core::primitives::Rectangle;
 use embedded_graphics_core::{Drawable, Pixel};
 
-use super::ink::Ink;
+use super::ink::{Ink, shown};
 use super::palette::Palette;
 use crate::plane::{Point2, Window};
 
@@ -195,7 +195,7 @@ impl<V, I: Iterator<Item = (Point2, V)>, P: Palette<V>, C: Ink> ColoredDots<I, P
 fn dithered<V, P: Palette<V>, C: Ink>(palette: &P, origin: Point) -> impl Fn(Point, V) -> C {
     move |at, value| {
         let at = Point::new(at.x.wrapping_sub(origin.x), at.y.wrapping_sub(origin.y));
-        C::ink(palette.rgb(value), at)
+        shown(palette, value, at)
     }
 }
 

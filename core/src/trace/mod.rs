@@ -10,6 +10,7 @@
 
 mod boxes;
 mod camera;
+mod choice;
 mod environment;
 #[cfg(test)]
 mod exact;

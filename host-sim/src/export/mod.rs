@@ -80,6 +80,7 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::Mandelbrot(scene) => escape::mandelbrot(scene, &mut module),
         Kind::Julia(scene) => escape::julia(scene, &mut module),
         Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
+        Kind::World(_) => {}
     }
     module
         .finished(&format!("//! {title}.\n//!\n//! Written by `attractor export{} {name}`.\n", flag(gallery)))

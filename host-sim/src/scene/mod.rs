@@ -28,6 +28,7 @@ mod request;
 mod standpoint;
 mod system;
 mod trail;
+pub(crate) mod world;
 
 use std::convert::Infallible;
 use std::io::Write;
@@ -89,10 +90,11 @@ pub(crate) enum Kind {
     Mandelbrot(mandelbrot::MandelbrotScene),
     Julia(julia::JuliaScene),
     JuliaSet(julia_set::JuliaSetScene),
+    World(Box<world::WorldScene>),
 }
 
 /// What the key `kind` may say.
-const KINDS: [&str; 10] = [
+const KINDS: [&str; 11] = [
     "fif-curve",
     "fif-surface",
     "curve",
@@ -103,6 +105,7 @@ const KINDS: [&str; 10] = [
     "mandelbrot",
     "julia",
     "julia-set",
+    "world",
 ];
 
 /// The only key that is read before the kind is known.
@@ -149,6 +152,7 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "mandelbrot" => Kind::Mandelbrot(mandelbrot::MandelbrotScene::load(source)?),
         "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
         "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
+        "world" => Kind::World(Box::new(world::WorldScene::load(source)?)),
         _ => {
             let reason = format!("allowed is {}", KINDS.join(", "));
             return Err(source.fail(named.span(), "kind", reason));
@@ -172,6 +176,7 @@ impl Scene {
             Kind::Mandelbrot(_) => "mandelbrot",
             Kind::Julia(_) => "julia",
             Kind::JuliaSet(_) => "julia-set",
+            Kind::World(_) => "world",
         }
     }
 
@@ -191,6 +196,9 @@ impl Scene {
             Kind::FifSurface(_) => {
                 return Err(Fail::new("a surface is not measured, only its profiles as fif-curve"));
             }
+            Kind::World(_) => {
+                return Err(Fail::new("a world is not measured"));
+            }
             Kind::LSystem(_) => {
                 let reason = "an L-system tends to no one set: its picture grows with the order; write it as a curve, a copier or an ifs";
                 return Err(Fail::new(reason));
@@ -209,6 +217,7 @@ impl Scene {
             Kind::Mandelbrot(scene) => return scene.go(size, motion),
             Kind::Julia(scene) => return scene.go(size, motion),
             Kind::FifSurface(scene) => return scene.go(size, motion),
+            Kind::World(scene) => return scene.go(size, motion),
             _ => "this kind of scene shows all there is",
         };
         Err(Fail::new(format_args!("{}: {reason}", self.name)))
@@ -227,6 +236,7 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.place(size).ok(),
             Kind::Julia(scene) => scene.place(size).ok(),
             Kind::FifSurface(scene) => scene.place(),
+            Kind::World(scene) => scene.place(),
             _ => None,
         }
     }
@@ -248,6 +258,7 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.draw(request, target, watch),
             Kind::Julia(scene) => scene.draw(request, target, watch),
             Kind::JuliaSet(scene) => scene.draw(request, target, watch),
+            Kind::World(scene) => scene.draw(request, target, watch),
         }
     }
 
@@ -264,6 +275,7 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.sample(request, out),
             Kind::Julia(scene) => scene.sample(request, out),
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
+            Kind::World(scene) => scene.sample(request, out),
         }
     }
 }

@@ -1,0 +1,81 @@
+//! The lights of a world: `towards` for one that is infinitely far away, or `at` for one that stands at a
+//! place.
+
+use attractor::num::{Rgb, Vec3};
+use attractor::trace::world::Lamp;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::super::standpoint::vector;
+use super::color::{Color, light};
+use crate::fail::Fail;
+use crate::source::{Num, Source};
+
+/// How many times as bright as white a light may be.
+const BRIGHTEST: u16 = 64;
+
+/// A table `[[light]]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Shining {
+    towards: Option<Spanned<[Num; 3]>>,
+    at: Option<Spanned<[Num; 3]>>,
+    color: Option<Spanned<Color>>,
+}
+
+/// Where a lamp is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Stand {
+    Towards(Vec3),
+    At(Vec3),
+}
+
+/// A lamp in numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Light {
+    pub(crate) stand: Stand,
+    pub(crate) color: Rgb,
+}
+
+impl Light {
+    pub(super) fn load(
+        source: &Source,
+        given: &Spanned<Shining>,
+        index: usize,
+        eye: Vec3,
+    ) -> Result<Self, Fail> {
+        let key = |name: &str| format!("light[{index}].{name}");
+        let table = given.get_ref();
+        let color = match &table.color {
+            Some(color) => light(source, color, &key("color"), BRIGHTEST)?,
+            None => Rgb::WHITE,
+        };
+        let stand = match (&table.towards, &table.at) {
+            (Some(towards), None) => Stand::Towards(vector(source, towards, &key("towards"))?),
+            (None, Some(at)) => Stand::At(vector(source, at, &key("at"))?),
+            _ => {
+                let reason = "a light has either towards, a direction, or at, a place";
+                return Err(source.fail(given.span(), &format!("light[{index}]"), reason));
+            }
+        };
+        if let (Stand::At(place), Some(at)) = (stand, &table.at)
+            && place == eye
+        {
+            return Err(source.fail(at.span(), &key("at"), "the camera stands there"));
+        }
+        let light = Self { stand, color };
+        // the kernel says which directions it takes
+        light.lamp().map_err(|error| {
+            source.fail(table.towards.as_ref().map_or(given.span(), Spanned::span), &key("towards"), error)
+        })?;
+        Ok(light)
+    }
+
+    /// As core has it.
+    pub(crate) fn lamp(&self) -> Result<Lamp, attractor::Error> {
+        match self.stand {
+            Stand::Towards(towards) => Lamp::distant(towards, self.color),
+            Stand::At(at) => Ok(Lamp::point(at, self.color)),
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! A world ready to be drawn.
+
+use std::convert::Infallible;
+use std::io::Write;
+
+use attractor::draw::Srgb;
+use attractor::num::Rgb;
+use attractor::plane::Field as _;
+use attractor::trace::material::{Highlight, Mixture};
+use attractor::trace::world::{Leaf, Object, World, WorldCaster};
+use attractor::trace::{Extent, Sampling};
+use attractor_gallery::{Watch, draw_field};
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::Size;
+
+use super::super::motion::Motion;
+use super::super::orbit::Orbit;
+use super::super::request::Request;
+use super::figure::{Figure, Solid};
+use super::file::{DEEPEST, Description, Policy};
+use super::material::{Matter, Pigment};
+use super::object::each;
+use super::surroundings::{Around, Sky};
+use crate::color::Depth;
+use crate::fail::Fail;
+use crate::source::Source;
+
+/// Room for crossings of a ray, 64 leaves of four each.
+const EVENTS: usize = 256;
+/// Room for rays that wait.
+const RAYS: usize = DEEPEST as usize + 2;
+
+/// What colours a thing.
+pub(crate) type Stuff = Mixture<Rgb, Highlight>;
+
+/// The picture of a world on the host.
+pub(crate) type Caster<'a> = WorldCaster<'a, Solid, Stuff, Sky, EVENTS, RAYS>;
+
+/// A world, and where it is seen from.
+#[derive(Debug)]
+pub(crate) struct WorldScene {
+    pub(crate) world: Description,
+    /// Shapes of the parts.
+    pub(crate) figures: Vec<Figure>,
+    /// Of each part the numbers of its materials.
+    pub(crate) made_of: Vec<Vec<u8>>,
+    file: Source,
+}
+
+impl WorldScene {
+    pub(in crate::scene) fn load(source: &Source) -> Result<Self, Fail> {
+        let mut world = Description::load(source)?;
+        let (mut figures, mut made_of) = (Vec::new(), Vec::new());
+        for part in &world.programs.parts {
+            let thing = &world.things[part.thing];
+            let prefix = thing.prefix(part.thing);
+            let figure = Figure::load(source, thing, &prefix)?;
+            figure.placed(&part.steps).map_err(|error| {
+                let span = thing.placement().span(&prefix);
+                let (span, key) = span.unwrap_or_else(|| (thing.shape.span(), format!("{prefix}shape")));
+                source.fail(span, &key, error)
+            })?;
+            figures.push(figure);
+            made_of.push(materials_of(source, &mut world.materials, &world.things, part.made_of)?);
+        }
+        let scene = Self { world, figures, made_of, file: source.clone() };
+        scene.with_world(|_| Ok(()))?;
+        Ok(scene)
+    }
+
+    /// Builds the world and lends it.
+    pub(crate) fn with_world<T>(
+        &self,
+        use_it: impl FnOnce(World<'_, Solid, Stuff>) -> Result<T, Fail>,
+    ) -> Result<T, Fail> {
+        let fail = |error: attractor::Error| self.file.fail_all("object", error);
+        let mut leaves = Vec::new();
+        for ((figure, part), materials) in
+            self.figures.iter().zip(&self.world.programs.parts).zip(&self.made_of)
+        {
+            leaves.push(Leaf { surface: figure.placed(&part.steps).map_err(fail)?, materials });
+        }
+        let mut boxes: Vec<Vec<Extent>> = Vec::new();
+        for object in &self.world.programs.objects {
+            boxes.push(vec![Extent::NOTHING; Object::extents(object.ops.len())]);
+        }
+        let mut objects = Vec::new();
+        for (object, memory) in self.world.programs.objects.iter().zip(&mut boxes) {
+            let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);
+            objects.push(Object::new(&object.ops, surface, memory).map_err(|error| {
+                let thing = &self.world.things[object.thing];
+                let of = thing.of.as_ref().map_or(thing.shape.span(), toml::Spanned::span);
+                self.file.fail(of, &format!("{}of", thing.prefix(object.thing)), error)
+            })?);
+        }
+        let materials = self.world.materials.iter().map(Self::stuff);
+        let materials: Vec<Stuff> = materials.collect::<Result<_, _>>().map_err(fail)?;
+        let lamps = self.world.lights.iter().map(|light| light.lamp());
+        let lamps = lamps.collect::<Result<Vec<_>, _>>().map_err(fail)?;
+        use_it(World::new(&leaves, &objects, &materials).map_err(fail)?.with_lamps(&lamps))
+    }
+
+    fn stuff(matter: &Matter) -> Result<Stuff, attractor::Error> {
+        let pigment = match matter.pigment {
+            Pigment::Color(color) => color,
+            Pigment::Texture(_) => Rgb::WHITE,
+        };
+        matter.mixture(pigment)
+    }
+
+    /// The picture on a display of this size.
+    pub(crate) fn with_caster<T>(
+        &self,
+        request: &Request,
+        use_it: impl FnOnce(&Caster<'_>) -> Result<T, Fail>,
+    ) -> Result<T, Fail> {
+        let seed = self.world.seed.unwrap_or(request.seed as u32);
+        let sampling = match self.world.samples {
+            1 => Sampling::Centre,
+            n => Sampling::Jittered { n, seed },
+        };
+        self.with_world(|world| {
+            let caster = Caster::new(world, self.world.around.sky(), self.world.camera, request.size)
+                .and_then(|caster| caster.with_sampling(sampling, self.world.filter))
+                .and_then(|caster| caster.with_depth(self.world.depth))
+                .map_err(|error| self.world.eye.fail_at(request.size, error))?;
+            self.check(&caster)?;
+            use_it(&caster)
+        })
+    }
+
+    /// Refuses transparent things that share a place, where the file does not allow it.
+    fn check(&self, caster: &Caster<'_>) -> Result<(), Fail> {
+        let media = |matter: &Matter| matter.medium.map(|medium| medium.priority);
+        let priorities: Vec<u8> = self.world.materials.iter().filter_map(media).collect();
+        if self.world.policy == Policy::Priority || priorities.is_empty() {
+            return Ok(());
+        }
+        let Some(shared) = caster.interpenetration() else { return Ok(()) };
+        let name = |object: u8| {
+            let thing = self.world.programs.objects[usize::from(object)].thing;
+            self.world.things[thing].prefix(thing).trim_end_matches('.').to_owned()
+        };
+        let [one, other] = shared.objects.map(name);
+        let [x, y, z] = [shared.place.x, shared.place.y, shared.place.z].map(|c| format!("{c:.3}"));
+        let reason = format!(
+            "both are transparent and share the place ({x}, {y}, {z}): give their materials priorities, or say \
+             interpenetration = \"priority\""
+        );
+        Err(self.file.fail_all(&format!("{one} and {other}"), reason))
+    }
+
+    /// Moves the camera round what it looks at; the message says why not.
+    pub(in crate::scene) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        let Some(orbit) = &self.world.orbit else {
+            return Err(Fail::new("the camera moves about only where z is up"));
+        };
+        let orbit = orbit.after(motion, size);
+        self.world.camera = orbit.camera()?;
+        self.world.orbit = Some(orbit);
+        Ok(())
+    }
+
+    /// Where the viewer stands, as lines of a scene file.
+    pub(in crate::scene) fn place(&self) -> Option<String> {
+        self.world.orbit.as_ref().map(Orbit::place)
+    }
+
+    pub(in crate::scene) fn draw<D>(
+        &self,
+        request: &Request,
+        target: &mut D,
+        watch: Watch<'_, D>,
+    ) -> Result<(), Fail>
+    where
+        D: DrawTarget<Error = Infallible>,
+        D::Color: Depth,
+    {
+        self.with_caster(request, |caster| {
+            draw_field(caster, Srgb, target, watch);
+            Ok(())
+        })
+    }
+
+    /// The light of every pixel.
+    pub(in crate::scene) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+        self.with_caster(request, |caster| {
+            writeln!(out, "i,j,r,g,b")?;
+            for j in 0..request.size.height {
+                for (i, light) in caster.row(j, 0..request.size.width).enumerate() {
+                    let part = |part: u16| f64::from(part) / 65535.0;
+                    writeln!(out, "{i},{j},{:?},{:?},{:?}", part(light.r), part(light.g), part(light.b))?;
+                }
+            }
+            Ok(())
+        })
+    }
+}
+
+/// The numbers of the materials that a table names; where there is none, that of plain white, which is added.
+fn materials_of(
+    source: &Source,
+    materials: &mut Vec<Matter>,
+    things: &[super::object::Thing],
+    made_of: Option<usize>,
+) -> Result<Vec<u8>, Fail> {
+    let mut numbers = Vec::new();
+    let named = made_of.and_then(|thing| Some((thing, things[thing].material.as_ref()?)));
+    let key = made_of.map(|thing| format!("{}material", things[thing].prefix(thing))).unwrap_or_default();
+    for name in named.map(|(_, names)| each(names)).unwrap_or_default() {
+        match materials.iter().position(|matter| matter.name == *name.get_ref()) {
+            Some(number) => numbers.push(number as u8),
+            None => return Err(source.fail(name.span(), &key, "there is no material of this name")),
+        }
+    }
+    if numbers.is_empty() {
+        if let Some((_, names)) = named {
+            return Err(source.fail(names.span(), &key, "the list is empty"));
+        }
+        let plain = materials.iter().position(|matter| matter.name.is_empty());
+        numbers.push(plain.unwrap_or(materials.len()) as u8);
+        if plain.is_none() {
+            materials.push(Matter::plain());
+        }
+    }
+    Ok(numbers)
+}
