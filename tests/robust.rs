@@ -18,6 +18,7 @@ mod julia;
 mod numbers;
 mod systems;
 mod trace;
+mod worlds;
 
 use std::cell::Cell as Counter;
 use std::convert::Infallible;

@@ -7,7 +7,7 @@ use core::hint::black_box as bb;
 use attractor::draw::{Picture, gradients};
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
 use attractor::num::{Real, Scaling, Vec3, Wide};
-use attractor::trace::{Camera, HeightField, Finish, RayCaster};
+use attractor::trace::{Camera, Finish, HeightField, RayCaster};
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::Rgb565;

@@ -18,7 +18,7 @@ use attractor::num::Complex;
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
 use attractor::plane::{Bounds2, Field, Point2, Window, from_fn};
 use attractor::trace::{
-    Camera, Environment, Filter, HeightField, Light, Finish, Ray, RayCaster, Sampling, Statistics,
+    Camera, Environment, Filter, Finish, HeightField, Light, Ray, RayCaster, Sampling, Statistics,
 };
 use attractor::{Error, draw};
 use attractor_cortex_m::{Wire, entry, semihosting};

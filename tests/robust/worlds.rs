@@ -1,0 +1,238 @@
+//! Worlds of any shapes under any maps, of any materials, in any light, from anywhere.
+
+use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
+use attractor::plane::{Field, LinearRgb};
+use attractor::trace::material::{
+    Anisotropic, Highlight, Lit, Material, Medium, Mixture, Phong, Specular, TorranceSparrow, View,
+};
+use attractor::trace::solid::{Placed, Plane, Sphere};
+use attractor::trace::world::{Difference, Intersection, Lamp, Leaf, Object, Op, Union, World, WorldCaster};
+use attractor::trace::{Camera, Chart, Environment, Extent, Filter, Ray, Sampling, Surface, SurfacePoint};
+use embedded_graphics::geometry::Size;
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+use super::{fuzz, inside, real, unit, vector, word};
+
+fn lumen() -> impl Strategy<Value = Lumen> {
+    let ends = prop_oneof![Just(0), Just(1), Just(1 << 16), Just(u32::MAX)];
+    prop_oneof![2 => 0..=1_u32 << 16, 1 => any::<u32>(), 1 => ends].prop_map(Lumen::from_bits)
+}
+
+fn rgb() -> impl Strategy<Value = Rgb> {
+    (lumen(), lumen(), lumen()).prop_map(|(r, g, b)| Rgb::new(r, g, b))
+}
+
+#[test]
+fn light_of_any_brightness() {
+    fuzz((rgb(), rgb(), unit(), lumen()), 100, |(a, b, part, grey)| {
+        let (sum, product) = (a.plus(b), a.through(b));
+        assert!(sum.r >= a.r && sum.brightest() >= b.brightest().max(a.brightest()));
+        assert!(product.brightest() >= product.b);
+        let mixed = a.mixed(b, part);
+        let (least, most) = (a.g.min(b.g), a.g.max(b.g));
+        // two products, each to the nearest
+        assert!(
+            mixed.g.saturating_add(Lumen::DELTA) >= least && mixed.g <= most.saturating_add(Lumen::DELTA)
+        );
+        assert!(a.scaled(part).r <= a.r.saturating_add(a.r).saturating_add(Lumen::DELTA));
+        assert_eq!(Rgb::grey(grey).brightest(), grey);
+        assert!(Rgb::from_tone(part).r <= Lumen::ONE);
+        let pixel = LinearRgb::from(a);
+        assert_eq!(pixel, LinearRgb::new(pixel.r, pixel.g, pixel.b));
+        true
+    });
+}
+
+/// A map of space: turned, scaled, moved, or of any entries.
+fn map() -> impl Strategy<Value = Affine3> {
+    let scale = || prop_oneof![4 => (1 << 21..=4 << 24).prop_map(Real::from_bits), 1 => real()];
+    let ordinary = (vector(inside(6)), vector(real()), any::<u32>(), scale(), scale(), scale());
+    let entry = || any::<i64>().prop_map(|bits| Wide::from_bits(bits >> 12));
+    let row = || (entry(), entry(), entry()).prop_map(|(x, y, z)| Vec3::new(x, y, z));
+    prop_oneof![
+        6 => ordinary.prop_map(|(to, axis, angle, x, y, z)| {
+            let turned = Affine3::rotate(axis, Angle::from_bits(angle)).unwrap_or(Affine3::IDENTITY);
+            Affine3::scale(Vec3::new(x, y, z)).then(&turned).then(&Affine3::translate(to))
+        }),
+        1 => (row(), row(), row(), row()).prop_map(|(a, b, c, to)| Affine3::matrix([a, b, c], to)),
+    ]
+}
+
+attractor::surfaces! {
+    /// A closed surface under a map.
+    #[derive(Debug, Clone, Copy)]
+    enum Solid {
+        Sphere(Placed<Sphere>),
+        Plane(Placed<Plane>),
+    }
+}
+
+fn solid() -> impl Strategy<Value = Option<Solid>> {
+    (map(), any::<u8>()).prop_map(|(map, kind)| {
+        Some(if kind % 4 > 0 {
+            Solid::Sphere(Placed::new(Sphere, &map).ok()?)
+        } else {
+            Solid::Plane(Placed::new(Plane, &map).ok()?)
+        })
+    })
+}
+
+fn highlight() -> impl Strategy<Value = Highlight> {
+    (0..4_u8, unit(), unit(), any::<u16>()).prop_map(|(kind, a, b, shininess)| match kind {
+        0 => Highlight::None,
+        1 => Highlight::Phong(Phong { shininess }),
+        2 => TorranceSparrow::new(a, b).map_or(Highlight::None, Highlight::TorranceSparrow),
+        _ => Anisotropic::new(a, b).map_or(Highlight::None, Highlight::Anisotropic),
+    })
+}
+
+fn material() -> impl Strategy<Value = Mixture<Rgb, Highlight>> {
+    let medium =
+        (prop_oneof![(1 << 21..=10 << 24).prop_map(Real::from_bits), real()], 0..3_u8, any::<bool>());
+    (rgb(), (unit(), unit()), (rgb(), highlight()), rgb(), proptest::option::of((medium, rgb()))).prop_map(
+        |(pigment, (ambient, diffuse), (color, highlight), reflect, medium)| {
+            let matt = Mixture::matt(pigment);
+            let matt = matt.with_parts(ambient, diffuse).unwrap_or(matt);
+            let opaque = matt.with_highlight(color, highlight).with_reflection(reflect);
+            match medium {
+                Some(((index, priority, fresnel), transmit)) => {
+                    opaque.with_medium(Medium { index, priority, fresnel }, transmit).unwrap_or(opaque)
+                }
+                None => opaque,
+            }
+        },
+    )
+}
+
+/// Any material answers any light at any point.
+#[test]
+fn materials_at_any_point() {
+    let direction = || vector(real());
+    let place = (vector(real()), direction(), direction(), direction(), real());
+    let lights = vec((direction(), rgb()), 0..4);
+    fuzz((material(), place, lights), 60, |(material, (position, normal, view, along_u, u), lights)| {
+        let (Some(normal), Some(view)) = (normal.normalised(), view.normalised()) else { return false };
+        let chart = Chart { u, v: u, along_u, along_v: along_u };
+        let point = SurfacePoint { position, place: position, normal, chart, face: 0, width: u };
+        let lit: Vec<Lit> = lights
+            .iter()
+            .filter_map(|(towards, light)| Some(Lit { towards: towards.normalised()?, light: *light }))
+            .collect();
+        for lit in &lit {
+            let view = View { normal, direction: view, tangent: normal };
+            let _ = Highlight::Phong(Phong { shininess: 7 }).part(&view, lit.towards);
+        }
+        let response = material.respond(&point, view, lit.into_iter());
+        assert_eq!(response.refracted, material.passes());
+        assert_eq!(material.normal(&point), normal);
+        material.is_charted() || material.medium().is_none() || response.reflected.brightest() >= Lumen::ZERO
+    });
+}
+
+/// A program over the first `leaves` leaves: operations as the numbers say.
+fn program(leaves: usize, numbers: &[u8]) -> Vec<Op> {
+    let operation = |n: u8| [Op::Union, Op::Intersection, Op::Difference][usize::from(n % 3)];
+    let mut ops = Vec::new();
+    for leaf in 0..leaves {
+        ops.push(Op::Leaf(leaf as u8));
+        if leaf > 0 {
+            ops.push(operation(numbers.get(leaf).copied().unwrap_or(0)));
+        }
+    }
+    ops
+}
+
+/// Pictures of any world: no panic, no overflow; every ray ends within the bounces that it may have.
+#[test]
+fn worlds_from_any_eye() {
+    let things = vec((solid(), material()), 1..6);
+    let lamps = vec((vector(real()), rgb(), any::<bool>()), 0..3);
+    let view = (vector(inside(20)), vector(inside(3)), (20 << 24..=70 << 24).prop_map(Real::from_bits));
+    fuzz(
+        (things, lamps, view, vec(any::<u8>(), 6), 0..=5_u8),
+        50,
+        |(things, lamps, view, numbers, depth)| {
+            let things: Vec<(Solid, _)> =
+                things.into_iter().filter_map(|(solid, material)| Some((solid?, material))).collect();
+            if things.is_empty() {
+                return false;
+            }
+            let lamps: Vec<Lamp> =
+                lamps
+                    .into_iter()
+                    .filter_map(|(at, light, near)| {
+                        if near { Some(Lamp::point(at, light)) } else { Lamp::distant(at, light).ok() }
+                    })
+                    .collect();
+            let (surfaces, materials): (Vec<Solid>, Vec<_>) = things.into_iter().unzip();
+            let of: Vec<u8> = (0..surfaces.len() as u8).collect();
+            let leaves: Vec<Leaf<'_, Solid>> = surfaces
+                .iter()
+                .zip(of.chunks(1))
+                .map(|(surface, materials)| Leaf { surface: *surface, materials })
+                .collect();
+            // all in one compound, or each for itself
+            let ops: Vec<Vec<Op>> = if numbers[0] & 1 == 0 {
+                vec![program(leaves.len(), &numbers)]
+            } else {
+                of.iter().map(|leaf| vec![Op::Leaf(*leaf)]).collect()
+            };
+            let mut memory: Vec<Vec<Extent>> =
+                ops.iter().map(|ops| vec![Extent::NOTHING; Object::extents(ops.len())]).collect();
+            let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);
+            let objects: Result<Vec<Object<'_>>, _> =
+                ops.iter().zip(&mut memory).map(|(ops, memory)| Object::new(ops, surface, memory)).collect();
+            let objects = objects.expect("a program of closed leaves");
+            for object in &objects {
+                let _ = object.extent();
+            }
+            let world =
+                World::new(&leaves, &objects, &materials).expect("a world that fits").with_lamps(&lamps);
+            assert_eq!(
+                world.most_crossings(),
+                leaves.iter().map(|l| l.surface.most_crossings()).sum::<u32>()
+            );
+            let (eye, look_at, degrees) = view;
+            let Ok(camera) = Camera::new(eye, look_at, Vec3::Z, degrees) else { return false };
+            let size = Size::new(5, 4);
+            let caster = WorldCaster::<_, _, _>::new(world, Environment::CHECKERBOARD, camera, size);
+            let caster =
+                caster.expect("room for five leaves").with_depth(depth).expect("a depth of at most five");
+            let _ = caster.interpenetration();
+            let jittered = Sampling::Jittered { n: 2, seed: depth.into() };
+            let caster = caster.with_sampling(jittered, Filter::Box).expect("four samples");
+            for y in 0..size.height {
+                let row: Vec<LinearRgb> = caster.row(y, 0..size.width).collect();
+                assert_eq!(row[2], caster.at(2, y));
+            }
+            // the same as types
+            if let [a, b, ..] = surfaces.as_slice() {
+                let ray = Ray::new(eye, look_at.minus(eye));
+                assert_eq!(ray.at(Real::ZERO), ray.origin());
+                assert!(ray.direction().x.abs() <= Near::from_num(4));
+                let (mut inside, mut count) = (None, 0);
+                Union(Difference(*a, *b), Intersection(*a, *b)).cross(&ray, Unit::DELTA, &mut |crossing| {
+                    assert!(inside != Some(crossing.enters), "entries and exits alternate");
+                    inside = Some(crossing.enters);
+                    count += 1;
+                    core::ops::ControlFlow::Continue(())
+                });
+                assert!(count <= 8);
+                let both = a.extent().hull(b.extent());
+                assert_eq!(
+                    both.overlap(a.extent()),
+                    if a.extent().is_empty() { Extent::NOTHING } else { a.extent() }
+                );
+            }
+            true
+        },
+    );
+}
+
+#[test]
+fn ready_made_materials() {
+    assert!(Mixture::mirror().medium().is_none());
+    assert_eq!(Mixture::glass(Real::from_num(1.5)).unwrap().passes(), Rgb::WHITE);
+    fuzz(word(), 1, |bits| Mixture::glass(Real::from_bits(bits)).is_ok());
+}
