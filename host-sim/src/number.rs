@@ -52,9 +52,8 @@ pub(crate) fn nearest<F: Fixed + FromStr>(digits: &str) -> Result<F, String> {
     }
     match digits.parse::<f64>() {
         Ok(value) if value.is_finite() => {
-            // a power of two on both sides
-            let limit = format!("{:.0}", F::MIN);
-            let above = limit.trim_start_matches('-');
+            // a power of two on both sides, 0 below where there is no sign
+            let (limit, above) = (format!("{:.0}", F::MIN), format!("{:.0}", F::MAX));
             Err(format!("is outside the format, allowed is from {limit} to just below {above}"))
         }
         _ => Err("is not a finite decimal number".to_owned()),

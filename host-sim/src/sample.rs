@@ -4,7 +4,7 @@ use std::io::{BufWriter, Write as _};
 
 use crate::cli::Sample;
 use crate::fail::Fail;
-use crate::scene::{self, Request};
+use crate::scene::{self, Question, Request};
 
 /// The seed of the points that are listed.
 const SEED: u64 = 1;
@@ -14,7 +14,14 @@ pub(crate) fn run(args: &Sample) -> Result<(), Fail> {
     let scene = scene::load(&args.scene)?;
     let mut out = BufWriter::new(std::io::stdout().lock());
     let request = Request { size: args.size, seed: SEED };
-    scene.sample(&request, args.points, &mut out)?;
+    let question = match (&args.rays, &args.along, &args.at) {
+        (Some(file), ..) => Question::Rays(file),
+        (_, Some(ray), _) => Question::Along(ray),
+        (.., Some(file)) => Question::Places(file),
+        _ if args.pixels => Question::Pixels,
+        _ => Question::Usual,
+    };
+    scene.sample(&request, question, args.points, &mut out)?;
     out.flush()?;
     Ok(())
 }

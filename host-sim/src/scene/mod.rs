@@ -52,7 +52,7 @@ pub(crate) use graph::Graph;
 pub(crate) use halving::Chords;
 pub(crate) use law::Law;
 pub(crate) use motion::Motion;
-pub(crate) use request::Request;
+pub(crate) use request::{Question, Request};
 pub(crate) use trail::Trail;
 
 /// What can be measured of a scene.
@@ -263,7 +263,23 @@ impl Scene {
     }
 
     /// Writes the numbers as CSV.
-    pub(crate) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(crate) fn sample(
+        &self,
+        request: &Request,
+        question: Question<'_>,
+        points: u32,
+        out: &mut dyn Write,
+    ) -> Result<(), Fail> {
+        match (&self.kind, question) {
+            (Kind::World(scene), _) => return scene.sample(request, question, points, out),
+            (_, Question::Usual) => {}
+            _ => {
+                let (name, kind) = (&self.name, self.kind());
+                let reason =
+                    format_args!("{}: {name} is a {kind}, only a world is asked for that", question.option());
+                return Err(Fail::new(reason));
+            }
+        }
         match &self.kind {
             Kind::FifCurve(scene) => scene.sample(points, out),
             Kind::FifSurface(scene) => scene.sample(points, out),
@@ -275,7 +291,7 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.sample(request, out),
             Kind::Julia(scene) => scene.sample(request, out),
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
-            Kind::World(scene) => scene.sample(request, out),
+            Kind::World(scene) => scene.sample(request, question, points, out),
         }
     }
 }

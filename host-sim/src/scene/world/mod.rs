@@ -5,6 +5,7 @@ mod figure;
 mod file;
 mod lamp;
 mod material;
+mod numbers;
 mod object;
 mod placement;
 mod program;

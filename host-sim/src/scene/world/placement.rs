@@ -1,7 +1,9 @@
 //! Where a thing stands: `scale`, then `rotate`, then `translate`, or the 12 numbers of a `matrix`.
 
 use std::fmt;
+use std::ops::Range;
 
+use attractor::Error;
 use attractor::num::{Angle, Real, Vec3, Wide};
 use serde::de::{Deserialize, Deserializer, SeqAccess, Visitor};
 use toml::Spanned;
@@ -96,14 +98,14 @@ impl Keys<'_> {
         Ok(steps)
     }
 
-    /// What a complaint about the whole placement points at.
-    pub(super) fn span(&self, prefix: &str) -> Option<(std::ops::Range<usize>, String)> {
+    /// What a complaint about the whole placement points at: where the thing is, or how it was made larger.
+    pub(super) fn span(&self, prefix: &str, error: &Error) -> Option<(Range<usize>, String)> {
+        let is_place = matches!(error, Error::OutOfRange { what: "place of a shape", .. });
         let named = |span, name: &str| (span, format!("{prefix}{name}"));
-        self.matrix
-            .map(|matrix| named(matrix.span(), "matrix"))
-            .or(self.scale.map(|scale| named(scale.span(), "scale")))
-            .or(self.translate.map(|translate| named(translate.span(), "translate")))
-            .or(self.rotate.map(|rotate| named(rotate.span(), "rotate")))
+        let translate = self.translate.map(|translate| named(translate.span(), "translate"));
+        let scale = self.scale.map(|scale| named(scale.span(), "scale"));
+        let matrix = self.matrix.map(|matrix| named(matrix.span(), "matrix"));
+        matrix.or(if is_place { translate.or(scale) } else { scale.or(translate) })
     }
 }
 

@@ -15,12 +15,13 @@ use embedded_graphics::geometry::Size;
 
 use super::super::motion::Motion;
 use super::super::orbit::Orbit;
-use super::super::request::Request;
+use super::super::request::{Question, Request};
 use super::figure::{Figure, Solid};
 use super::file::{DEEPEST, Description, Policy};
 use super::material::{Matter, Pigment};
+use super::numbers;
 use super::object::each;
-use super::surroundings::{Around, Sky};
+use super::surroundings::Sky;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::source::Source;
@@ -29,6 +30,9 @@ use crate::source::Source;
 const EVENTS: usize = 256;
 /// Room for rays that wait.
 const RAYS: usize = DEEPEST as usize + 2;
+
+/// The picture whose rays look for glass in glass.
+const PROBES: Size = Size::new(64, 64);
 
 /// What colours a thing.
 pub(crate) type Stuff = Mixture<Rgb, Highlight>;
@@ -56,7 +60,7 @@ impl WorldScene {
             let prefix = thing.prefix(part.thing);
             let figure = Figure::load(source, thing, &prefix)?;
             figure.placed(&part.steps).map_err(|error| {
-                let span = thing.placement().span(&prefix);
+                let span = thing.placement().span(&prefix, &error);
                 let (span, key) = span.unwrap_or_else(|| (thing.shape.span(), format!("{prefix}shape")));
                 source.fail(span, &key, error)
             })?;
@@ -64,7 +68,7 @@ impl WorldScene {
             made_of.push(materials_of(source, &mut world.materials, &world.things, part.made_of)?);
         }
         let scene = Self { world, figures, made_of, file: source.clone() };
-        scene.with_world(|_| Ok(()))?;
+        scene.check()?;
         Ok(scene)
     }
 
@@ -74,12 +78,8 @@ impl WorldScene {
         use_it: impl FnOnce(World<'_, Solid, Stuff>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
         let fail = |error: attractor::Error| self.file.fail_all("object", error);
-        let mut leaves = Vec::new();
-        for ((figure, part), materials) in
-            self.figures.iter().zip(&self.world.programs.parts).zip(&self.made_of)
-        {
-            leaves.push(Leaf { surface: figure.placed(&part.steps).map_err(fail)?, materials });
-        }
+        let surfaces = self.surfaces()?.into_iter().zip(&self.made_of);
+        let leaves: Vec<_> = surfaces.map(|(surface, materials)| Leaf { surface, materials }).collect();
         let mut boxes: Vec<Vec<Extent>> = Vec::new();
         for object in &self.world.programs.objects {
             boxes.push(vec![Extent::NOTHING; Object::extents(object.ops.len())]);
@@ -124,24 +124,24 @@ impl WorldScene {
                 .and_then(|caster| caster.with_sampling(sampling, self.world.filter))
                 .and_then(|caster| caster.with_depth(self.world.depth))
                 .map_err(|error| self.world.eye.fail_at(request.size, error))?;
-            self.check(&caster)?;
             use_it(&caster)
         })
     }
 
-    /// Refuses transparent things that share a place, where the file does not allow it.
-    fn check(&self, caster: &Caster<'_>) -> Result<(), Fail> {
-        let media = |matter: &Matter| matter.medium.map(|medium| medium.priority);
-        let priorities: Vec<u8> = self.world.materials.iter().filter_map(media).collect();
-        if self.world.policy == Policy::Priority || priorities.is_empty() {
-            return Ok(());
+    /// Builds the world once, and refuses transparent things of equal priority that some of the rays of a small
+    /// picture find in one place, where the file does not allow it.
+    fn check(&self) -> Result<(), Fail> {
+        let priorities = self.world.materials.iter().filter_map(|matter| matter.medium);
+        if self.world.policy == Policy::Priority || priorities.count() == 0 {
+            return self.with_world(|_| Ok(()));
         }
-        let Some(shared) = caster.interpenetration() else { return Ok(()) };
-        let name = |object: u8| {
-            let thing = self.world.programs.objects[usize::from(object)].thing;
-            self.world.things[thing].prefix(thing).trim_end_matches('.').to_owned()
-        };
-        let [one, other] = shared.objects.map(name);
+        let shared = self.with_world(|world| {
+            let caster = Caster::new(world, self.world.around.sky(), self.world.camera, PROBES)
+                .map_err(|error| self.world.eye.fail(error))?;
+            Ok(caster.interpenetration())
+        })?;
+        let Some(shared) = shared else { return Ok(()) };
+        let [one, other] = shared.objects.map(|object| self.name(object.into()));
         let [x, y, z] = [shared.place.x, shared.place.y, shared.place.z].map(|c| format!("{c:.3}"));
         let reason = format!(
             "both are transparent and share the place ({x}, {y}, {z}): give their materials priorities, or say \
@@ -182,8 +182,37 @@ impl WorldScene {
         })
     }
 
+    /// What is asked for.
+    pub(in crate::scene) fn sample(
+        &self,
+        request: &Request,
+        question: Question<'_>,
+        points: u32,
+        out: &mut dyn Write,
+    ) -> Result<(), Fail> {
+        match question {
+            Question::Usual | Question::Pixels => self.pixels(request, out),
+            Question::Rays(file) => numbers::crossings(self, file, out),
+            Question::Along(ray) => numbers::along(self, ray, points, out),
+            Question::Places(_) => Err(Fail::new("--at: not yet")),
+        }
+    }
+
+    /// What messages and tables call an object: its name, or its number.
+    pub(crate) fn name(&self, object: usize) -> String {
+        let thing = self.world.programs.objects.get(object).map_or(0, |object| object.thing);
+        self.world.things[thing].prefix(thing).trim_end_matches('.').to_owned()
+    }
+
+    /// The surfaces of all parts.
+    pub(crate) fn surfaces(&self) -> Result<Vec<Solid>, Fail> {
+        let parts = self.figures.iter().zip(&self.world.programs.parts);
+        let placed = parts.map(|(figure, part)| figure.placed(&part.steps));
+        placed.collect::<Result<_, _>>().map_err(|error| self.file.fail_all("object", error))
+    }
+
     /// The light of every pixel.
-    pub(in crate::scene) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+    fn pixels(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
         self.with_caster(request, |caster| {
             writeln!(out, "i,j,r,g,b")?;
             for j in 0..request.size.height {
