@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 use attractor::Error;
 use attractor::num::{Lumen, Real, Rgb, Unit, Vec3, Wide};
 use attractor::plane::{Field, LinearRgb};
-use attractor::trace::material::{Lit, Material, Medium, Mixture, Phong, Response};
+use attractor::trace::material::{Clear, Lit, Material, Medium, Mixture, Phong, Response};
 use attractor::trace::texture::Texture;
 use attractor::trace::world::{Difference, Intersection, Lamp, Leaf, Object, Op, Union, World, WorldCaster};
 use attractor::trace::{
@@ -196,9 +196,9 @@ fn with_world<L: Surface, M: Material, R>(
 const ONE: &[Op] = &[Op::Leaf(0)];
 const TWO: &[Op] = &[Op::Leaf(1)];
 
-fn glass(index: f64, priority: u8) -> Mixture {
+fn glass(index: f64, priority: u8) -> Mixture<Rgb, (), Option<Clear>> {
     let medium = Medium { index: Real::from_num(index), priority, fresnel: true };
-    Mixture::mirror().with_reflection(Rgb::BLACK).with_medium(medium, Rgb::WHITE).unwrap()
+    Mixture::mirror().with_reflection(Rgb::BLACK).with_interior(Clear::new(medium, Rgb::WHITE).ok())
 }
 
 fn greys(picture: &[LinearRgb]) -> (u16, u16) {
@@ -218,14 +218,14 @@ fn a_white_furnace_is_white_for_every_material() {
     let halved = Mixture::matt(half).with_parts(Unit::ONE, Unit::ZERO).unwrap().with_reflection(half);
     let bent = |index| Medium { index: Real::from_num(index), priority: 0, fresnel: false };
     let materials = [
-        unlit,
-        Mixture::mirror(),
-        halved,
+        unlit.with_interior(None),
+        Mixture::mirror().with_interior(None),
+        halved.with_interior(None),
         glass(1.5, 0),
         glass(0.7, 0),
         glass(2.4, 0),
-        Mixture::glass(Real::from_num(10)).unwrap(),
-        Mixture::mirror().with_reflection(half).with_medium(bent(1.5), half).unwrap(),
+        glass(10.0, 0),
+        Mixture::mirror().with_reflection(half).with_interior(Clear::new(bent(1.5), half).ok()),
     ];
     for (k, material) in materials.into_iter().enumerate() {
         for thing in [Thing::Ball([0.0; 3], 1.0), Thing::Box([-1.0, -0.7, -0.6], [0.8, 0.9, 1.0])] {
@@ -410,13 +410,22 @@ fn shadows_follow_the_rule_for_glass() {
     let white = Mixture::matt(Rgb::WHITE).with_parts(Unit::ZERO, Unit::ONE).unwrap();
     let medium = Medium { index: Real::from_num(1.5), priority: 0, fresnel: true };
     let tinted = Rgb::new(Lumen::from_num(0.5), Lumen::ONE, Lumen::ZERO);
-    let stained = Mixture::mirror().with_reflection(Rgb::BLACK).with_medium(medium, tinted).unwrap();
+    let stained =
+        Mixture::mirror().with_reflection(Rgb::BLACK).with_interior(Clear::new(medium, tinted).ok());
     // looks at the floor below the pane, from the side
     let at = camera([0.0, -3.0, 0.6], [0.0, 0.0, 0.0]);
-    let shade =
-        |material| picture(vec![floor, pane], &[ONE, TWO], &[white, material], &lamps, Rgb::BLACK, at);
+    let shade = |material| {
+        picture(
+            vec![floor, pane],
+            &[ONE, TWO],
+            &[white.with_interior(None), material],
+            &lamps,
+            Rgb::BLACK,
+            at,
+        )
+    };
     let middle = (SIZE.width * SIZE.height / 2 + SIZE.width / 2) as usize;
-    let (opaque, clear) = (shade(white)[middle], shade(stained)[middle]);
+    let (opaque, clear) = (shade(white.with_interior(None))[middle], shade(stained)[middle]);
     assert_eq!(opaque, LinearRgb::new(0, 0, 0));
     assert!(clear.r.abs_diff(16384) < 4 && clear.g > 65530 && clear.b == 0, "{clear:?}");
     let alone = picture(vec![floor], &[ONE], &[white], &lamps, Rgb::BLACK, at)[middle];

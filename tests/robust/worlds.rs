@@ -3,7 +3,8 @@
 use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
 use attractor::plane::{Field, LinearRgb};
 use attractor::trace::material::{
-    Anisotropic, Highlight, Lit, Material, Medium, Mixture, Phong, Specular, TorranceSparrow, View,
+    Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Specular,
+    TorranceSparrow, View,
 };
 use attractor::trace::solid::{Placed, Plane, Sphere};
 use attractor::trace::world::{Difference, Intersection, Lamp, Leaf, Object, Op, Union, World, WorldCaster};
@@ -87,7 +88,7 @@ fn highlight() -> impl Strategy<Value = Highlight> {
     })
 }
 
-fn material() -> impl Strategy<Value = Mixture<Rgb, Highlight>> {
+fn material() -> impl Strategy<Value = Mixture<Rgb, Highlight, Option<Clear>>> {
     let medium =
         (prop_oneof![(1 << 21..=10 << 24).prop_map(Real::from_bits), real()], 0..3_u8, any::<bool>());
     (rgb(), (unit(), unit()), (rgb(), highlight()), rgb(), proptest::option::of((medium, rgb()))).prop_map(
@@ -95,12 +96,10 @@ fn material() -> impl Strategy<Value = Mixture<Rgb, Highlight>> {
             let matt = Mixture::matt(pigment);
             let matt = matt.with_parts(ambient, diffuse).unwrap_or(matt);
             let opaque = matt.with_highlight(color, highlight).with_reflection(reflect);
-            match medium {
-                Some(((index, priority, fresnel), transmit)) => {
-                    opaque.with_medium(Medium { index, priority, fresnel }, transmit).unwrap_or(opaque)
-                }
-                None => opaque,
-            }
+            let clear = |((index, priority, fresnel), transmit)| {
+                Clear::new(Medium { index, priority, fresnel }, transmit).ok()
+            };
+            opaque.with_interior(medium.and_then(clear))
         },
     )
 }
@@ -232,7 +231,7 @@ fn worlds_from_any_eye() {
 
 #[test]
 fn ready_made_materials() {
-    assert!(Mixture::mirror().medium().is_none());
+    assert!(Mixture::mirror().medium().is_none() && Interior::medium(&()).is_none());
     assert_eq!(Mixture::glass(Real::from_num(1.5)).unwrap().passes(), Rgb::WHITE);
     fuzz(word(), 1, |bits| Mixture::glass(Real::from_bits(bits)).is_ok());
 }

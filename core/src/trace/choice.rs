@@ -201,7 +201,7 @@ macro_rules! materials {
 #[cfg(test)]
 mod tests {
     use crate::num::{Lumen, Real, Rgb, Unit, Vec3};
-    use crate::trace::material::{Lit, Material, Mixture, Phong};
+    use crate::trace::material::{Clear, Lit, Material, Mixture, Phong};
     use crate::trace::texture::Texture;
     use crate::trace::{Chart, SurfacePoint};
 
@@ -232,7 +232,7 @@ mod tests {
         enum Stuff {
             Chalk(Mixture<Pigment>),
             Plastic(Mixture<Pigment, Phong>),
-            Glass(Mixture),
+            Glass(Mixture<Rgb, (), Clear>),
         }
     }
 

@@ -46,10 +46,10 @@ fn draw() -> Result<(), attractor::Error> {
         Object::new(&[Op::Leaf(1)], surface, core::slice::from_mut(other))?,
     ];
     const ORANGE: Rgb = Rgb::new(Lumen::lit("1"), Lumen::lit("0.4"), Lumen::lit("0.05"));
+    const GREY: Rgb = Rgb::grey(Lumen::lit("0.4"));
     let shiny = Mixture::matt(ORANGE).with_highlight(Rgb::WHITE, Phong { shininess: 40 });
-    let mirrored =
-        Mixture::matt(Rgb::grey(Lumen::lit("0.5"))).with_highlight(Rgb::BLACK, Phong { shininess: 1 });
-    let materials = [shiny, mirrored.with_reflection(bb(Rgb::grey(Lumen::lit("0.3"))))];
+    let mirrored = Mixture::matt(GREY).with_highlight(Rgb::BLACK, Phong { shininess: 1 });
+    let materials = [shiny, mirrored.with_reflection(bb(GREY))];
     let lamps = [Lamp::distant(bb(at(1, -2, 3)), Rgb::WHITE)?];
     let world = World::new(&leaves, &objects, &materials)?.with_lamps(&lamps);
     let camera = Camera::new(bb(at(3, -4, 2)), bb(at(0, 0, 0)), at(0, 0, 1), bb(Real::from_num(32)))?;

@@ -11,7 +11,9 @@ use super::specular::{Specular, View};
 use crate::Error;
 use crate::num::{Real, Rgb, Unit, Vec3, Wide};
 
-/// A material by its components. `T` is what colours it, `S` its model of highlights.
+/// A material by its components. `T` is what colours it, `S` its model of highlights, `I` what is inside:
+/// nothing that light passes, unless it is [`Clear`]. What a type rules out takes no code: a world without glass
+/// has none of refraction's.
 ///
 /// ```
 /// use attractor::num::{Lumen, Real, Rgb, Unit};
@@ -25,15 +27,74 @@ use crate::num::{Real, Rgb, Unit, Vec3, Wide};
 /// # Ok::<(), attractor::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Mixture<T = Rgb, S = ()> {
+pub struct Mixture<T = Rgb, S = (), I = ()> {
     pigment: T,
     ambient: Unit,
     diffuse: Unit,
     specular: Rgb,
     model: S,
     reflect: Rgb,
+    interior: I,
+}
+
+/// What is inside a thing of a material.
+pub trait Interior {
+    /// The medium; none where no light passes.
+    fn medium(&self) -> Option<Medium>;
+    /// How much of the light that meets the surface goes through.
+    fn passes(&self) -> Rgb;
+}
+
+/// Opaque.
+impl Interior for () {
+    fn medium(&self) -> Option<Medium> {
+        None
+    }
+
+    fn passes(&self) -> Rgb {
+        Rgb::BLACK
+    }
+}
+
+/// Transparent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Clear {
+    medium: Medium,
     transmit: Rgb,
-    medium: Option<Medium>,
+}
+
+impl Clear {
+    /// A medium, and how much of the light that meets the surface goes through.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an index outside 0.1 to 10.
+    pub fn new(medium: Medium, transmit: Rgb) -> Result<Self, Error> {
+        // a tenth is no binary fraction
+        let least = Wide::ONE / 10 - (Wide::ONE >> 24);
+        between("index of refraction", None, medium.index.into(), least, Wide::from_num(10))?;
+        Ok(Self { medium, transmit })
+    }
+}
+
+impl Interior for Clear {
+    fn medium(&self) -> Option<Medium> {
+        Some(self.medium)
+    }
+
+    fn passes(&self) -> Rgb {
+        self.transmit
+    }
+}
+
+/// Either, for a choice at run time.
+impl Interior for Option<Clear> {
+    fn medium(&self) -> Option<Medium> {
+        self.as_ref().and_then(Clear::medium)
+    }
+
+    fn passes(&self) -> Rgb {
+        self.as_ref().map_or(Rgb::BLACK, Clear::passes)
+    }
 }
 
 impl<T> Mixture<T> {
@@ -46,8 +107,7 @@ impl<T> Mixture<T> {
             specular: Rgb::BLACK,
             model: (),
             reflect: Rgb::BLACK,
-            transmit: Rgb::BLACK,
-            medium: None,
+            interior: (),
         }
     }
 }
@@ -61,14 +121,14 @@ impl Mixture {
     /// Clear glass of an index of refraction, which reflects by Fresnel's equations.
     ///
     /// # Errors
-    /// As [`Mixture::with_medium`].
-    pub fn glass(index: Real) -> Result<Self, Error> {
+    /// As [`Clear::new`].
+    pub fn glass(index: Real) -> Result<Mixture<Rgb, (), Clear>, Error> {
         let none = Self { ambient: Unit::ZERO, diffuse: Unit::ZERO, ..Self::matt(Rgb::BLACK) };
-        none.with_medium(Medium { index, priority: 0, fresnel: true }, Rgb::WHITE)
+        Ok(none.with_interior(Clear::new(Medium { index, priority: 0, fresnel: true }, Rgb::WHITE)?))
     }
 }
 
-impl<T, S> Mixture<T, S> {
+impl<T, S, I> Mixture<T, S, I> {
     /// With this part of ambient and this of diffuse light.
     ///
     /// # Errors
@@ -82,9 +142,9 @@ impl<T, S> Mixture<T, S> {
     }
 
     /// With highlights of a colour and a model.
-    pub fn with_highlight<H>(self, color: Rgb, model: H) -> Mixture<T, H> {
-        let Self { pigment, ambient, diffuse, reflect, transmit, medium, .. } = self;
-        Mixture { pigment, ambient, diffuse, specular: color, model, reflect, transmit, medium }
+    pub fn with_highlight<H>(self, color: Rgb, model: H) -> Mixture<T, H, I> {
+        let Self { pigment, ambient, diffuse, reflect, interior, .. } = self;
+        Mixture { pigment, ambient, diffuse, specular: color, model, reflect, interior }
     }
 
     /// With this part of what the mirrored ray brings.
@@ -94,35 +154,24 @@ impl<T, S> Mixture<T, S> {
         self
     }
 
-    /// Transparent: with a medium inside and this part of what the refracted ray brings.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for an index outside 0.1 to 10.
-    pub fn with_medium(mut self, medium: Medium, transmit: Rgb) -> Result<Self, Error> {
-        let least = Wide::ONE / 10;
-        between(
-            "index of refraction",
-            None,
-            medium.index.into(),
-            least - (Wide::ONE >> 24),
-            Wide::from_num(10),
-        )?;
-        (self.medium, self.transmit) = (Some(medium), transmit);
-        Ok(self)
+    /// With this inside.
+    pub fn with_interior<J>(self, interior: J) -> Mixture<T, S, J> {
+        let Self { pigment, ambient, diffuse, specular, model, reflect, .. } = self;
+        Mixture { pigment, ambient, diffuse, specular, model, reflect, interior }
     }
 }
 
-impl<T: Texture, S: Specular> Material for Mixture<T, S> {
+impl<T: Texture, S: Specular, I: Interior> Material for Mixture<T, S, I> {
     fn is_charted(&self) -> bool {
         self.pigment.is_charted() || self.model.is_charted()
     }
 
     fn medium(&self) -> Option<Medium> {
-        self.medium
+        self.interior.medium()
     }
 
     fn passes(&self) -> Rgb {
-        self.transmit
+        self.interior.passes()
     }
 
     fn respond(&self, point: &SurfacePoint, view: Vec3<Unit>, lights: impl Iterator<Item = Lit>) -> Response {
@@ -140,6 +189,6 @@ impl<T: Texture, S: Specular> Material for Mixture<T, S> {
             .scaled(self.ambient)
             .plus(pigment.through(diffuse.scaled(self.diffuse)))
             .plus(self.specular.through(specular));
-        Response { light, reflected: self.reflect, refracted: self.transmit }
+        Response { light, reflected: self.reflect, refracted: self.interior.passes() }
     }
 }

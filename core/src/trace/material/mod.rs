@@ -12,7 +12,7 @@ mod torrance_sparrow;
 
 pub use anisotropic::Anisotropic;
 pub use highlight::Highlight;
-pub use mixture::Mixture;
+pub use mixture::{Clear, Interior, Mixture};
 pub use phong::Phong;
 pub use respond::{Lit, Material, Medium, Response};
 pub use specular::{Specular, View};

@@ -12,7 +12,7 @@ use super::super::snell::{mirrored, refracted};
 use super::super::surface::{Surface, SurfacePoint};
 use super::super::surroundings::Surroundings;
 use super::scene::{Cast, Interpenetration, Met, World};
-use crate::num::{Lumen, Real, Rgb, Unit, Vec3, unit};
+use crate::num::{Lumen, Real, Rgb, Unit, Vec3, quotient, unit};
 
 /// Below this weight a ray is not cast: `1/256`.
 const FAINT: Lumen = Lumen::from_bits(1 << 8);
@@ -147,8 +147,10 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         }
         if response.refracted != Rgb::BLACK {
             let medium = |states| self.within(states).0;
-            let index = |states| medium(states).map_or(Real::ONE, |(_, medium)| medium.index);
-            let eta = index(before).saturating_div(index(behind));
+            let index = |states| medium(states).map_or(Real::ONE, |(_, medium)| medium.index).to_bits();
+            // indices are between 0.1 and 10: the quotient fits
+            let behind_it = u64::from(index(behind).unsigned_abs());
+            let eta = Real::from_bits(quotient(index(before).into(), 24, behind_it) as i32);
             let mut way = refracted(direction, normal, eta);
             if way.is_some_and(|way| way.direction.dot(point.normal) >= 0) {
                 way = refracted(direction, point.normal, eta);

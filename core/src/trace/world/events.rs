@@ -52,8 +52,8 @@ impl<const N: usize> Events<N> {
             return;
         }
         while let Some(before) = at.checked_sub(1) {
-            match self.0.get(before) {
-                Some(other) if other.t() > event.t() => self.0.swap(before, at),
+            match self.0.get_mut(before..=at) {
+                Some([other, own]) if other.t() > own.t() => core::mem::swap(other, own),
                 _ => break,
             }
             at = before;

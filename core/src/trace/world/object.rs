@@ -144,7 +144,7 @@ impl<'a> Object<'a> {
     }
 
     /// Whether a point is inside that is inside these leaves, a bit each.
-    #[inline]
+    #[inline(never)]
     pub(super) fn is_inside(&self, leaves: u64) -> bool {
         // the top of the stack is the lowest bit
         let mut stack = 0_u64;

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use attractor::num::{Real, Rgb, Unit, Wide};
-use attractor::trace::material::{Anisotropic, Highlight, Medium, Mixture, Phong, TorranceSparrow};
+use attractor::trace::material::{Anisotropic, Clear, Highlight, Medium, Mixture, Phong, TorranceSparrow};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -118,15 +118,16 @@ impl Matter {
     }
 
     /// With this pigment, as core has it.
-    pub(crate) fn mixture<T>(&self, pigment: T) -> Result<Mixture<T, Highlight>, attractor::Error> {
+    pub(crate) fn mixture<T>(
+        &self,
+        pigment: T,
+    ) -> Result<Mixture<T, Highlight, Option<Clear>>, attractor::Error> {
         let mixture = Mixture::matt(pigment)
             .with_parts(self.ambient, self.diffuse)?
             .with_highlight(self.specular, self.gloss.highlight()?)
             .with_reflection(self.reflect);
-        match self.medium {
-            Some(medium) => mixture.with_medium(medium, self.transmit),
-            None => Ok(mixture),
-        }
+        let clear = self.medium.map(|medium| Clear::new(medium, self.transmit)).transpose()?;
+        Ok(mixture.with_interior(clear))
     }
 
     pub(super) fn load(
@@ -280,6 +281,6 @@ fn medium(source: &Source, given: &Made, key: &dyn Fn(&str) -> String) -> Result
     let fresnel = given.fresnel.as_ref().is_none_or(|fresnel| *fresnel.get_ref());
     let medium = Medium { index: number, priority, fresnel };
     // the kernel says which indices it takes
-    Mixture::matt(Rgb::BLACK).with_medium(medium, Rgb::WHITE).map_err(|_| refused())?;
+    Clear::new(medium, Rgb::WHITE).map_err(|_| refused())?;
     Ok(Some(medium))
 }

@@ -6,7 +6,7 @@ use std::io::Write;
 use attractor::draw::Srgb;
 use attractor::num::Rgb;
 use attractor::plane::Field as _;
-use attractor::trace::material::{Highlight, Mixture};
+use attractor::trace::material::{Clear, Highlight, Mixture};
 use attractor::trace::world::{Leaf, Object, World, WorldCaster};
 use attractor::trace::{Extent, Sampling};
 use attractor_gallery::{Watch, draw_field};
@@ -35,7 +35,7 @@ const RAYS: usize = DEEPEST as usize + 2;
 const PROBES: Size = Size::new(64, 64);
 
 /// What colours a thing.
-pub(crate) type Stuff = Mixture<Rgb, Highlight>;
+pub(crate) type Stuff = Mixture<Rgb, Highlight, Option<Clear>>;
 
 /// The picture of a world on the host.
 pub(crate) type Caster<'a> = WorldCaster<'a, Solid, Stuff, Sky, EVENTS, RAYS>;
