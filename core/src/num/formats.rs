@@ -28,6 +28,7 @@ pub type Scaling = fixed::types::I1F31;
 pub type Wide = fixed::types::I16F48;
 
 pub(crate) type Q24 = i32;
+pub(crate) type Q25 = i32;
 pub(crate) type Q26 = i32;
 pub(crate) type Q27 = i32;
 pub(crate) type Q28 = i32;

@@ -2,12 +2,27 @@
 //!
 //! Source: the course unit V, sections 5.7 and 5.10.
 
+mod cube;
+mod half_space;
+#[cfg(test)]
+mod judge;
 mod placed;
 mod plane;
+mod polygon;
+mod polyhedron;
 mod shape;
+mod slab;
 mod sphere;
+mod square;
+mod tapered_cylinder;
 
+pub use cube::Cube;
+pub use half_space::HalfSpace;
 pub use placed::Placed;
 pub use plane::Plane;
+pub use polygon::Polygon;
+pub use polyhedron::Polyhedron;
 pub use shape::{NearCrossing, NearRay, Shape};
 pub use sphere::Sphere;
+pub use square::Square;
+pub use tapered_cylinder::TaperedCylinder;

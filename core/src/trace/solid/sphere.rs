@@ -3,6 +3,10 @@
 //! A ray `o + s d` passes the centre at the distance `|o x d| / |d|`; its crossings are
 //! `s = (-o.d -+ sqrt(|d|^2 - |o x d|^2)) / |d|^2`. The vector product takes the place of `|o|^2 - 1` in the
 //! quadratic equation, whose two large terms would cancel out.
+//!
+//! Texture coordinates: `u` is the longitude, `atan2(y, x) / 2 pi`, `v` the latitude from the lower pole to the
+//! upper, `1/2 + asin(z) / pi`. `P_u = 2 pi (-y, x, 0)`, `P_v = pi (-x z / r, -y z / r, r)` with `r` the
+//! distance from the axis; at the poles `x / r` counts as 1 and `y / r` as 0.
 
 use core::num::NonZeroU32;
 use core::ops::ControlFlow;
@@ -10,7 +14,7 @@ use core::ops::ControlFlow;
 use super::super::surface::Chart;
 use super::shape::{NearCrossing, NearRay, Shape};
 use crate::num::formats::Q28;
-use crate::num::{Near, Real, Vec3, Wide, product, reciprocal_of, sqrt, square};
+use crate::num::{Angle, Near, Real, Unit, Vec3, Wide, atan2, product, reciprocal_of, sqrt, square, unit};
 
 /// The generic sphere: radius 1, round the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -26,6 +30,7 @@ impl Shape for Sphere {
         Near::DELTA * 16
     }
 
+    /// Error: on the sphere within `2^-24` (`rays_meet_the_sphere_where_they_should`). Cost: kernel `sphere`.
     #[inline]
     fn cross(&self, ray: &NearRay, from: Near, found: &mut impl FnMut(NearCrossing) -> ControlFlow<()>) {
         let Some([enters, exits]) = crossings(ray) else { return };
@@ -48,9 +53,39 @@ impl Shape for Sphere {
         place
     }
 
-    fn chart(&self, _: Vec3<Real>, _: u8) -> Chart {
-        Chart::default()
+    fn chart(&self, place: Vec3<Real>, _: u8) -> Chart {
+        let [x, y, z] = [place.x, place.y, place.z].map(Real::to_bits);
+        let out = radial(x, y);
+        let [cos, sin] = out.map(Unit::to_bits);
+        // 24 fractional bits
+        let radius = ((product(x, cos) + product(y, sin)) >> 30) as i32;
+        let pi = |v: i64| Real::from_bits(((v * i64::from(PI)) >> 29) as i32);
+        Chart {
+            u: turns(atan2(y, x)),
+            // from a quarter of a turn down to a quarter up, twice
+            v: Real::from_bits((atan2(z, radius).to_bits() as i32 >> 7) + (1 << 23)),
+            along_u: Vec3::new(pi(-2 * i64::from(y)), pi(2 * i64::from(x)), Real::ZERO),
+            along_v: Vec3::new(
+                pi(-(product(z, cos) >> 30)),
+                pi(-(product(z, sin) >> 30)),
+                pi(i64::from(radius)),
+            ),
+        }
     }
+}
+
+/// pi, 29 fractional bits.
+pub(super) const PI: i32 = 0x6487_ed51;
+
+/// An angle as a number in `[0, 1)`.
+pub(super) fn turns(angle: Angle) -> Real {
+    Real::from_bits((angle.to_bits() >> 8) as i32)
+}
+
+/// Cosine and sine of the direction of `(x, y)`, 1 and 0 for no direction.
+pub(super) fn radial(x: i32, y: i32) -> [Unit; 2] {
+    let out = unit([x, y, 0]);
+    if x | y == 0 { [Unit::ONE, Unit::ZERO] } else { [out.x, out.y] }
 }
 
 /// Where the ray goes in and out.
@@ -79,4 +114,80 @@ fn crossings(ray: &NearRay) -> Option<[Near; 2]> {
     let half = (root >> 2) as i32;
     let over = |v: i32| Near::from_bits((product(v, mantissa) >> (32 - zeros)) as i32);
     Some([over(towards - half), over(towards + half)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::judge::{Seen, along, convex, dot};
+    use super::*;
+
+    fn judged(count: usize) -> Seen {
+        convex(
+            &Sphere,
+            count,
+            |o, d, offset| {
+                // the distance by the vector product, which cancels nothing
+                let cross = [0, 1, 2].map(|k: usize| {
+                    let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+                    o[a] * d[b] - o[b] * d[a]
+                });
+                let (length, middle) = (dot(d, d), -dot(o, d) / dot(d, d));
+                let half = (1.0 + offset).powi(2) - dot(cross, cross) / length;
+                let half = (half > 0.0).then(|| (half / length).sqrt())?;
+                Some([middle - half, middle + half])
+            },
+            |p| [dot(p, p).sqrt() - 1.0],
+        )
+    }
+
+    #[test]
+    fn rays_meet_the_sphere_where_they_should() {
+        let seen = judged(40_000);
+        assert!(seen.judged > 39_000 && seen.met > 25_000, "{seen:?}");
+        assert!(seen.off > 2_f64.powi(-27) && seen.off < 2_f64.powi(-24), "{seen:?}");
+    }
+
+    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_the_sphere`
+    #[test]
+    #[ignore = "a million rays"]
+    fn a_million_rays_meet_the_sphere_where_they_should() {
+        let seen = judged(1_000_000);
+        assert!(seen.judged > 980_000 && seen.off < 2_f64.powi(-24), "{seen:?}");
+    }
+
+    /// `P_u` and `P_v` against differences of places, and no jump but at the seam.
+    #[test]
+    fn the_chart_of_the_sphere_is_longitude_and_latitude() {
+        let at = |u: f64, v: f64| {
+            let ((s, c), (z, r)) =
+                ((u * core::f64::consts::TAU).sin_cos(), ((v - 0.5) * core::f64::consts::PI).sin_cos());
+            [c * r, s * r, z]
+        };
+        let mut worst = [0.0_f64; 2];
+        for (i, j) in (0..64).flat_map(|i| (0..33).map(move |j| (i, j))) {
+            let (u, v) = (f64::from(i) / 64.0, (f64::from(j) + 0.02) / 33.0);
+            let [x, y, z] = at(u, v).map(Real::from_num);
+            let chart = Sphere.chart(Vec3::new(x, y, z), 0);
+            // the place has 24 fractional bits
+            let near_pole = 1.0 / (v * (1.0 - v));
+            worst[0] = worst[0].max((chart.u.to_num::<f64>() - u).abs() / near_pole);
+            worst[0] = worst[0].max((chart.v.to_num::<f64>() - v).abs() / near_pole);
+            let h = 1e-5;
+            for (got, a, b) in
+                [(chart.along_u, at(u + h, v), at(u - h, v)), (chart.along_v, at(u, v + h), at(u, v - h))]
+            {
+                for (got, k) in [got.x, got.y, got.z].into_iter().zip(0..) {
+                    worst[1] =
+                        worst[1].max((got.to_num::<f64>() - (a[k] - b[k]) / (2.0 * h)).abs() / near_pole);
+                }
+            }
+        }
+        assert!(worst[0] > 1e-9 && worst[0] < 1e-7 && worst[1] < 1e-6, "{worst:?}");
+        // the seam: just before it nearly 1, behind it 0
+        let seam = |y: i32| Sphere.chart(Vec3::new(Real::ONE, Real::from_bits(y), Real::ZERO), 0).u;
+        assert!(seam(-8) > 0.999 && seam(8) < 0.001 && seam(0) == 0);
+        let pole = Sphere.chart(Vec3::Z, 0);
+        assert!(pole.v == 1 && pole.along_v.x < -3 && pole.along_u == Vec3::default(), "{pole:?}");
+        assert_eq!(along([0.0; 3], [1.0; 3], 2.0), [2.0; 3]);
+    }
 }

@@ -1,0 +1,119 @@
+//! The cube from -1 to 1 along each axis: `F = max(|x|, |y|, |z|) - 1`.
+//!
+//! Faces are those at `x` = -1, 1, `y` = -1, 1, `z` = -1, 1, from 0 on. Each has texture coordinates in
+//! `[0, 1]`, `v` upwards on the sides and along `y` on the others, `u` to the right as seen from outside:
+//! `u = (1 + r) / 2`, `v = (1 + w) / 2` with `(r, w)` = `(-y, z)`, `(y, z)`, `(x, z)`, `(-x, z)`, `(-x, y)`,
+//! `(x, y)`.
+
+use core::ops::ControlFlow;
+
+use super::super::surface::Chart;
+use super::shape::{NearCrossing, NearRay, Shape};
+use super::slab::{Part, over, slowness};
+use crate::num::{Near, Real, Vec3, Wide};
+
+/// The generic cube.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cube;
+
+impl Shape for Cube {
+    fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
+        let one = Near::ONE;
+        Some([Vec3::new(-one, -one, -one), Vec3::new(one, one, one)])
+    }
+
+    fn faces(&self) -> u8 {
+        6
+    }
+
+    fn error(&self) -> Near {
+        Near::DELTA * 8
+    }
+
+    /// Error: on the surface within `2^-25` (`rays_meet_the_cube_where_they_should`). Cost: kernel `cube`.
+    #[inline]
+    fn cross(&self, ray: &NearRay, from: Near, found: &mut impl FnMut(NearCrossing) -> ControlFlow<()>) {
+        const ONE: i32 = 1 << 28;
+        let (o, d) = (ray.origin, ray.direction);
+        let mut part = Part::ALL;
+        for (face, o, d) in [(0, o.x, d.x), (2, o.y, d.y), (4, o.z, d.z)] {
+            let (o, d) = (o.to_bits(), d.to_bits());
+            let slowness = slowness(d);
+            // against a mirrored cube the ray goes upwards
+            let (o, back) = if d < 0 { (o.wrapping_neg(), 1) } else { (o, 0) };
+            part.from(over((-ONE).wrapping_sub(o), slowness), face + back);
+            part.until(over(ONE.wrapping_sub(o), slowness), face + 1 - back);
+        }
+        part.hand_over(from, found);
+    }
+
+    fn value(&self, place: Vec3) -> Wide {
+        let [x, y, z] = [place.x, place.y, place.z].map(|c| Wide::from(c).abs());
+        x.max(y).max(z) - Wide::ONE
+    }
+
+    fn normal(&self, _: Vec3<Near>, face: u8) -> Vec3<Near> {
+        let out = if face & 1 > 0 { Near::ONE } else { -Near::ONE };
+        match face >> 1 {
+            0 => Vec3::new(out, Near::ZERO, Near::ZERO),
+            1 => Vec3::new(Near::ZERO, out, Near::ZERO),
+            _ => Vec3::new(Near::ZERO, Near::ZERO, out),
+        }
+    }
+
+    fn chart(&self, place: Vec3<Real>, face: u8) -> Chart {
+        let Vec3 { x, y, z } = place;
+        let (along_x, along_y, along_z) = (Vec3::X, Vec3::Y, Vec3::Z);
+        let back = Vec3::default();
+        let (r, w, along_r, along_w) = match face {
+            0 => (-y, z, back.minus(along_y), along_z),
+            1 => (y, z, along_y, along_z),
+            2 => (x, z, along_x, along_z),
+            3 => (-x, z, back.minus(along_x), along_z),
+            4 => (-x, y, back.minus(along_x), along_y),
+            _ => (x, y, along_x, along_y),
+        };
+        let half = |c: Real| (c >> 1) + Real::ONE / 2;
+        let twice = |v: Vec3| Vec3::new(v.x * 2, v.y * 2, v.z * 2);
+        Chart { u: half(r), v: half(w), along_u: twice(along_r), along_v: twice(along_w) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::judge::{Seen, convex, inside};
+    use super::*;
+
+    fn planes(offset: f64) -> [[f64; 4]; 6] {
+        core::array::from_fn(|face| {
+            let mut plane = [0.0, 0.0, 0.0, 1.0 + offset];
+            plane[face / 2] = if face % 2 > 0 { 1.0 } else { -1.0 };
+            plane
+        })
+    }
+
+    fn judged(count: usize) -> Seen {
+        convex(
+            &Cube,
+            count,
+            |o, d, offset| inside(&planes(offset), o, d),
+            |p| planes(0.0).map(|[x, y, z, d]| x * p[0] + y * p[1] + z * p[2] - d),
+        )
+    }
+
+    #[test]
+    fn rays_meet_the_cube_where_they_should() {
+        let seen = judged(30_000);
+        assert!(seen.judged > 26_000 && seen.met > 20_000, "{seen:?}");
+        assert!(seen.faces[..6].iter().all(|n| *n > 2_000), "{seen:?}");
+        assert!(seen.off > 2_f64.powi(-28) && seen.off < 2_f64.powi(-25), "{seen:?}");
+    }
+
+    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_the_cube`
+    #[test]
+    #[ignore = "a million rays"]
+    fn a_million_rays_meet_the_cube_where_they_should() {
+        let seen = judged(1_000_000);
+        assert!(seen.judged > 880_000 && seen.off < 2_f64.powi(-25), "{seen:?}");
+    }
+}
