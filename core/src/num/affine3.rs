@@ -46,11 +46,36 @@ fn saturated(v: i128) -> i64 {
     v.clamp(i128::from(i64::MIN), i128::from(i64::MAX)) as i64
 }
 
-/// The scalar product of numbers with 48 fractional bits, which has 96.
-fn dot(a: [Q48; 3], b: [Q48; 3]) -> i128 {
-    let [x, y, z] = [0, 1, 2].map(|k: usize| (i128::from(a[k]) * i128::from(b[k])) >> 2);
+/// The scalar product of numbers with 48 fractional bits, which has 94. Out of line, as products of 128 bits
+/// take much code: maps are set up once.
+#[inline(never)]
+fn dot(a: &[Q48; 3], b: &[Q48; 3]) -> i128 {
+    let product = |(a, b): (&Q48, &Q48)| (i128::from(*a) * i128::from(*b)) >> 2;
     // 126 bits and two more, less the two that were left out
-    x + y + z
+    a.iter().zip(b).map(product).sum()
+}
+
+/// An entry with 30 fractional bits below `2^length`.
+#[inline(never)]
+fn mantissa(v: i64, length: i32) -> i64 {
+    if length <= 30 {
+        v << (30 - length)
+    } else {
+        // half a unit more, where it does not leave 64 bits
+        ((v >> (length - 31)) + 1) >> 1
+    }
+}
+
+/// The vector product of numbers below `2^31`.
+#[inline(never)]
+fn cross(a: &[i64; 3], b: &[i64; 3]) -> [i64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// A cofactor, brought to 62 bits by `shift`, over the determinant: 33 fractional bits.
+#[inline(never)]
+fn entry(cofactor: i64, shift: i32, divisor: UQ63) -> i64 {
+    quotient(if shift >= 0 { cofactor << shift } else { cofactor >> -shift }, 33, divisor)
 }
 
 impl Affine3 {
@@ -107,8 +132,8 @@ impl Affine3 {
     pub fn then(&self, next: &Self) -> Self {
         let column = |j: usize| self.rows.map(|row| row[j]);
         let columns = [column(0), column(1), column(2)];
-        let rows = next.rows.map(|row| columns.map(|column| saturated(dot(row, column) >> 46)));
-        let moved = next.rows.map(|row| dot(row, self.translation) >> 46);
+        let rows = next.rows.map(|row| columns.map(|column| saturated(dot(&row, &column) >> 46)));
+        let moved = next.rows.map(|row| dot(&row, &self.translation) >> 46);
         let translation = [0, 1, 2].map(|k: usize| saturated(moved[k] + i128::from(next.translation[k])));
         Self { rows, translation }
     }
@@ -117,7 +142,7 @@ impl Affine3 {
     pub fn at(&self, place: Vec3) -> Vec3 {
         let place = [place.x, place.y, place.z].map(|c| Wide::from(c).to_bits());
         let [x, y, z] = [0, 1, 2].map(|k: usize| {
-            let sum = (dot(self.rows[k], place) >> 46) + i128::from(self.translation[k]);
+            let sum = (dot(&self.rows[k], &place) >> 46) + i128::from(self.translation[k]);
             real(saturated(sum))
         });
         Vec3::new(x, y, z)
@@ -140,6 +165,7 @@ impl Affine3 {
     ///
     /// # Errors
     /// [`Error::Degenerate`] for a matrix whose determinant is 0.
+    #[inline(never)]
     pub(crate) fn inverse(&self) -> Result<Inverse, Error> {
         let degenerate = Error::Degenerate { what: "determinant of an affine map" };
         let greatest = self.greatest().to_bits().unsigned_abs();
@@ -148,23 +174,12 @@ impl Affine3 {
         }
         // mantissas with 30 fractional bits, the greatest in [1/2, 1]; a = mantissa 2^exponent
         let length = 64 - greatest.leading_zeros() as i32;
-        let mantissa = |v: i64| -> i64 {
-            if length <= 30 {
-                v << (30 - length)
-            } else {
-                // half a unit more, where it does not leave 64 bits
-                ((v >> (length - 31)) + 1) >> 1
-            }
-        };
-        let a = self.rows.map(|row| row.map(mantissa));
+        let a = self.rows.map(|row| row.map(|v| mantissa(v, length)));
         // products of two: 61 bits; the cofactors of a row, in its own order
-        let minor = |i: usize, j: usize| {
-            let (r, s, p, q) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-            a[r][p] * a[s][q] - a[r][q] * a[s][p]
-        };
-        let cofactors = [0, 1, 2].map(|i: usize| [0, 1, 2].map(|j: usize| minor(i, j)));
-        let determinant: i128 =
-            (0..3).map(|j: usize| i128::from(a[0][j]) * i128::from(cofactors[0][j])).sum();
+        let [x, y, z] = &a;
+        let cofactors = [cross(y, z), cross(z, x), cross(x, y)];
+        let products = a[0].iter().zip(&cofactors[0]).map(|(a, c)| i128::from(*a) * i128::from(*c));
+        let determinant: i128 = products.sum();
         let most = cofactors.iter().flatten().map(|c| c.unsigned_abs()).max().unwrap_or(0);
         if determinant == 0 || most == 0 {
             return Err(degenerate);
@@ -176,12 +191,8 @@ impl Affine3 {
         let shift = most.leading_zeros() as i32 - 2;
         let sign = if determinant < 0 { -1 } else { 1 };
         // 33 fractional bits, the greatest in (1/4, 1]; transposed
-        let entry = |i: usize, j: usize| {
-            let c = cofactors[j][i];
-            let c = if shift >= 0 { c << shift } else { c >> -shift };
-            quotient(sign * c, 33, divisor)
-        };
-        let entries = [0, 1, 2].map(|i: usize| [0, 1, 2].map(|j: usize| entry(i, j)));
+        let [x, y, z] = cofactors.map(|row| row.map(|c| entry(sign * c, shift, divisor)));
+        let entries = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
         let halved = i32::from(entries.iter().flatten().any(|v| v.unsigned_abs() >= (1 << 32) - 2));
         let rows = entries.map(|row| row.map(|v| (((v >> (1 + halved)) + 1) >> 1) as i32));
         // cofactors have 60 fractional bits, the determinant 90

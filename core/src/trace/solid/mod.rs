@@ -7,6 +7,7 @@ mod half_space;
 #[cfg(test)]
 mod judge;
 mod placed;
+mod placement;
 mod plane;
 mod polygon;
 mod polyhedron;
