@@ -17,9 +17,7 @@ use super::super::surface::SurfacePoint;
 use super::image::Image;
 use super::mapped::Mapped;
 use super::turbulence::Turbulence;
-use crate::num::{
-    Real, Rgb, Unit, Vec3, mixed, product, reciprocal, reciprocal_sqrt_of, sqrt, square, unit,
-};
+use crate::num::{Real, Rgb, Unit, Vec3, mixed, product, reciprocal, reciprocal_sqrt_of, sqrt, square, unit};
 
 /// How a surface is raised.
 pub trait Bump {
@@ -39,7 +37,7 @@ pub struct Bumpy<M, B> {
 /// The unit normal of a surface raised by a bump, on the side of the point's normal; that one itself where there
 /// are no texture coordinates.
 ///
-/// Domain: all; slopes beyond 64 count as 64. Error: below `2^-24` in each component for tangents of lengths from
+/// Domain: all; slopes beyond 64 count as 64. Error: below `2^-22` in each component for tangents of lengths from
 /// 1/4 on, at an angle of 30 degrees or more, and slopes up to 4
 /// (`a_bumpy_normal_is_that_of_the_formula_on_both_sides`).
 pub fn bumped_normal(point: &SurfacePoint, [b_u, b_v]: [Real; 2]) -> Vec3<Unit> {
@@ -116,7 +114,8 @@ impl<B: Bump> Bump for Mapped<B> {
         let [b_u, b_v] = self.inner().slopes(&self.point(point));
         let [[a, b, _], [c, d, _]] = *self.rows();
         let sum = |p: Real, q: Real| {
-            let sum = (product(b_u.to_bits(), p.to_bits()) >> 24) + (product(b_v.to_bits(), q.to_bits()) >> 24);
+            let sum =
+                (product(b_u.to_bits(), p.to_bits()) >> 24) + (product(b_v.to_bits(), q.to_bits()) >> 24);
             saturated(sum)
         };
         [sum(a, c), sum(b, d)]
@@ -246,7 +245,8 @@ mod tests {
     /// `z = b(u, v)` over the plane, `x = 2 u`, `y = 3 v`: its normal is `(-b_u / 2, -b_v / 3, 1)`.
     #[test]
     fn a_constant_slope_leans_against_the_way_up_and_less_where_tangents_are_long() {
-        let chart = Chart { along_u: vector([2.0, 0.0, 0.0]), along_v: vector([0.0, 3.0, 0.0]), ..Chart::default() };
+        let chart =
+            Chart { along_u: vector([2.0, 0.0, 0.0]), along_v: vector([0.0, 3.0, 0.0]), ..Chart::default() };
         let point = SurfacePoint { chart, ..placed([0; 3]) };
         let bumpy = Bumpy { material: Mixture::matt(Rgb::WHITE), bump: [0.5, -0.75].map(Real::from_num) };
         let exact = normalised([-0.25, 0.25, 1.0]);
@@ -326,7 +326,8 @@ mod tests {
         for n in 0..200_i32 {
             let point = SurfacePoint { chart, ..placed([n * 123_457, n * 77_777, n * -99_999]) };
             let at = |way: [f64; 3], step: f64| {
-                let place: [f64; 3] = [point.position.x, point.position.y, point.position.z].map(|c| c.to_num());
+                let place: [f64; 3] =
+                    [point.position.x, point.position.y, point.position.z].map(|c| c.to_num());
                 turbulence.at(vector(core::array::from_fn(|i| place[i] + step * way[i]))).to_num::<f64>()
             };
             for (got, way) in rough.slopes(&point).into_iter().zip([p, q]) {

@@ -104,9 +104,10 @@ mod tests {
         let checker = Checker::squares([8, 4].map(Real::from_num), Rgb::BLACK, Rgb::WHITE);
         assert!(checker.is_charted() && !Checker::cubes([Real::ONE; 3], Rgb::BLACK, Rgb::WHITE).is_charted());
         let is_odd = |u: f64, v: f64| checker.is_odd(&charted(Real::from_num(u), Real::from_num(v)));
-        assert_eq!([(0.01, 0.01), (0.13, 0.01), (0.13, 0.26), (0.01, 0.26)].map(|(u, v)| is_odd(u, v)), [
-            false, true, false, true
-        ]);
+        assert_eq!(
+            [(0.01, 0.01), (0.13, 0.01), (0.13, 0.26), (0.01, 0.26)].map(|(u, v)| is_odd(u, v)),
+            [false, true, false, true]
+        );
         // the square before the seam is another one than that behind it, as everywhere
         assert_ne!(is_odd(0.99, 0.3), is_odd(0.01, 0.3));
     }

@@ -132,7 +132,8 @@ mod tests {
             let [x, y, z] = bits.map(|c| Real::from_bits(c >> 6));
             let along_u = Vec3::new(y >> 1, -z, x >> 2);
             let Some(normal) = Vec3::new(x, y, z).normalised() else { continue };
-            let point = SurfacePoint { normal, chart: Chart { along_u, ..Chart::default() }, ..placed([0; 3]) };
+            let point =
+                SurfacePoint { normal, chart: Chart { along_u, ..Chart::default() }, ..placed([0; 3]) };
             let angle = Angle::from_bits(n as u32 * 2_147_480);
             let got = turned(&point, angle).chart.along_u;
             let got = [got.x, got.y, got.z].map(|c| c.to_num::<f64>());
@@ -161,7 +162,10 @@ mod tests {
         let quarter = Angle::from_bits(1 << 30);
         let threads = Checker::squares([Real::from_num(2); 2], (), ());
         let [even, odd] = [0.1, 0.6].map(|u| charted(Real::from_num(u), Real::from_num(0.1)));
-        assert_eq!((threads.turn(&even), threads.turn(&odd), quarter.turn(&even)), (Angle::ZERO, quarter, quarter));
+        assert_eq!(
+            (threads.turn(&even), threads.turn(&odd), quarter.turn(&even)),
+            (Angle::ZERO, quarter, quarter)
+        );
         let image = Image::new(Texels::Linear, 2, 1, &[0, 51]).unwrap();
         assert!((image.turn(&odd).to_num::<f64>() - 0.2).abs() < 1e-4 && image.turn(&even) == 0);
         let turbulence = Turbulence::new(Noise::PERLIN, Real::from_num(3), 3).unwrap();
@@ -177,7 +181,8 @@ mod tests {
         let up = Unit::ONE;
         let down = Vec3::new(Unit::ZERO, Unit::ZERO, -up);
         let towards = Vec3::new(Real::from_num(0.4), Real::ZERO, Real::ONE).normalised().unwrap();
-        let light = |point| framed.respond(point, down, core::iter::once(Lit { towards, light: Rgb::WHITE })).light.g;
+        let light =
+            |point| framed.respond(point, down, core::iter::once(Lit { towards, light: Rgb::WHITE })).light.g;
         assert!(light(&odd) > light(&even) + light(&even), "{} {}", light(&odd), light(&even));
         assert!(framed.is_charted() && framed.normal(&odd) == odd.normal);
         assert!(framed.medium().is_none() && framed.passes() == Rgb::BLACK);

@@ -130,13 +130,15 @@ impl<'a> Image<'a> {
         let levels = Image::new(texels, columns, rows, bytes)?.levels;
         let stride = texels.bytes();
         for k in 1..levels {
-            let (before, start) = (Self::length(texels, columns, rows, k - 1), Self::length(texels, columns, rows, k));
+            let (before, start) =
+                (Self::length(texels, columns, rows, k - 1), Self::length(texels, columns, rows, k));
             let (fine, coarse) = bytes.split_at_mut_checked(start).unwrap_or_default();
             let fine = fine.get(before..).unwrap_or_default();
             let [wide, high] = [side(columns, k - 1), side(rows, k - 1)];
             for (index, texel) in (0..side(columns, k) * side(rows, k)).zip(coarse.chunks_exact_mut(stride)) {
                 let width = side(columns, k).max(1);
-                let (i, j) = (2 * index.checked_rem(width).unwrap_or(0), 2 * index.checked_div(width).unwrap_or(0));
+                let (i, j) =
+                    (2 * index.checked_rem(width).unwrap_or(0), 2 * index.checked_div(width).unwrap_or(0));
                 let (mut sum, mut count) = ([0_u32; 3], 0_u32);
                 for (i, j) in [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)] {
                     if i < wide && j < high {
@@ -384,17 +386,20 @@ mod tests {
             (-2..3)
                 .map(|turn| {
                     let (low, high) = (f64::from(i) + f64::from(turn * count as i32), 1.0);
-                    ((middle + width / 2.0).min(low + high) - (middle - width / 2.0).max(low)).max(0.0) / width
+                    ((middle + width / 2.0).min(low + high) - (middle - width / 2.0).max(low)).max(0.0)
+                        / width
                 })
                 .sum()
         };
         let mut worst: f64 = 0.0;
         for n in 0..3000_u32 {
-            let [u, v] = [n.wrapping_mul(0x9e37_79b9), n.wrapping_mul(0x85eb_ca6b)].map(|c| Real::from_bits(c as i32 >> 4));
+            let [u, v] = [n.wrapping_mul(0x9e37_79b9), n.wrapping_mul(0x85eb_ca6b)]
+                .map(|c| Real::from_bits(c as i32 >> 4));
             let [wide, high] = [1.0 + f64::from(n % 17) / 17.5, 1.0 + f64::from(n % 23) / 23.5];
             let part = |width: f64, count: u32| Real::from_num(width / f64::from(count));
             let got = image.mean(u, v, part(wide, columns), part(high, rows)).g.to_num::<f64>();
-            let (x, y) = (u.to_num::<f64>().rem_euclid(1.0) * 7.0, (1.0 - v.to_num::<f64>()).rem_euclid(1.0) * 5.0);
+            let (x, y) =
+                (u.to_num::<f64>().rem_euclid(1.0) * 7.0, (1.0 - v.to_num::<f64>()).rem_euclid(1.0) * 5.0);
             let mut exact = 0.0;
             for j in 0..rows {
                 for i in 0..columns {
@@ -425,7 +430,8 @@ mod tests {
         // beyond an edge: the other side, or the edge again
         let at = |beyond, u: f64| {
             let image = Image::new(Texels::Linear, 6, 4, &bytes).unwrap().with_beyond(beyond, Beyond::Repeat);
-            image.mean(Real::from_num(u), Real::from_num(0.125), Real::ZERO, Real::ZERO).g.to_num::<f64>() * 255.0
+            image.mean(Real::from_num(u), Real::from_num(0.125), Real::ZERO, Real::ZERO).g.to_num::<f64>()
+                * 255.0
         };
         let [first, last] = [18, 23].map(|i: usize| f64::from(bytes[i]));
         assert!((at(Beyond::Repeat, 0.0) - (first + last) / 2.0).abs() < 0.02);
@@ -444,14 +450,23 @@ mod tests {
             Image::write_levels(Texels::Linear, columns, rows, &mut chain).unwrap();
             let image = Image::new(Texels::Linear, columns, rows, &chain).unwrap();
             assert_eq!(image.size(), [columns, rows]);
-            let far = SurfacePoint { width: Real::from_num(1.5), ..charted(Real::from_num(0.3), Real::from_num(0.6)) };
+            let far = SurfacePoint {
+                width: Real::from_num(1.5),
+                ..charted(Real::from_num(0.3), Real::from_num(0.6))
+            };
             let got = image.at(&far).g.to_num::<f64>();
             // of 13 columns the last texel of each level is narrower than it counts
             let off = if columns == 13 { 0.06 } else { 0.02 };
             assert!((got - mean).abs() < off, "{columns} {rows}: {got} {mean}");
             if columns == 8 {
-                let quarter = image.mean(Real::from_num(0.25), Real::from_num(0.75), Real::from_num(0.5), Real::from_num(0.5));
-                let exact: f64 = (0..16).map(|i| f64::from(chain[i / 4 * 8 + i % 4])).sum::<f64>() / 16.0 / 255.0;
+                let quarter = image.mean(
+                    Real::from_num(0.25),
+                    Real::from_num(0.75),
+                    Real::from_num(0.5),
+                    Real::from_num(0.5),
+                );
+                let exact: f64 =
+                    (0..16).map(|i| f64::from(chain[i / 4 * 8 + i % 4])).sum::<f64>() / 16.0 / 255.0;
                 assert!((quarter.g.to_num::<f64>() - exact).abs() < 0.01, "{quarter:?} {exact}");
             }
         }
@@ -464,14 +479,20 @@ mod tests {
             let near = image.nearest(Real::from_num(0.1), Real::from_num(0.1));
             for n in 0..200 {
                 let width = Real::from_num(f64::from(n) / 199.0);
-                assert_eq!(image.mean(Real::from_num(0.37), Real::from_num(-0.9), width, width), near, "{texels:?} {n}");
+                assert_eq!(
+                    image.mean(Real::from_num(0.37), Real::from_num(-0.9), width, width),
+                    near,
+                    "{texels:?} {n}"
+                );
             }
         }
     }
 
     #[test]
     fn the_footprint_is_the_width_over_the_length_of_the_tangent() {
-        for (width, along) in [(0.01, [3.0, 4.0, 0.0]), (0.5, [0.001, 0.0, 0.0]), (0.25, [0.0, 0.0, -100.0]), (1.0, [0.0; 3])] {
+        for (width, along) in
+            [(0.01, [3.0, 4.0, 0.0]), (0.5, [0.001, 0.0, 0.0]), (0.25, [0.0, 0.0, -100.0]), (1.0, [0.0; 3])]
+        {
             let [x, y, z] = along.map(Real::from_num);
             let length = along.iter().map(|c| c * c).sum::<f64>().sqrt();
             let got = footprint(Real::from_num(width), Vec3::new(x, y, z)).to_num::<f64>();
@@ -486,10 +507,14 @@ mod tests {
             Image::new(Texels::Rgb888, columns, rows, &bytes[..length]).unwrap_err()
         };
         assert!(matches!(refused(0, 5, 0), Error::OutOfRange { what: "columns of the image", .. }));
-        assert!(matches!(refused(3, Image::MAX_SIDE + 1, 9), Error::OutOfRange { what: "rows of the image", .. }));
+        assert!(matches!(
+            refused(3, Image::MAX_SIDE + 1, 9),
+            Error::OutOfRange { what: "rows of the image", .. }
+        ));
         assert!(matches!(refused(5, 4, 59), Error::LengthMismatch { given: 59, expected: 60, .. }));
         // 5 x 4, 3 x 2, 2 x 1, 1 x 1
-        let levels = |length: usize| Image::new(Texels::Rgb888, 5, 4, &bytes[..3 * length]).map(|image| image.levels);
+        let levels =
+            |length: usize| Image::new(Texels::Rgb888, 5, 4, &bytes[..3 * length]).map(|image| image.levels);
         assert_eq!([20, 26, 28, 29].map(levels), [Ok(1), Ok(2), Ok(3), Ok(4)]);
         assert!(levels(30).is_err());
         assert_eq!([1, 2, 3, 4, 5, 8, 9].map(|n| Image::levels_of(n, 1)), [1, 2, 3, 3, 4, 4, 5]);

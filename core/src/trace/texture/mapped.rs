@@ -73,7 +73,8 @@ impl<T> Mapped<T> {
         };
         let combined = |s: Real, t: Real| {
             let component = |p: Real, q: Real| {
-                let sum = (product(s.to_bits(), p.to_bits()) >> 24) + (product(t.to_bits(), q.to_bits()) >> 24);
+                let sum =
+                    (product(s.to_bits(), p.to_bits()) >> 24) + (product(t.to_bits(), q.to_bits()) >> 24);
                 Real::from_bits(sum.clamp(i32::MIN.into(), i32::MAX.into()) as i32)
             };
             let (p, q) = (chart.along_u, chart.along_v);
@@ -114,13 +115,15 @@ mod tests {
         let determinant = 2.0 * 3.0 + 0.5 * 0.75;
         let mut worst: f64 = 0.0;
         for n in 0..500_i32 {
-            let (s, t) = (Real::from_bits(n.wrapping_mul(48_271) >> 2), Real::from_bits(n.wrapping_mul(-69_621) >> 2));
+            let (s, t) =
+                (Real::from_bits(n.wrapping_mul(48_271) >> 2), Real::from_bits(n.wrapping_mul(-69_621) >> 2));
             let point = mapped.point(&charted(s, t));
             let (s, t) = (s.to_num::<f64>(), t.to_num::<f64>());
             for (got, [a, b, c]) in [point.chart.u, point.chart.v].into_iter().zip(rows) {
                 worst = worst.max((got.to_num::<f64>() - (a * s + b * t + c)).abs());
             }
-            let tangents = [point.chart.along_u.x, point.chart.along_u.y, point.chart.along_v.x, point.chart.along_v.y];
+            let tangents =
+                [point.chart.along_u.x, point.chart.along_u.y, point.chart.along_v.x, point.chart.along_v.y];
             for (got, exact) in tangents.into_iter().zip([3.0, -0.75, 0.5, 2.0]) {
                 assert!((got.to_num::<f64>() - exact / determinant).abs() < 1e-6);
             }
@@ -142,7 +145,8 @@ mod tests {
         let mapped = Mapped::new(image, [[a, b, c], [d, e, f]].map(|row| row.map(Real::from_num))).unwrap();
         // inverse: the texel at the middle of each place
         let middle = |k: usize| (k as f64 + 0.5) / SIDE as f64;
-        let inverse = |i: usize, j: usize| mapped.at(&charted(Real::from_num(middle(i)), Real::from_num(middle(j))));
+        let inverse =
+            |i: usize, j: usize| mapped.at(&charted(Real::from_num(middle(i)), Real::from_num(middle(j))));
         // scanning: each texel, its neighbours round the seams too, as a parallelogram of the surface
         let determinant = a * e - b * d;
         let (mut painted, mut same) = (0, 0);
@@ -161,7 +165,9 @@ mod tests {
                 if turns.iter().all(|t| *t < -1e-6) || turns.iter().all(|t| *t > 1e-6) {
                     painted += 1;
                     let texel = bytes[(row.rem_euclid(4) * 6 + column.rem_euclid(6)) as usize];
-                    same += usize::from((inverse(i, j).g.to_num::<f64>() - f64::from(texel) / 255.0).abs() < 1e-4);
+                    same += usize::from(
+                        (inverse(i, j).g.to_num::<f64>() - f64::from(texel) / 255.0).abs() < 1e-4,
+                    );
                 }
             }
         }

@@ -87,7 +87,8 @@ mod tests {
             let radians = n.wrapping_mul(0x9e37_79b9_7f4a_7c15_u64 as i64) >> (1 + n % 20);
             // both parts in turns: whole radians are exact in f64, and so is their remainder
             let whole = (radians >> 48) as f64;
-            let exact = (whole % core::f64::consts::TAU + (radians & ((1 << 48) - 1)) as f64 / 2_f64.powi(48))
+            let exact = (whole % core::f64::consts::TAU
+                + (radians & ((1 << 48) - 1)) as f64 / 2_f64.powi(48))
                 / core::f64::consts::TAU;
             let off = turns(radians).to_num::<f64>() - exact;
             worst = worst.max((off - off.round()).abs());

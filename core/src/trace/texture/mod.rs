@@ -4,7 +4,7 @@
 
 mod bump;
 mod checker;
-mod field;
+pub(super) mod field;
 mod frame;
 mod image;
 mod mapped;

@@ -57,7 +57,8 @@ impl<'a, P, D> Pasted<'a, P, D> {
 fn turn(a: [Real; 2], b: [Real; 2], c: [Real; 2]) -> i32 {
     // below 2^33 each, their products below 2^66
     let difference = |p: Real, q: Real| i128::from(q.to_bits()) - i128::from(p.to_bits());
-    let area = difference(a[0], b[0]) * difference(a[1], c[1]) - difference(a[1], b[1]) * difference(a[0], c[0]);
+    let area =
+        difference(a[0], b[0]) * difference(a[1], c[1]) - difference(a[1], b[1]) * difference(a[0], c[0]);
     area.signum() as i32
 }
 

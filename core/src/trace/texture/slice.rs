@@ -110,7 +110,8 @@ mod tests {
     fn a_pixel_shows_the_point_of_its_middle() {
         let real = |bits| Real::from_bits(bits);
         for (low, high, side) in [(-7 << 24, 5 << 24, 7), (i32::MIN, i32::MAX, 1 << 14), (0, 99, 3)] {
-            let bounds = Bounds2 { min: Point2::new(real(low), real(low)), max: Point2::new(real(high), real(high)) };
+            let bounds =
+                Bounds2 { min: Point2::new(real(low), real(low)), max: Point2::new(real(high), real(high)) };
             let window = Window::stretch(bounds, Size::new(side, side)).unwrap();
             let slice = Slice::new(Rgb::WHITE, window, Real::ONE).at_height(real(77));
             for k in [0, 1, side / 2, side - 1] {

@@ -56,9 +56,8 @@ impl<const N: usize> Spline<N> {
             return Err(Error::Capacity { what: "knots of the spline", needed: knots.len(), capacity });
         }
         for (index, (x, color)) in knots.iter().enumerate() {
-            let refuse = |what, value, min, max| {
-                Err(Error::OutOfRange { what, index: Some(index), value, min, max })
-            };
+            let refuse =
+                |what, value, min, max| Err(Error::OutOfRange { what, index: Some(index), value, min, max });
             if *x > Unit::ONE || *x < -Unit::ONE {
                 return refuse("knot of the spline", (*x).into(), -Wide::ONE, Wide::ONE);
             }
@@ -184,7 +183,8 @@ mod tests {
         let t = ((x - knots[i].0) / width(i)).clamp(0.0, 1.0);
         let (from, to) = (slope(i) * width(i), slope(i + 1) * width(i));
         let (square, cube) = (t * t, t * t * t);
-        knots[i].1 + rise(i) * (3.0 * square - 2.0 * cube)
+        knots[i].1
+            + rise(i) * (3.0 * square - 2.0 * cube)
             + from * (t - 2.0 * square + cube)
             + to * (cube - square)
     }
@@ -248,7 +248,10 @@ mod tests {
         let knot = |bits| (Unit::from_bits(bits), Rgb::WHITE);
         let refused = |knots: &[Knot]| Spline::<3>::new(knots).unwrap_err();
         assert!(matches!(refused(&[knot(0)]), Error::TooFew { given: 1, .. }));
-        assert!(matches!(refused(&[knot(0), knot(1), knot(2), knot(3)]), Error::Capacity { capacity: 3, .. }));
+        assert!(matches!(
+            refused(&[knot(0), knot(1), knot(2), knot(3)]),
+            Error::Capacity { capacity: 3, .. }
+        ));
         assert!(matches!(refused(&[knot(0), knot(1), knot(1)]), Error::NotIncreasing { index: 2, .. }));
         for bits in [i32::MIN, i32::MAX, (1 << 30) + 1, -(1 << 30) - 1] {
             let knots = if bits < 0 { [knot(bits), knot(1)] } else { [knot(0), knot(bits)] };

@@ -94,7 +94,8 @@ mod tests {
         let mut most = 0;
         for n in 0..2000_i32 {
             let place = vector([0x2545_f491, 0x6c07_8965, 0x1f12_3bb5].map(|c: i32| c.wrapping_mul(n)));
-            let [three, four, most_octaves] = [3, 4, 16].map(|octaves| turbulence(octaves).at(place).to_bits());
+            let [three, four, most_octaves] =
+                [3, 4, 16].map(|octaves| turbulence(octaves).at(place).to_bits());
             assert!((three - four).abs() < 1_117_000_000 >> 4 && (n == 0 || four != most_octaves));
             most = most.max(most_octaves.abs());
         }

@@ -42,8 +42,9 @@ pub struct Wood {
 impl Wood {
     /// How many rings a place is away from the axis, 24 fractional bits.
     ///
-    /// Domain: all. Error: below `2^-21` for `rings` up to 8 and a wobble up to 1, where nothing is rough
-    /// (row `Wood::radius`). Cost: 40 multiplications, a root, an angle.
+    /// Domain: all. Error: below `2^-19` for `rings` up to 8, a wobble up to 1 with 5 lobes, and places 1/4 from
+    /// the axis and farther, where nothing is rough (row `Wood::radius`). Cost: 40 multiplications, a root, an
+    /// angle.
     pub fn radius(&self, place: Vec3) -> i64 {
         let across = |c: Real, tilt: Real| {
             let shifted = i64::from(c.to_bits()) - (product(tilt.to_bits(), place.z.to_bits()) >> 24);
@@ -57,9 +58,9 @@ impl Wood {
         let along = (product(self.twist.to_bits(), place.z.to_bits()) >> 16) as u32;
         let (sine, _) = sin_cos(Angle::from_bits(round.wrapping_add(along)));
         let wave = product(self.wobble.to_bits(), sine.to_bits()) >> 30;
-        let rough = self.rough.map_or(0, |(turbulence, rings)| {
-            product(rings.to_bits(), turbulence.at(place).to_bits()) >> 30
-        });
+        let rough = self
+            .rough
+            .map_or(0, |(turbulence, rings)| product(rings.to_bits(), turbulence.at(place).to_bits()) >> 30);
         ideal + wave + rough
     }
 }
