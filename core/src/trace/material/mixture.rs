@@ -5,7 +5,7 @@
 
 use super::super::environment::between;
 use super::super::surface::SurfacePoint;
-use super::super::texture::Texture;
+use super::super::texture::field::Texture;
 use super::respond::{Lit, Material, Medium, Response};
 use super::specular::{Specular, View};
 use crate::Error;
