@@ -24,6 +24,7 @@ pub mod random_curve;
 mod shade;
 mod surface;
 mod vector;
+pub mod world;
 
 pub use backward::julia_points;
 pub use bounds::{Bounds, Cell};
