@@ -38,7 +38,7 @@ pub(crate) fn face_frame(p: Vector, face: usize) -> Frame {
         vector
     };
     Frame {
-        normal: unit(axis, if face % 2 == 0 { -1.0 } else { 1.0 }),
+        normal: unit(axis, if face & 1 == 0 { -1.0 } else { 1.0 }),
         uv: [(p[first] + 1.0) / 2.0, (p[second] + 1.0) / 2.0],
         p_u: unit(first, 2.0),
         p_v: unit(second, 2.0),
