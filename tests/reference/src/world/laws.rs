@@ -74,6 +74,15 @@ fn peanut() -> Implicit {
     }
 }
 
+/// `x + y / 2 < 0.3`, cut off by the cube.
+fn half_cube() -> Implicit {
+    Implicit {
+        function: Box::new(|p| p[0] + 0.5 * p[1] - 0.3),
+        gradient: Box::new(|_| [1.0, 0.5, 0.0]),
+        lipschitz: 1.2,
+    }
+}
+
 fn octahedron() -> Polyhedron {
     let sign = |bit: usize| if bit == 0 { -1.0 } else { 2.0 };
     let side = |k: usize| ([sign(k & 1), sign(k & 2), sign(k & 4)], 1.0);
@@ -84,6 +93,7 @@ fn octahedron() -> Polyhedron {
 fn solids() -> Vec<Box<dyn Shape>> {
     let mut solids: Vec<Box<dyn Shape>> =
         vec![Box::new(Sphere), Box::new(Cube), Box::new(octahedron()), Box::new(Plane), Box::new(peanut())];
+    solids.push(Box::new(half_cube()));
     solids.extend([0.0, 0.4, 1.0, 1.7].map(|cap| Box::new(TaperedCylinder { cap }) as Box<dyn Shape>));
     solids.extend([0.02, 0.3, 0.5, 0.999].map(|tube| Box::new(Torus { tube }) as Box<dyn Shape>));
     solids.extend(superellipsoids().into_iter().map(|shape| Box::new(shape) as Box<dyn Shape>));
@@ -420,6 +430,19 @@ fn a_star_of_small_exponents_has_every_crossing() {
     for (t, x) in [(ts[1], root(1.0)), (ts[2], root(-1.0))] {
         assert!((0.65 - t - x * x).abs() < 1e-14, "{t} {x}");
     }
+}
+
+#[test]
+fn the_cube_cuts_an_implicit_surface_off() {
+    let ray = Ray { origin: [-3.0, 0.0, 0.5], direction: [1.0, 0.0, 0.0] };
+    let found = half_cube().crossings(&ray, Cone::THIN);
+    assert_eq!(found.iter().map(|c| c.part).collect::<Vec<_>>(), [Part::Face(1), Part::Face(0)]);
+    assert!(found[0].t == 2.0 && (found[1].t - 3.3).abs() < 1e-14, "{found:?}");
+    let normal = half_cube().frame([-1.0, 0.0, 0.5], Part::Face(1)).normal;
+    assert_eq!(normal, [-1.0, 0.0, 0.0]);
+    let back = Ray { origin: [3.0, 0.0, 0.5], direction: [-1.0, 0.0, 0.0] };
+    let found = half_cube().crossings(&back, Cone::THIN);
+    assert_eq!(found.iter().map(|c| c.part).collect::<Vec<_>>(), [Part::Face(0), Part::Face(1)]);
 }
 
 #[test]

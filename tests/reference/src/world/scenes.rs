@@ -238,6 +238,26 @@ fn snell_bends_at_both_faces_of_a_plate_and_the_ray_goes_on_in_parallel() {
     }
 }
 
+#[test]
+fn no_distance_is_too_short_to_be_seen() {
+    for thickness in [1e-1, 1e-3, 1e-5] {
+        // Out at the other side of the thinnest plate.
+        let mut world = empty(compass());
+        let plate = Placing::scaling([1.0, 1.0, thickness]);
+        world.one(Cube, plate, Material { fresnel: false, ..Material::glass(1.5) });
+        let d = normalised([0.4, 0.1, -1.0]);
+        assert_close(direction(world.seen(along([0.0; 3], -2.0, d), d)), d, 1e-10);
+        // What lies as near as that over a floor throws its shade on it, and hides it from an eye between.
+        let mut world = empty(Surroundings::Plain(BLACK));
+        world.lights = vec![Light::Distant { towards: [0.0, 0.0, 1.0], colour: WHITE }];
+        world.one(Plane, Placing::IDENTITY, matte(WHITE));
+        world.one(Square, at(0.0, 0.0, thickness), Material { ambient: 0.5, ..matte(WHITE) });
+        let eye = [0.1, 0.2, thickness / 2.0];
+        assert_eq!(world.seen(eye, [0.0, 0.0, -1.0]), BLACK);
+        assert_eq!(world.seen(eye, [0.0, 0.0, 1.0]), [0.5; 3]);
+    }
+}
+
 /// The cosine behind a level face.
 fn bent(eta: f64, d: Vector) -> f64 {
     libm::sqrt(1.0 - eta * eta * (d[0] * d[0] + d[1] * d[1]))
@@ -273,8 +293,11 @@ fn glass_in_a_medium_of_its_own_index_is_not_seen_and_in_water_it_has_the_relati
     let mut numbers = Numbers::new(3);
     for _ in 0..200 {
         let b = 0.8 * numbers.next();
-        // The same index; and a ball of a lower priority than the water: neither is there.
-        for world in [ball(1.33, 1.33, 1), ball(1.33, 2.0, -1)] {
+        // The same index; and a ball of a lower priority than the water: neither is there, and of the second
+        // no ray is spawned.
+        let hidden = World { depth: 1, ..ball(1.33, 2.0, -1) };
+        for world in [ball(1.33, 1.33, 1), hidden] {
+            let d = normalised([1.0, 0.1, 0.0]);
             assert_close(direction(world.seen([-5.0, b, 0.0], d)), d, 1e-14);
         }
         let world = ball(1.33, 1.5, 1);
