@@ -1,9 +1,9 @@
 //! A user's implicit surface inside the generic cube: the points of the cube with `F(p) <= 0`, for a function
 //! that changes by at most `L` times the distance.
 //!
-//! Where `|F|` in the middle of a piece of the ray is larger than `L` times half of its length, the piece holds
-//! no root; any other is halved, down to a piece of 2^-24, which has a root if the signs at its ends differ:
-//! two roots that are closer are none.
+//! Where `|F|` in the middle of a piece of the ray is larger than `L` times half of its length, the piece
+//! holds no root; any other is halved, down to a piece of 2^-24, which has a root if the signs at its ends
+//! differ: two roots that are closer are none.
 //!
 //! Faces: 0 is the surface itself, 1 to 6 those of the cube where they cut it off. Texture on face 0:
 //! coordinates in the tangent plane, from the foot of the origin, as of a polyhedron's face; on the others

@@ -1,5 +1,5 @@
-//! What holds for every shape: its crossings are where its inside-outside function changes its sign, its normal
-//! is that of the function, its tangents are the derivatives of its texture coordinates.
+//! What holds for every shape: its crossings are where its inside-outside function changes its sign, its
+//! normal is that of the function, its tangents are the derivatives of its texture coordinates.
 
 use crate::camera::Ray;
 use crate::fif::Fif;
@@ -108,9 +108,9 @@ fn inside(crossings: &[Crossing], t: f64) -> bool {
     }
 }
 
-/// Asserts that between the crossings of `ray` the shape is on the side that they say, at `samples` points and
-/// close before and behind each crossing, wherever the sign of its function is certain. The number of certain
-/// points.
+/// Asserts that between the crossings of `ray` the shape is on the side that they say, at `samples` points
+/// and close before and behind each crossing, wherever the sign of its function is certain. The number of
+/// certain points.
 pub(crate) fn assert_sides(shape: &dyn Shape, ray: &Ray, samples: &[f64], certain: f64) -> usize {
     let crossings = shape.crossings(ray, Cone::THIN);
     for pair in crossings.windows(2) {
@@ -418,8 +418,8 @@ fn a_superellipsoid_of_twos_is_a_sphere_and_of_ones_an_octahedron() {
 
 #[test]
 fn a_star_of_small_exponents_has_every_crossing() {
-    // x^(1/2) + y^(1/2) + z^(1/2) = 1: the line x + y = 1/2, z = 0 touches it; a little nearer it crosses four
-    // times, through two arms.
+    // x^(1/2) + y^(1/2) + z^(1/2) = 1: the line x + y = 1/2, z = 0 touches it; a little farther out it
+    // crosses four times, through two arms.
     let star = Superellipsoid { n: 0.5, m: 0.5 };
     let ray = Ray { origin: [0.65, -0.05, 0.0], direction: [-1.0, 1.0, 0.0] };
     // sqrt x + sqrt y = 1 and x + y = 0.6: (sqrt x sqrt y) = 0.2, so sqrt x = (1 +- sqrt 0.2) / 2.

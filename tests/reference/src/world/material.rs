@@ -3,9 +3,11 @@
 //! With `v` the unit direction towards the eye, `l` towards the light, `m` the eye's ray mirrored and
 //! `h = (v + l) / |v + l|`, all dot products clamped at 0:
 //! - Phong `(m . l)^e`;
-//! - Torrance-Sparrow `F D G / (4 n . v)`: `D = exp(-tan^2 a / s^2) / (s^2 cos^4 a)` with `cos a = n . h`, the
-//!   facets that mirror `l` to `v`; `G = min(1, 2 (n . h) (n . v) / (v . h), 2 (n . h) (n . l) / (v . h))`, those
-//!   not in the shade of others; `F = f + (1 - f) (1 - v . h)^5`;
+//! - Torrance-Sparrow `F D G / (4 n . v)`: `D = exp(-tan^2 a / s^2) / (s^2 cos^4 a)` with `cos a = n . h`,
+//!   the facets that mirror `l` to `v`;
+//!   `G = min(1, 2 (n . h) (n . v) / (v . h), 2 (n . h) (n . l) / (v . h))`, those not in the shade of
+//!   others;
+//!   `F = f + (1 - f) (1 - v . h)^5`;
 //! - Ward, with a frame `T, B`:
 //!   `sqrt((n . l) / (n . v)) exp(-((h . T / s)^2 + (h . B / q)^2) / (h . n)^2) / (4 s q)`.
 //!
@@ -15,7 +17,7 @@
 
 use crate::vector::{Vector, along, dot};
 use crate::world::light::Colour;
-use crate::world::pattern::{Pattern, Point};
+use crate::world::pattern::Pattern;
 use crate::world::refraction::mirrored;
 
 /// How a surface shines.
@@ -148,13 +150,9 @@ impl Material {
         }
     }
 
-    /// What of a light passes: `kt C`, or nothing.
-    pub fn passes(&self, point: &Point) -> Colour {
-        let pigment = self.pigment.at(point);
-        match self.index {
-            Some(_) => [0, 1, 2].map(|k| self.transmit[k] * pigment[k]),
-            None => [0.0; 3],
-        }
+    /// What of a light passes: `kt`, or nothing.
+    pub fn passes(&self) -> Colour {
+        if self.index.is_some() { self.transmit } else { [0.0; 3] }
     }
 }
 

@@ -52,4 +52,4 @@ pub use surroundings::Surroundings;
 pub use tapered_cylinder::TaperedCylinder;
 pub use torus::Torus;
 pub use tracer::World;
-pub use walk::{FARTHEST, Leaf, Object, TOGETHER};
+pub use walk::{FARTHEST, Leaf, OUTERMOST, Object, TOGETHER};

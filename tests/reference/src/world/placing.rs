@@ -1,8 +1,8 @@
 //! Where a shape stands: an affine map from its generic coordinates to those of the world.
 //!
-//! A ray goes to generic coordinates by the inverse map, its direction not normalised, so that `t` is the same
-//! in both. Points and tangents come back by the map, normals by the inverse transpose of its linear part:
-//! a normal is what has the product 0 with every tangent.
+//! A ray goes to generic coordinates by the inverse map, its direction not normalised, so that `t` is the
+//! same in both. Points and tangents come back by the map, normals by the inverse transpose of its linear
+//! part: a normal is what has the product 0 with every tangent.
 //!
 //! Source: course unit V, section 5.7.
 

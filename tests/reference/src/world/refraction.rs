@@ -1,8 +1,8 @@
 //! The directions of reflected and refracted light, and how much of it is reflected.
 //!
 //! Source: course unit V, section 5.9 (`r = dir - 2 (dir . m) m`) and 5.9.1 (Snell's law,
-//! `sin t / c_2 = sin i / c_1` with the speeds of light; an index is the inverse of a speed); CONTRIBUTING.md,
-//! "The picture of a world, defined", Material (Fresnel's reflectance of unpolarised light).
+//! `sin t / c_2 = sin i / c_1` with the speeds of light; an index is the inverse of a speed);
+//! CONTRIBUTING.md, "The picture of a world, defined", Material (Fresnel's reflectance of unpolarised light).
 
 use crate::vector::{Vector, along, dot};
 
@@ -12,8 +12,8 @@ pub fn mirrored(d: Vector, n: Vector) -> Vector {
 }
 
 /// The unit direction of the light that comes along the unit direction `d` and goes on behind a surface with
-/// the unit normal `n` against it, `eta` being the index before it over the index behind it; nothing if all is
-/// reflected.
+/// the unit normal `n` against it, `eta` being the index before it over the index behind it; nothing if all
+/// is reflected.
 ///
 /// The part of `d` along the surface, `d + cos i n`, is the sine of the one angle; `eta` times it is that of
 /// the other.

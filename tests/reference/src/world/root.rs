@@ -1,7 +1,7 @@
 //! Real roots: of a function in a bracket, and all those of a polynomial.
 //!
-//! Between two neighbouring roots of its derivative a polynomial is monotone and has at most one root, which a
-//! change of sign shows (Rolle). The roots of the derivative are found in the same way. Signs are those of
+//! Between two neighbouring roots of its derivative a polynomial is monotone and has at most one root, which
+//! a change of sign shows (Rolle). The roots of the derivative are found in the same way. Signs are those of
 //! double-doubles: the value at a root of the derivative, on which it depends whether two roots that almost
 //! meet are there, is as exact as the coefficients.
 //!
@@ -35,8 +35,8 @@ pub(crate) fn bracketed(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> 
     if at_low.abs() < at_high.abs() { low } else { high }
 }
 
-/// All roots in `(low, high)` of the polynomial with the given coefficients, constant first, at which its sign
-/// changes, by growing size.
+/// All roots in `(low, high)` of the polynomial with the given coefficients, constant first, at which its
+/// sign changes, by growing size.
 pub(crate) fn polynomial(coefficients: &[DoubleDouble], low: f64, high: f64) -> Vec<f64> {
     if coefficients.len() < 2 {
         return Vec::new();

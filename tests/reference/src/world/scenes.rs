@@ -117,7 +117,8 @@ fn one_ray_hits_the_bowl_at_its_first_crossing_and_another_at_its_fifth() {
     assert_eq!((leaf, t), (0, world.crossings(&outside)[0].2.t));
     assert!((t - (3.0 - libm::sqrt(0.96))).abs() < 1e-15);
 
-    // Down through the opening and out of the cone into the cavity: cone, globe, hollow in, cone and hollow out.
+    // Down through the opening and out of the cone into the cavity: into cone, globe and hollow, out of the
+    // cone and the hollow.
     let through = Ray { origin: [-0.3, 0.0, 3.0], direction: [0.2, 0.0, -1.0] };
     let crossings = world.crossings(&through);
     assert_eq!(
@@ -339,7 +340,7 @@ fn no_secondary_ray_sees_the_surface_that_it_leaves() {
     // A mirror ball, seen from all sides, at three scales and far from the origin: always the sky.
     let mut numbers = Numbers::new(5);
     let mut hits = 0;
-    for scale in [1e-3, 1.0, 64.0] {
+    for scale in [1e-3, 1.0, 20.0] {
         for shape in 0..3 {
             let mut world = empty(compass());
             let place = Placing::scaling([scale, 0.5 * scale, scale]).then(&at(11.0, -40.0, 7.0));
@@ -432,6 +433,26 @@ fn a_square_is_seen_and_throws_its_shade_from_either_side() {
         assert_close(direction(above), [0.6, 0.0, 0.8], 1e-15);
         // From below it shows the floor in its shade.
         assert_eq!(world.seen([-0.5, 0.0, 0.5], [0.6, 0.0, 0.8]), BLACK);
+    }
+}
+
+#[test]
+fn what_is_too_far_away_is_not_seen() {
+    let mut world = empty(compass());
+    world.one(Plane, Placing::IDENTITY, Material { ambient: 1.0, ..matte(BLACK) });
+    let sees = |from: Vector, to: Vector| world.seen(from, along(to, -1.0, from)) == BLACK;
+    assert!(sees([0.0, 0.0, 1.0], [63.9, 0.0, 0.0]) && !sees([0.0, 0.0, 1.0], [64.1, 0.0, 0.0]));
+    // Along a direction of unit length, t is a distance.
+    let down = |from: Vector| world.seen(from, [0.0, 0.0, -1.0]) == BLACK;
+    assert!(down([0.0, -63.0, 127.9]) && !down([0.0, -63.0, 128.1]) && !down([0.0, -65.0, 1.0]));
+    // Beyond the world's end nothing throws a shade either.
+    let mut world = empty(Surroundings::Plain(BLACK));
+    world.lights = vec![Light::Distant { towards: [0.0, 0.0, 1.0], colour: WHITE }];
+    world.one(Plane, Placing::IDENTITY, matte(WHITE));
+    for (z, light) in [(63.9, BLACK), (64.1, WHITE)] {
+        world.one(Square, at(0.0, 0.0, z), matte(WHITE));
+        assert_eq!(world.seen([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]), light);
+        world.objects.pop();
     }
 }
 

@@ -6,7 +6,8 @@
 //! With `N = |x|^n + |y|^n`, `F' / m = N^(m/n - 1) (|x|^(n-1) |x|' + |y|^(n-1) |y|') + |z|^(m-1) |z|'`.
 //!
 //! Texture: `u` is the longitude over `2 pi`, `v = 1/2 + latitude / pi`, as of the sphere. With the direction
-//! `w` from the middle and `p = R w`, the surface moves with an angle as `R w' - R (grad F . w' / grad F . w) w`.
+//! `w` from the middle and `p = R w`, the surface moves with an angle as
+//! `R w' - R (grad F . w' / grad F . w) w`.
 //!
 //! Source: course unit V, section 5.7, 4 (whose formula has lost the absolute values).
 
@@ -19,7 +20,8 @@ use core::f64::consts::{PI, TAU};
 
 /// A piece that is narrower is not halved again: two roots that are closer are none.
 const NARROW: f64 = 1e-10;
-/// What is inside by less is outside: a ray in a flat part of the surface does not cross it at every rounding.
+/// What is inside by less is outside: a ray in a flat part of the surface does not cross it at every
+/// rounding.
 const SKIN: f64 = 1e-15;
 /// Nearer to a plane of symmetry a gradient may be too large for an f64.
 const NEAR_A_PLANE: f64 = 1e-60;

@@ -1,6 +1,6 @@
 //! The tapered cylinder about the z axis, of radius 1 at `z = 0` and `S` at `z = 1`:
-//! `F = x^2 + y^2 - (1 + (S - 1) z)^2` for `0 < z < 1`, with base and cap. `S = 1` is the cylinder, `S = 0` the
-//! cone. It is convex: a line is inside it over one interval.
+//! `F = x^2 + y^2 - (1 + (S - 1) z)^2` for `0 < z < 1`, with base and cap. `S = 1` is the cylinder, `S = 0`
+//! the cone. It is convex: a line is inside it over one interval.
 //!
 //! Faces: 0 the side, 1 the base, 2 the cap. Texture: on the side `u` is the longitude over `2 pi`, `v = z`;
 //! on the base `u = (x + 1) / 2`, `v = (y + 1) / 2`; on the cap the same of `x / S` and `y / S`.
@@ -45,7 +45,7 @@ impl Shape for TaperedCylinder {
         if slab.is_empty() {
             return Vec::new();
         }
-        // The wall along the ray, a s^2 + 2 b s + c, with s from a point near the slab, so that c stays small.
+        // The wall along the ray, a s^2 + 2 b s + c, with s from a point near the slab: c stays small.
         let (start, end) = (slab.enter.0, slab.leave.0);
         let d = ray.direction;
         let flat = d[0] * d[0] + d[1] * d[1];

@@ -14,7 +14,7 @@ use crate::world::pattern::Point;
 use crate::world::refraction::{mirrored, reflectance, refracted};
 use crate::world::shape::{Cone, Crossing, Part};
 use crate::world::surroundings::Surroundings;
-use crate::world::walk::{Change, FARTHEST, Leaf, Object, Start, TOGETHER, Walk, leaf_crossings};
+use crate::world::walk::{Change, FARTHEST, Leaf, Object, Start, TOGETHER, Walk, counts, leaf_crossings};
 
 /// A ray of less weight is not cast.
 const LIGHTEST: f64 = 1.0 / 256.0;
@@ -54,8 +54,8 @@ struct Path {
 type Seen = (Change, [Option<usize>; 2]);
 
 impl World {
-    /// The linear light of a pixel (column, row): for each of `samples`, `(dx, dy, weight)` with the offset in
-    /// pixels from the pixel's centre, weight times its light, cut off at 1.
+    /// The linear light of a pixel (column, row): for each of `samples`, `(dx, dy, weight)` with the offset
+    /// in pixels from the pixel's centre, weight times its light, cut off at 1.
     ///
     /// # Errors
     /// When a ray finds that transparent objects interpenetrate, and they may not.
@@ -112,13 +112,13 @@ impl World {
         self.leaves.iter().map(inside).collect()
     }
 
-    /// Every crossing of every leaf along a ray, `0 <= t < 128`, by growing `t`: object, leaf and crossing.
+    /// Every crossing of every leaf along a ray that counts, by growing `t`: object, leaf and crossing.
     pub fn crossings(&self, ray: &Ray) -> Vec<(usize, usize, Crossing)> {
         let mut all = Vec::new();
         for (number, object) in self.objects.iter().enumerate() {
             for leaf in object.program.leaves() {
                 let crossings = leaf_crossings(&self.leaves[leaf], ray, Cone::THIN).into_iter();
-                let counted = crossings.filter(|crossing| (0.0..FARTHEST).contains(&crossing.t));
+                let counted = crossings.filter(|crossing| counts(ray, crossing, 0.0..FARTHEST));
                 all.extend(counted.map(|crossing| (number, leaf, crossing)));
             }
         }
@@ -246,7 +246,7 @@ impl World {
 
         let mut reflect = material.reflect;
         if material.index.is_some() {
-            let transmit = material.passes(&point);
+            let transmit = material.passes();
             let [index_before, index_behind] =
                 media.map(|medium| index(&self.objects, &self.materials, medium));
             let eta = index_before / index_behind;
@@ -291,9 +291,7 @@ impl World {
         let (mut passed, mut from) = ([1.0; 3], 0.0);
         while passed != [0.0; 3] {
             let Some((change, _)) = self.next_seen(&mut walk, &mut from)? else { break };
-            let width = start.cone.at(change.t);
-            let point = self.point(&start.ray, change.t, change.leaf, change.part, width);
-            let through = self.material(change.object, change.leaf, change.part).passes(&point);
+            let through = self.material(change.object, change.leaf, change.part).passes();
             passed = [0, 1, 2].map(|k| passed[k] * through[k]);
         }
         Ok(passed)

@@ -1,26 +1,29 @@
 //! A ray's way through the leaves and objects of a world: where the Boolean function of an object changes.
 //!
-//! Every leaf is inside or outside at each point of the way. A crossing that enters sets its state, one that
-//! leaves clears it, one that changes nothing is none. So the surface that a ray leaves, which it crosses once
-//! more at a `t` near 0, needs no exception and no least distance. Crossings of one object whose `t` differ by
-//! no more than [`TOGETHER`] take effect together; of several objects that change at the same `t` each is met
-//! in turn, in the order of naming, the later ones by the ray that goes on from there.
+//! Every leaf is inside or outside at each point of the way. A crossing that enters sets its state, one
+//! that leaves clears it, one that changes nothing is none. So the surface that a ray leaves, which it
+//! crosses once more at a `t` near 0, needs no exception and no least distance. Crossings of one object whose
+//! `t` differ by no more than [`TOGETHER`] take effect together; of several objects that change at the same
+//! `t` each is met in turn, in the order of naming, the later ones by the ray that goes on from there.
 //!
 //! An open leaf has no inside of its own to begin with. On which side of it a ray starts is what its first
 //! crossing says; only the leaf that the ray leaves keeps the state that the ray carries.
 //!
-//! Source: CONTRIBUTING.md, "The picture of a world, defined", Leaves and objects, Crossings, Hit; course unit
-//! V, section 5.10.3.
+//! Source: CONTRIBUTING.md, "The picture of a world, defined", Leaves and objects, Crossings, Hit; course
+//! unit V, section 5.10.3.
 
 use crate::camera::Ray;
 use crate::world::compound::Program;
 use crate::world::placing::Placing;
 use crate::world::shape::{Cone, Crossing, Part, Shape};
+use core::ops::Range;
 
 /// Crossings this near in `t` are at the same place.
 pub const TOGETHER: f64 = 1e-6;
 /// What is farther away is not seen.
 pub const FARTHEST: f64 = 128.0;
+/// What is farther from the origin along an axis is not seen.
+pub const OUTERMOST: f64 = 64.0;
 
 /// A shape in its place.
 #[derive(Debug)]
@@ -87,7 +90,7 @@ impl<'a> Walk<'a> {
             for index in object.program.leaves() {
                 let leaf = &leaves[index];
                 let all = leaf_crossings(leaf, &start.ray, start.cone);
-                let counted = all.into_iter().filter(|crossing| (-TOGETHER..end).contains(&crossing.t));
+                let counted = all.into_iter().filter(|c| counts(&start.ray, c, -TOGETHER..end));
                 let first = crossings.len();
                 crossings.extend(counted.map(|crossing| (index, crossing)));
                 if leaf.shape.is_open() && start.departed != Some(index) {
@@ -135,6 +138,11 @@ impl<'a> Walk<'a> {
         let (_, crossing) = taken.into_iter().rev().find(|taken| taken.0 == leaf)?;
         Some(Change { t: crossing.t, object, leaf, part: crossing.part, before })
     }
+}
+
+/// Whether a crossing counts: it has a `t` in the given range and lies in the world.
+pub(crate) fn counts(ray: &Ray, crossing: &Crossing, range: Range<f64>) -> bool {
+    range.contains(&crossing.t) && ray.at(crossing.t).iter().all(|c| c.abs() <= OUTERMOST)
 }
 
 /// The crossings of a leaf in its place.
