@@ -86,13 +86,13 @@ impl Search<'_> {
 }
 
 /// The range of the product of two ranges (eq. 49).
-fn product(f: (f64, f64), g: (f64, f64)) -> (f64, f64) {
+pub(crate) fn product(f: (f64, f64), g: (f64, f64)) -> (f64, f64) {
     let s = [f.0 * g.0, f.0 * g.1, f.1 * g.0, f.1 * g.1];
     (s.into_iter().fold(f64::INFINITY, f64::min), s.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
 /// The interval of `t >= 0` for which the ray is inside of the closed box, if there is any (eq. 50-51).
-fn clip(ray: &Ray, slabs: [(f64, f64); 3]) -> Option<(f64, f64)> {
+pub(crate) fn clip(ray: &Ray, slabs: [(f64, f64); 3]) -> Option<(f64, f64)> {
     let (mut t_in, mut t_out) = (0.0_f64, f64::INFINITY);
     for (axis, (low, high)) in slabs.into_iter().enumerate() {
         let (origin, direction) = (ray.origin[axis], ray.direction[axis]);

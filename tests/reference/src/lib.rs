@@ -25,6 +25,7 @@ mod shade;
 mod surface;
 pub mod texture;
 mod vector;
+pub mod world;
 
 pub use backward::julia_points;
 pub use bounds::{Bounds, Cell};
