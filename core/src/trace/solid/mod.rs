@@ -6,8 +6,10 @@ mod placed;
 mod plane;
 mod shape;
 mod sphere;
+mod torus;
 
 pub use placed::Placed;
 pub use plane::Plane;
 pub use shape::{NearCrossing, NearRay, Shape};
 pub use sphere::Sphere;
+pub use torus::Torus;
