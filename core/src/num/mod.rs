@@ -65,6 +65,7 @@
 //! does not matter.
 
 mod alias;
+mod atan;
 mod complex;
 mod decimal;
 mod exponential;
@@ -82,6 +83,7 @@ mod wide;
 mod zeros;
 
 pub use alias::Alias;
+pub use atan::atan2;
 pub use complex::Complex;
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;

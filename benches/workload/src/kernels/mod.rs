@@ -89,6 +89,7 @@ const TABLE: &[Kernel] = &[
     beside("reciprocal_sqrt", "call", num::reciprocal_sqrt_fixed, num::reciprocal_sqrt_f32, num::reciprocal_sqrt_f64),
     beside("sqrt", "call", num::sqrt_fixed, num::sqrt_f32, num::sqrt_f64),
     beside("sin_cos", "call", num::sin_cos_fixed, num::sin_cos_f32, num::sin_cos_f64),
+    beside("atan2", "call", num::atan2_fixed, num::atan2_f32, num::atan2_f64),
     beside("log2", "call", num::log2_fixed, num::log2_f32, num::log2_f64),
     beside("exp_minus", "call", num::exp_minus_fixed, num::exp_minus_f32, num::exp_minus_f64),
     beside("dwell fine", "iteration", escape::fine, escape::plain_f32, escape::plain_f64),

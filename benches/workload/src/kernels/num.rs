@@ -152,6 +152,35 @@ pub(super) fn sin_cos_f64(watch: &mut Watch<'_>) -> Tally {
     })
 }
 
+table! {
+    /// The components of vectors all round: two neighbours make one.
+    COMPONENTS: i32, i => (mixed(i) >> 32) as i32 >> (i % 13)
+}
+table!(COMPONENTS_F32: f32, i => COMPONENTS[i] as f32);
+table!(COMPONENTS_F64: f64, i => COMPONENTS[i] as f64);
+
+/// The angles of the vectors that neighbours make.
+#[inline(always)]
+fn vectors<T: Copy>(watch: &mut Watch<'_>, inputs: &[T], mut angle: impl FnMut(T, T) -> u32) -> Tally {
+    let mut before = inputs[0];
+    watch.over(inputs, |v| angle(core::mem::replace(&mut before, v), v))
+}
+
+#[inline(never)]
+pub(super) fn atan2_fixed(watch: &mut Watch<'_>) -> Tally {
+    vectors(watch, &COMPONENTS, |y, x| num::atan2(y, x).to_bits())
+}
+
+#[inline(never)]
+pub(super) fn atan2_f32(watch: &mut Watch<'_>) -> Tally {
+    vectors(watch, &COMPONENTS_F32, |y, x| libm::atan2f(y, x).to_bits())
+}
+
+#[inline(never)]
+pub(super) fn atan2_f64(watch: &mut Watch<'_>) -> Tally {
+    vectors(watch, &COMPONENTS_F64, |y, x| fold(libm::atan2(y, x)))
+}
+
 #[inline(never)]
 pub(super) fn log2_fixed(watch: &mut Watch<'_>) -> Tally {
     watch.over(&SQUARES, num::log2)
@@ -205,6 +234,7 @@ mod tests {
             assert!(
                 (f64::from(num::log2(SQUARES[i])) / 16_777_216.0 - libm::log2(SQUARES_F64[i])).abs() < 1e-6
             );
+            assert!((f64::from(COMPONENTS_F32[i]) / COMPONENTS_F64[i] - 1.0).abs() < 1e-6);
             let power = num::exp_minus(num::Real::from_bits(EXPONENTS[i])).to_num::<f64>();
             assert!((power - libm::exp(-EXPONENTS_F64[i])).abs() < 1e-8);
             assert!((f64::from(EXPONENTS_F32[i]) - EXPONENTS_F64[i]).abs() < 1e-5);
