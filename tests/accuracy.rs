@@ -3,6 +3,8 @@
 //!
 //! Inputs come from four generators: a hand list, edge cases, a seeded random sequence, evenly spaced values.
 
+mod texture;
+
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
 use attractor::num::{self, Angle, Real, Scaling, Unit, Vec3, Wide};
 use attractor::trace::{Environment, Finish, HeightField, Light, Ray};
@@ -39,6 +41,7 @@ pub fn table() -> Vec<Row> {
     rows.extend(surfaces());
     rows.extend(shading());
     rows.extend(moments());
+    rows.extend(texture::rows());
     rows
 }
 

@@ -30,6 +30,9 @@ pub(crate) trait Float:
     /// The square root.
     fn root(self) -> Self;
 
+    /// The greatest integer that is not above it.
+    fn floor(self) -> i32;
+
     /// For a checksum.
     fn fold(self) -> u32;
 
@@ -68,6 +71,12 @@ impl Float for f32 {
     }
 
     #[inline(always)]
+    fn floor(self) -> i32 {
+        let whole = self as i32;
+        whole - i32::from(self < whole as f32)
+    }
+
+    #[inline(always)]
     fn fold(self) -> u32 {
         self.to_bits()
     }
@@ -92,6 +101,12 @@ impl Float for f64 {
     #[inline(always)]
     fn root(self) -> Self {
         libm::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn floor(self) -> i32 {
+        let whole = self as i32;
+        whole - i32::from(self < f64::from(whole))
     }
 
     #[inline(always)]

@@ -95,7 +95,7 @@ pub use logarithm::log2;
 pub(crate) use product::{complex_product_added, product, product_shifted, product_u, square_u};
 pub(crate) use product::{high, high_of_double, high_of_square, high_u};
 pub(crate) use quotient::{nth, quotient, ratio};
-pub(crate) use random_function::magnitudes;
+pub(crate) use random_function::{magnitudes, mixed};
 pub use random_function::{Deviate, Parameter, RandomFunction};
 pub use rgb::Rgb;
 pub(crate) use root::root_and_reciprocal;

@@ -116,7 +116,7 @@ impl RandomFunction {
 
 /// The finalizer of MurmurHash3.
 #[inline]
-const fn mixed(mut h: u32) -> u32 {
+pub(crate) const fn mixed(mut h: u32) -> u32 {
     h ^= h >> 16;
     h = h.wrapping_mul(0x85eb_ca6b);
     h ^= h >> 13;

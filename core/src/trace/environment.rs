@@ -110,7 +110,7 @@ impl Environment {
 
 /// Whether the square in a direction is an even one; any where its tone does not count.
 #[inline(never)]
-fn is_even(x: i32, y: i32, elevation: u32, scale: Real) -> bool {
+pub(super) fn is_even(x: i32, y: i32, elevation: u32, scale: Real) -> bool {
     // below 2^-18 the horizon is so near that less than 2^-11 of a square's tone is left
     let (mantissa, shift) = reciprocal(elevation.max(1 << 12));
     let squares = |c: i32| {
@@ -123,7 +123,7 @@ fn is_even(x: i32, y: i32, elevation: u32, scale: Real) -> bool {
 
 /// `elevation / fade`, at most 1; 0 below `2^-18`.
 #[inline(never)]
-fn part(elevation: u32, fade: Unit) -> i32 {
+pub(super) fn part(elevation: u32, fade: Unit) -> i32 {
     if elevation < 1 << 12 {
         return 0;
     }

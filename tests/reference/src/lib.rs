@@ -23,6 +23,7 @@ mod polynomial;
 pub mod random_curve;
 mod shade;
 mod surface;
+pub mod texture;
 mod vector;
 
 pub use backward::julia_points;
