@@ -15,6 +15,7 @@ mod slab;
 mod sphere;
 mod square;
 mod tapered_cylinder;
+mod torus;
 
 pub use cube::Cube;
 pub use half_space::HalfSpace;
@@ -26,3 +27,4 @@ pub use shape::{NearCrossing, NearRay, Shape};
 pub use sphere::Sphere;
 pub use square::Square;
 pub use tapered_cylinder::TaperedCylinder;
+pub use torus::Torus;
