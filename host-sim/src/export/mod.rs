@@ -10,6 +10,7 @@ mod module;
 mod palette;
 mod surface;
 mod system;
+//mod world;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -80,7 +81,9 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::Mandelbrot(scene) => escape::mandelbrot(scene, &mut module),
         Kind::Julia(scene) => escape::julia(scene, &mut module),
         Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
-        Kind::World(_) => {}
+        Kind::World(scene) => {
+            let _ = scene;
+        }
     }
     module
         .finished(&format!("//! {title}.\n//!\n//! Written by `attractor export{} {name}`.\n", flag(gallery)))

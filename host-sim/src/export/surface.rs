@@ -8,6 +8,7 @@ use attractor_gallery::surface_depth;
 use super::function::function;
 use super::module::{Module, lit, lits, variant};
 use super::palette;
+use crate::scene::Standpoint;
 use crate::scene::fif_surface::FifSurface;
 
 /// The longer side of the display for which a depth is stated.
@@ -33,7 +34,7 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
         "How deep the pyramids are; none: their cells are as fine as a pixel.\n{lent} are lent on {SIDE} pixels a side, {depth} deep."
     );
     module.constant(&doc, "DEPTH", "Option<u32>", format_args!("{:?}", scene.depth));
-    camera(scene, module);
+    camera(&scene.standpoint, module);
     light(scene, module);
     let mut lines = vec![
         "let caster = RayCaster::new(surface, camera()?, size)?;",
@@ -64,8 +65,7 @@ fn vector(v: Vec3) -> String {
 }
 
 /// Where the camera stands.
-fn camera(scene: &FifSurface, module: &mut Module) {
-    let at = scene.standpoint;
+pub(super) fn camera(at: &Standpoint, module: &mut Module) {
     module.constant("Where the camera stands.", "EYE", "Vec3", vector(at.eye));
     module.constant("What it looks at.", "LOOK_AT", "Vec3", vector(at.look_at));
     module.constant("Which way is up.", "UP", "Vec3", vector(at.up));

@@ -53,6 +53,7 @@ pub(crate) use halving::Chords;
 pub(crate) use law::Law;
 pub(crate) use motion::Motion;
 pub(crate) use request::{Question, Request};
+pub(crate) use standpoint::Standpoint;
 pub(crate) use trail::Trail;
 
 /// What can be measured of a scene.

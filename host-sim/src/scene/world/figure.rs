@@ -1,20 +1,32 @@
 //! The shapes of a world: numbers as the file has them, and core's surfaces that are made of them.
 
-use attractor::num::{Affine3, Vec3};
-use attractor::surfaces;
-use attractor::trace::solid::{Placed, Plane, Sphere};
+use attractor::num::{Affine3, Near, Real, Vec3, Wide};
+use attractor::trace::solid::{
+    Cube, HalfSpace, Placed, Plane, Polygon, Polyhedron, Sphere, Square, TaperedCylinder, Torus,
+};
+use attractor::{Error, surfaces};
+use toml::Spanned;
 
 use super::object::{Form, Thing};
 use super::placement::Step;
 use crate::fail::Fail;
-use crate::source::Source;
+use crate::source::{Num, Source};
+
+/// The most corners of a polygon.
+const CORNERS: usize = 16;
 
 surfaces! {
     /// A surface of any kind that a file can name.
     #[derive(Debug, Clone, Copy)]
-    pub(crate) enum Solid {
+    pub(crate) enum Solid<'a> {
         Plane(Placed<Plane>),
+        Square(Placed<Square>),
+        Polygon(Placed<Polygon<CORNERS>>),
         Sphere(Placed<Sphere>),
+        Cube(Placed<Cube>),
+        Polyhedron(Placed<Polyhedron<'a>>),
+        TaperedCylinder(Placed<TaperedCylinder>),
+        Torus(Placed<Torus>),
     }
 }
 
@@ -22,41 +34,101 @@ surfaces! {
 #[derive(Debug)]
 pub(crate) enum Figure {
     Plane,
+    Square,
+    Polygon { corners: Vec<Vec3>, polygon: Box<Polygon<CORNERS>> },
     Sphere,
+    Cube,
+    Polyhedron { planes: Vec<(Vec3<Wide>, Wide)>, half_spaces: Vec<HalfSpace> },
+    TaperedCylinder { cap: Real, shape: TaperedCylinder },
+    Torus(Torus),
 }
 
 impl Figure {
     /// The shape of a table that is no compound.
     pub(super) fn load(source: &Source, thing: &Thing, prefix: &str) -> Result<Self, Fail> {
         let key = |name: &str| format!("{prefix}{name}");
-        match thing.shape.get_ref() {
-            Form::Plane => Ok(Self::Plane),
-            Form::Sphere => Ok(Self::Sphere),
+        let refused = |span, name: &str, error: Error| source.fail(span, &key(name), error);
+        let form = *thing.shape.get_ref();
+        match (form, &thing.points, &thing.planes, &thing.cap, &thing.tube) {
+            (Form::Plane, ..) => Ok(Self::Plane),
+            (Form::Square, ..) => Ok(Self::Square),
+            (Form::Sphere, ..) => Ok(Self::Sphere),
+            (Form::Cube, ..) => Ok(Self::Cube),
+            (Form::Polygon, Some(points), ..) => {
+                let corners = points.get_ref().iter().enumerate().map(|(i, point)| {
+                    let [x, y, z] = source.triple(point.get_ref(), &key(&format!("points[{i}]")))?;
+                    Ok(Vec3::new(x, y, z))
+                });
+                let corners = corners.collect::<Result<Vec<_>, Fail>>()?;
+                let polygon =
+                    Polygon::new(&corners).map_err(|error| refused(points.span(), "points", error))?;
+                Ok(Self::Polygon { corners, polygon: Box::new(polygon) })
+            }
+            (Form::Polyhedron, _, Some(planes), ..) => polyhedron(source, planes, &key("planes")),
+            (Form::TaperedCylinder, _, _, None, _) => {
+                let cap = Real::ONE;
+                let shape =
+                    TaperedCylinder::new(cap).map_err(|error| refused(thing.shape.span(), "shape", error))?;
+                Ok(Self::TaperedCylinder { cap, shape })
+            }
+            (Form::TaperedCylinder, _, _, Some(given), _) => {
+                let cap = source.fixed(given, &key("cap"))?;
+                let shape = TaperedCylinder::new(cap).map_err(|error| refused(given.span(), "cap", error))?;
+                Ok(Self::TaperedCylinder { cap, shape })
+            }
+            (Form::Torus, .., Some(given)) => {
+                let tube: Near = source.fixed(given, &key("tube"))?;
+                Torus::new(tube).map(Self::Torus).map_err(|error| refused(given.span(), "tube", error))
+            }
             _ => Err(source.fail(thing.shape.span(), &key("shape"), "not yet")),
         }
     }
 
     /// The shape where these steps put it.
-    pub(crate) fn placed(&self, steps: &[Step]) -> Result<Solid, attractor::Error> {
+    pub(crate) fn placed(&self, steps: &[Step]) -> Result<Solid<'_>, Error> {
         let map = map(steps)?;
         Ok(match self {
             Self::Plane => Solid::Plane(Placed::new(Plane, &map)?),
+            Self::Square => Solid::Square(Placed::new(Square, &map)?),
+            Self::Polygon { polygon, .. } => Solid::Polygon(Placed::new(**polygon, &map)?),
             Self::Sphere => Solid::Sphere(Placed::new(Sphere, &map)?),
+            Self::Cube => Solid::Cube(Placed::new(Cube, &map)?),
+            Self::Polyhedron { half_spaces, .. } => {
+                Solid::Polyhedron(Placed::new(Polyhedron::new(half_spaces)?, &map)?)
+            }
+            Self::TaperedCylinder { shape, .. } => Solid::TaperedCylinder(Placed::new(*shape, &map)?),
+            Self::Torus(torus) => Solid::Torus(Placed::new(*torus, &map)?),
         })
     }
 }
 
+fn polyhedron(source: &Source, planes: &Spanned<Vec<Spanned<[Num; 4]>>>, key: &str) -> Result<Figure, Fail> {
+    let mut given: Vec<(Vec3<Wide>, Wide)> = Vec::new();
+    let mut half_spaces = Vec::new();
+    for (i, plane) in planes.get_ref().iter().enumerate() {
+        let key = format!("{key}[{i}]");
+        let [nx, ny, nz, d] = plane.get_ref();
+        let number = |number: &Num, k: usize| source.fixed::<Wide>(number, &format!("{key}[{k}]"));
+        let (normal, distance) = (Vec3::new(number(nx, 0)?, number(ny, 1)?, number(nz, 2)?), number(d, 3)?);
+        half_spaces
+            .push(HalfSpace::new(normal, distance).map_err(|error| source.fail(plane.span(), &key, error))?);
+        given.push((normal, distance));
+    }
+    Polyhedron::new(&half_spaces).map_err(|error| source.fail(planes.span(), key, error))?;
+    Ok(Figure::Polyhedron { planes: given, half_spaces })
+}
+
 /// The map of steps, the first one first.
-fn map(steps: &[Step]) -> Result<Affine3, attractor::Error> {
+fn map(steps: &[Step]) -> Result<Affine3, Error> {
     let mut map = Affine3::IDENTITY;
     for step in steps {
         map = map.then(&match *step {
             Step::Scale(factors) => Affine3::scale(factors),
             Step::Rotate { axis, angle } => Affine3::rotate(axis, angle)?,
             Step::Translate(by) => Affine3::translate(by),
-            Step::Matrix(rows) => {
-                let row = |k: usize| Vec3::new(rows[k][0], rows[k][1], rows[k][2]);
-                Affine3::matrix([row(0), row(1), row(2)], Vec3::new(rows[0][3], rows[1][3], rows[2][3]))
+            Step::Matrix([x, y, z]) => {
+                let row = |[x, y, z, _]: [Wide; 4]| Vec3::new(x, y, z);
+                Affine3::matrix([row(x), row(y), row(z)], Vec3::new(x[3], y[3], z[3]))
             }
         });
     }

@@ -53,7 +53,7 @@ struct Relief {
 
 /// What colours a material.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Pigment {
+pub(crate) enum Colored {
     Color(Rgb),
     /// By number.
     Texture(usize),
@@ -86,7 +86,7 @@ impl Gloss {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Matter {
     pub(crate) name: String,
-    pub(crate) pigment: Pigment,
+    pub(crate) pigment: Colored,
     pub(crate) ambient: Unit,
     pub(crate) diffuse: Unit,
     pub(crate) specular: Rgb,
@@ -104,7 +104,7 @@ impl Matter {
     pub(super) fn plain() -> Self {
         Self {
             name: String::new(),
-            pigment: Pigment::Color(Rgb::WHITE),
+            pigment: Colored::Color(Rgb::WHITE),
             ambient: Unit::ONE / 8,
             diffuse: Unit::ONE / 8 * 7,
             specular: Rgb::BLACK,
@@ -153,8 +153,8 @@ impl Matter {
                     "a material has a color or a texture",
                 ));
             }
-            (None, Some(name)) => Pigment::Texture(texture(name, &key("texture"))?),
-            (color, None) => Pigment::Color(light_or(source, color.as_ref(), &key("color"), Rgb::WHITE)?),
+            (None, Some(name)) => Colored::Texture(texture(name, &key("texture"))?),
+            (color, None) => Colored::Color(light_or(source, color.as_ref(), &key("color"), Rgb::WHITE)?),
         };
         let medium = medium(source, given, &key)?;
         // glass that says nothing else is clear

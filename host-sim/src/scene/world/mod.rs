@@ -13,4 +13,9 @@ mod surroundings;
 mod texture;
 mod view;
 
+pub(crate) use figure::Figure;
+pub(crate) use lamp::{Light, Stand};
+pub(crate) use material::{Colored, Gloss, Matter};
+pub(crate) use placement::Step;
+pub(crate) use surroundings::Around;
 pub(crate) use view::WorldScene;

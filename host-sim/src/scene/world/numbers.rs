@@ -69,7 +69,7 @@ struct Change {
 }
 
 /// All of an object with these leaves, in order.
-fn changes(ops: &[Op], surfaces: &[Solid], ray: &Ray) -> Vec<Change> {
+fn changes(ops: &[Op], surfaces: &[Solid<'_>], ray: &Ray) -> Vec<Change> {
     let mut inside: Vec<bool> =
         surfaces.iter().map(|one| one.is_closed() && one.value(ray.origin()) < Wide::ZERO).collect();
     let mut all = Vec::new();
@@ -163,7 +163,7 @@ pub(super) fn along(scene: &WorldScene, text: &str, points: u32, out: &mut dyn W
 }
 
 /// Where a ray is near the things that have limits, and a quarter more at each end; else its first 16 units.
-fn span(surfaces: &[Solid], ray: &Ray) -> (f64, f64) {
+fn span(surfaces: &[Solid<'_>], ray: &Ray) -> (f64, f64) {
     let boxes = surfaces.iter().map(|one| one.extent()).filter(|extent| {
         let ends = [extent.low, extent.high].map(|v| [v.x, v.y, v.z]);
         ends.iter().flatten().all(|c| c.unsigned_abs() < 100)

@@ -122,7 +122,7 @@ fn rows(source: &Source, matrix: &Spanned<Vec<Num>>, key: &str) -> Result<[[Wide
     Ok(rows)
 }
 
-fn factors(source: &Source, scale: &Spanned<Scale>, key: &str) -> Result<Vec3, Fail> {
+pub(super) fn factors(source: &Source, scale: &Spanned<Scale>, key: &str) -> Result<Vec3, Fail> {
     match scale.get_ref() {
         Scale::All(number) => {
             let number = Spanned::new(scale.span(), number.clone());

@@ -4,11 +4,10 @@ use std::convert::Infallible;
 use std::io::Write;
 
 use attractor::draw::Srgb;
-use attractor::num::Rgb;
 use attractor::plane::Field as _;
 use attractor::trace::material::{Clear, Highlight, Mixture};
 use attractor::trace::world::{Leaf, Object, World, WorldCaster};
-use attractor::trace::{Extent, Sampling};
+use attractor::trace::{Extent, Sampling, Surface};
 use attractor_gallery::{Watch, draw_field};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -18,10 +17,11 @@ use super::super::orbit::Orbit;
 use super::super::request::{Question, Request};
 use super::figure::{Figure, Solid};
 use super::file::{DEEPEST, Description, Policy};
-use super::material::{Matter, Pigment};
+use super::material::{Colored, Matter};
 use super::numbers;
 use super::object::each;
 use super::surroundings::Sky;
+use super::texture::Pigment;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::source::Source;
@@ -34,11 +34,11 @@ const RAYS: usize = DEEPEST as usize + 2;
 /// The picture whose rays look for glass in glass.
 const PROBES: Size = Size::new(64, 64);
 
-/// What colours a thing.
-pub(crate) type Stuff = Mixture<Rgb, Highlight, Option<Clear>>;
+/// What a thing is made of.
+pub(crate) type Stuff = Mixture<Pigment, Highlight, Option<Clear>>;
 
 /// The picture of a world on the host.
-pub(crate) type Caster<'a> = WorldCaster<'a, Solid, Stuff, Sky, EVENTS, RAYS>;
+pub(crate) type Caster<'a> = WorldCaster<'a, Solid<'a>, Stuff, Sky, EVENTS, RAYS>;
 
 /// A world, and where it is seen from.
 #[derive(Debug)]
@@ -75,7 +75,7 @@ impl WorldScene {
     /// Builds the world and lends it.
     pub(crate) fn with_world<T>(
         &self,
-        use_it: impl FnOnce(World<'_, Solid, Stuff>) -> Result<T, Fail>,
+        use_it: impl FnOnce(World<'_, Solid<'_>, Stuff>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
         let fail = |error: attractor::Error| self.file.fail_all("object", error);
         let surfaces = self.surfaces()?.into_iter().zip(&self.made_of);
@@ -93,19 +93,18 @@ impl WorldScene {
                 self.file.fail(of, &format!("{}of", thing.prefix(object.thing)), error)
             })?);
         }
-        let materials = self.world.materials.iter().map(Self::stuff);
+        let materials = self.world.materials.iter().map(|matter| self.stuff(matter));
         let materials: Vec<Stuff> = materials.collect::<Result<_, _>>().map_err(fail)?;
         let lamps = self.world.lights.iter().map(|light| light.lamp());
         let lamps = lamps.collect::<Result<Vec<_>, _>>().map_err(fail)?;
         use_it(World::new(&leaves, &objects, &materials).map_err(fail)?.with_lamps(&lamps))
     }
 
-    fn stuff(matter: &Matter) -> Result<Stuff, attractor::Error> {
-        let pigment = match matter.pigment {
-            Pigment::Color(color) => color,
-            Pigment::Texture(_) => Rgb::WHITE,
-        };
-        matter.mixture(pigment)
+    fn stuff(&self, matter: &Matter) -> Result<Stuff, attractor::Error> {
+        matter.mixture(match matter.pigment {
+            Colored::Color(color) => Pigment::Plain(color),
+            Colored::Texture(number) => self.world.textures[number].pigment()?,
+        })
     }
 
     /// The picture on a display of this size.
@@ -198,6 +197,11 @@ impl WorldScene {
         }
     }
 
+    /// How often a ray may cross the world.
+    pub(crate) fn most_crossings(&self) -> u32 {
+        self.surfaces().map_or(0, |all| all.iter().map(Surface::most_crossings).sum())
+    }
+
     /// What messages and tables call an object: its name, or its number.
     pub(crate) fn name(&self, object: usize) -> String {
         let thing = self.world.programs.objects.get(object).map_or(0, |object| object.thing);
@@ -205,7 +209,7 @@ impl WorldScene {
     }
 
     /// The surfaces of all parts.
-    pub(crate) fn surfaces(&self) -> Result<Vec<Solid>, Fail> {
+    pub(crate) fn surfaces(&self) -> Result<Vec<Solid<'_>>, Fail> {
         let parts = self.figures.iter().zip(&self.world.programs.parts);
         let placed = parts.map(|(figure, part)| figure.placed(&part.steps));
         placed.collect::<Result<_, _>>().map_err(|error| self.file.fail_all("object", error))

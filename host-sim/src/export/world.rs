@@ -1,0 +1,275 @@
+//! Worlds: what stands in them, of what it is made, what lights it and how it is seen.
+//!
+//! Only what a world has is named, so that no more is linked: its own enums of shapes and materials, or the
+//! one type itself where there is but one.
+
+use attractor::num::{Real, Rgb, Vec3};
+use attractor::trace::Filter;
+use attractor::trace::world::Op;
+
+use super::module::{Module, lit, lits};
+use super::surface::camera;
+use crate::scene::world::{Around, Figure, Colored, Gloss, Light, Matter, Stand, Step, WorldScene};
+
+/// An expression that is evaluated at compile time.
+fn constant(expression: String) -> String {
+    format!("const {{ {expression} }}")
+}
+
+fn vector(v: Vec3) -> String {
+    constant(lits("Vec3", [v.x, v.y, v.z]))
+}
+
+fn color(light: Rgb) -> String {
+    match light {
+        Rgb::BLACK => "Rgb::BLACK".to_owned(),
+        Rgb::WHITE => "Rgb::WHITE".to_owned(),
+        Rgb { r, g, b } => {
+            let [r, g, b] = [r, g, b].map(|part| lit("Lumen", part));
+            constant(format!("Rgb::new({r}, {g}, {b})"))
+        }
+    }
+}
+
+/// The map of a part.
+fn map(steps: &[Step]) -> String {
+    let step = |step: &Step| match *step {
+        Step::Scale(factors) => format!("Affine3::scale({})", vector(factors)),
+        Step::Rotate { axis, angle } => {
+            format!("Affine3::rotate({}, {})?", vector(axis), constant(lit("Angle", angle)))
+        }
+        Step::Translate(by) => format!("Affine3::translate({})", vector(by)),
+        Step::Matrix(rows) => {
+            let row = |[x, y, z, _]: [_; 4]| lits("Vec3", [x, y, z]);
+            let last = lits("Vec3", rows.map(|row| row[3]));
+            constant(format!("Affine3::matrix([{}], {last})", rows.map(row).join(", ")))
+        }
+    };
+    let mut steps = steps.iter().map(step);
+    let first = steps.next().unwrap_or_else(|| "Affine3::IDENTITY".to_owned());
+    steps.fold(first, |map, step| format!("{map}.then(&{step})"))
+}
+
+/// The one type of a list, or an enum of them by a macro of core; and what turns a value of a type into one of
+/// the whole.
+struct Choice {
+    name: &'static str,
+    kinds: Vec<(String, String)>,
+}
+
+impl Choice {
+    /// Of variants and types.
+    fn new(name: &'static str, all: impl Iterator<Item = (String, String)>) -> Self {
+        let mut kinds: Vec<(String, String)> = all.collect();
+        kinds.sort();
+        kinds.dedup();
+        Self { name, kinds }
+    }
+
+    fn write(&self, doc: &str, of: &str, module: &mut Module) {
+        match self.kinds.as_slice() {
+            [(_, only)] => module.item(doc, &format!("pub type {} = {only};\n", self.name)),
+            kinds => {
+                let variants: String = kinds
+                    .iter()
+                    .map(|(variant, kind)| format!("        /// `{kind}`.\n        {variant}({kind}),\n"))
+                    .collect();
+                module.item(
+                    "",
+                    &format!(
+                        "attractor::{of}! {{\n    /// {doc}\n    #[derive(Debug, Clone, Copy)]\n    pub enum {} {{\n{variants}    }}\n}}\n",
+                        self.name
+                    ),
+                );
+            }
+        }
+    }
+
+    fn value(&self, variant: &str, value: String) -> String {
+        if self.kinds.len() == 1 { value } else { format!("{}::{variant}({value})", self.name) }
+    }
+}
+
+/// Variant and type of a pigment with a highlight.
+fn kind(scene: &WorldScene, matter: &Matter) -> (String, String) {
+    let (pigment, pigment_kind) = match matter.pigment {
+        Colored::Color(_) => ("Plain", "Rgb"),
+        Colored::Texture(number) => scene.world.textures[number].kind(),
+    };
+    let (gloss, gloss_kind) = match matter.gloss {
+        Gloss::None => ("", "()"),
+        Gloss::Phong { .. } => ("Phong", "Phong"),
+        Gloss::TorranceSparrow { .. } => ("Rough", "TorranceSparrow"),
+        Gloss::Anisotropic { .. } => ("Grained", "Anisotropic"),
+    };
+    let kind = match (pigment_kind, gloss_kind) {
+        ("Rgb", "()") => "Mixture".to_owned(),
+        (pigment, "()") => format!("Mixture<{pigment}>"),
+        (pigment, gloss) => format!("Mixture<{pigment}, {gloss}>"),
+    };
+    (format!("{pigment}{gloss}"), kind)
+}
+
+/// A material as an expression.
+fn mixture(scene: &WorldScene, matter: &Matter) -> String {
+    let pigment = match matter.pigment {
+        Colored::Color(light) => color(light),
+        Colored::Texture(number) => scene.world.textures[number].code(),
+    };
+    let unit = |unit| constant(lit("Unit", unit));
+    let mut code = format!(
+        "Mixture::matt({pigment}).with_parts({}, {})?",
+        unit(matter.ambient),
+        unit(matter.diffuse)
+    );
+    let model = match matter.gloss {
+        Gloss::None => None,
+        Gloss::Phong { shininess } => Some(format!("Phong {{ shininess: {shininess} }}")),
+        Gloss::TorranceSparrow { roughness, reflectance } => {
+            Some(format!("TorranceSparrow::new({}, {})?", unit(roughness), unit(reflectance)))
+        }
+        Gloss::Anisotropic { along, across } => {
+            Some(format!("Anisotropic::new({}, {})?", unit(along), unit(across)))
+        }
+    };
+    if let Some(model) = model {
+        code += &format!(".with_highlight({}, {model})", color(matter.specular));
+    }
+    if matter.reflect != Rgb::BLACK {
+        code += &format!(".with_reflection({})", color(matter.reflect));
+    }
+    if let Some(medium) = matter.medium {
+        let index = constant(lit("Real", medium.index));
+        let (priority, fresnel) = (medium.priority, medium.fresnel);
+        code += &format!(
+            ".with_medium(Medium {{ index: {index}, priority: {priority}, fresnel: {fresnel} }}, {})?",
+            color(matter.transmit)
+        );
+    }
+    code
+}
+
+fn lamp(light: &Light) -> String {
+    match light.stand {
+        Stand::Towards(towards) => format!("Lamp::distant({}, {})?", vector(towards), color(light.color)),
+        Stand::At(place) => format!("Lamp::point({}, {})", vector(place), color(light.color)),
+    }
+}
+
+/// A function that makes an array, an element a line, each under its comment.
+fn list(module: &mut Module, doc: &str, name: &str, kind: &str, all: &[(String, String)]) {
+    let rows: String = all.iter().map(|(note, row)| format!("        // {note}\n        {row},\n")).collect();
+    let doc = format!("{doc}\n\n# Errors\nNone: the command has built them.");
+    module.item(
+        &doc,
+        &format!(
+            "#[rustfmt::skip]\npub fn {name}() -> Result<[{kind}; {}], Error> {{\n    Ok([\n{rows}    ])\n}}\n",
+            all.len()
+        ),
+    );
+}
+
+pub(super) fn world(scene: &WorldScene, module: &mut Module) {
+    let world = &scene.world;
+    let shapes = Choice::new("Thing", scene.figures.iter().map(Figure::kind));
+    shapes.write("What stands in it.", "surfaces", module);
+    let stuffs = Choice::new("Stuff", world.materials.iter().map(|matter| kind(scene, matter)));
+    stuffs.write("What things are made of.", "materials", module);
+    let materials: Vec<_> = world
+        .materials
+        .iter()
+        .map(|matter| {
+            let name = if matter.name.is_empty() { "plain" } else { &matter.name };
+            (super::module::comment(name), stuffs.value(&kind(scene, matter).0, mixture(scene, matter)))
+        })
+        .collect();
+    list(module, "The materials.", "materials", "Stuff", &materials);
+    let parts = scene.figures.iter().zip(&world.programs.parts).zip(&scene.made_of);
+    let leaves: Vec<_> = parts
+        .map(|((figure, part), materials)| {
+            let placed = format!("Placed::new({}, &{})?", figure.code(), map(&part.steps));
+            let surface = shapes.value(&figure.kind().0, placed);
+            let name = world.things[part.thing].prefix(part.thing);
+            let name = super::module::comment(name.trim_end_matches('.'));
+            (name, format!("Leaf {{ surface: {surface}, materials: &{materials:?} }}"))
+        })
+        .collect();
+    list(module, "The shapes, each with the numbers of its materials.", "leaves", "Leaf<'static, Thing>", &leaves);
+    let lamps: Vec<_> =
+        world.lights.iter().enumerate().map(|(i, light)| (format!("light {i}"), lamp(light))).collect();
+    list(module, "What shines.", "lamps", "Lamp", &lamps);
+    objects(scene, module);
+    camera(&world.standpoint, module);
+    picture(scene, module);
+}
+
+/// Programs, and what builds the objects of them.
+fn objects(scene: &WorldScene, module: &mut Module) {
+    let programs = &scene.world.programs.objects;
+    let step = |op: &Op| match op {
+        Op::Leaf(leaf) => format!("Op::Leaf({leaf})"),
+        op => format!("Op::{op:?}"),
+    };
+    let rows = programs.iter().map(|object| {
+        let steps: Vec<String> = object.ops.iter().map(step).collect();
+        format!("&[{}]", steps.join(", "))
+    });
+    let rows: Vec<String> = rows.collect();
+    module.array("Of which shapes each object is made, in reverse Polish.", "PROGRAMS", "&[Op]", rows.iter());
+    let boxes: usize = programs.iter().map(|object| object.ops.len()).sum();
+    module.constant("How many boxes the objects borrow.", "BOXES", "usize", boxes);
+    let names: Vec<String> = (0..programs.len()).map(|k| format!("one_{k}")).collect();
+    let mut lines = vec!["let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);".to_owned()];
+    for (k, (name, object)) in names.iter().zip(programs).enumerate() {
+        let rest = if k + 1 < programs.len() { "boxes" } else { "_" };
+        lines.push(format!("let ({name}, {rest}) = boxes.split_at_mut({});", object.ops.len()));
+    }
+    lines.push("Ok([".to_owned());
+    lines.extend(names.iter().enumerate().map(|(k, name)| format!("    Object::new(PROGRAMS[{k}], surface, {name})?,")));
+    lines.push("])".to_owned());
+    let body: String = lines.iter().map(|line| format!("    {line}\n")).collect();
+    module.item(
+        "The objects.\n\n# Errors\nNone: the command has built them.",
+        &format!(
+            "#[rustfmt::skip]\npub fn objects<'a>(\n    leaves: &[Leaf<'static, Thing>],\n    boxes: &'a mut [Extent; BOXES],\n) -> Result<[Object<'a>; {}], Error> {{\n{body}}}\n",
+            programs.len()
+        ),
+    );
+}
+
+/// The caster, and what it asks for.
+fn picture(scene: &WorldScene, module: &mut Module) {
+    let world = &scene.world;
+    let crossings = scene.most_crossings();
+    let rays = usize::from(world.depth) + 2;
+    module.item(
+        "The picture of the world.",
+        &format!("pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, {}, {crossings}, {rays}>;\n", world.around.kind()),
+    );
+    let sampling = match (world.samples, world.seed) {
+        (1, _) => "Sampling::Centre".to_owned(),
+        (n, None) => format!("Sampling::Jittered {{ n: {n}, seed }}"),
+        (n, Some(seed)) => format!("Sampling::Jittered {{ n: {n}, seed: {seed} }}"),
+    };
+    let real = |real: Real| constant(lit("Real", real));
+    let filter = match world.filter {
+        Filter::Gaussian { deviation, width } => {
+            format!("Filter::Gaussian {{ deviation: {}, width: {} }}", real(deviation), real(width))
+        }
+        _ => "Filter::Box".to_owned(),
+    };
+    let mut lines = vec![
+        format!("let caster = Caster::new(world, {}, camera()?, size)?;", world.around.code()),
+        format!("caster.with_sampling({sampling}, {filter})"),
+    ];
+    if !sampling.contains("seed }") {
+        lines.insert(0, "let _ = seed;".to_owned());
+    }
+    let body: String = lines.iter().map(|line| format!("    {line}\n")).collect();
+    module.item(
+        "The picture of the world; the command's seed is 1.\n\n# Errors\nThose of [`WorldCaster::new`].",
+        &format!(
+            "#[rustfmt::skip]\npub fn caster<'a>(world: World<'a, Thing, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {{\n{body}}}\n"
+        ),
+    );
+}
