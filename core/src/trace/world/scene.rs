@@ -208,9 +208,17 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
         (within, shared)
     }
 
-    /// The crossings of a ray with an object up to `limit`; answers which leaves were not tried.
+    /// The crossings of a ray with an object up to `limit`; answers which leaves were not tried. On which side
+    /// of an open surface a ray starts that does not come from it, its first crossing tells: `states`.
     #[inline]
-    fn cross<const E: usize>(&self, number: u8, cast: &Cast, limit: i32, events: &mut Events<E>) -> u64 {
+    fn cross<const E: usize>(
+        &self,
+        number: u8,
+        cast: &Cast,
+        limit: i32,
+        events: &mut Events<E>,
+        states: &mut u64,
+    ) -> u64 {
         let mut untried = 0;
         let Some(object) = self.objects.get(usize::from(number)) else { return 0 };
         let alone = object.only().is_some() && !(self.has_media && self.medium(number).is_some());
@@ -221,7 +229,9 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
                 return;
             };
             // near where the ray starts may be the very point from which it starts
-            let own = if cast.departed == Some(number_of_leaf) { leaf.surface.error() } else { -Real::DELTA };
+            let departs = cast.departed == Some(number_of_leaf);
+            let own = if departs { leaf.surface.error() } else { -Real::DELTA };
+            let mut undecided = !departs && !leaf.surface.is_closed();
             leaf.surface.cross(&cast.ray, cast.cone, &mut |crossing| {
                 if crossing.t.to_bits() > limit {
                     return ControlFlow::Break(());
@@ -230,9 +240,13 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
                 if crossing.t <= own {
                     return ControlFlow::Continue(());
                 }
+                if undecided {
+                    *states = if crossing.enters { *states & !bit } else { *states | bit };
+                    undecided = false;
+                }
                 if !alone {
                     events.insert(event);
-                } else if event.behind(cast.states) != cast.states {
+                } else if event.behind(*states) != *states {
                     // the first change of the only leaf is the object's, and nothing is seen through it
                     events.insert(event);
                     return ControlFlow::Break(());
@@ -287,10 +301,10 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
     #[inline(never)]
     pub(super) fn met<const E: usize>(&self, cast: &Cast) -> Option<Met> {
         let mut events = Events::<E>::new();
-        let (mut first, mut limit, mut unfollowed) = (None, i32::MAX, 0);
+        let (mut first, mut limit, mut unfollowed, mut states) = (None, i32::MAX, 0, cast.states);
         for number in 0..self.objects.len() as u8 {
-            unfollowed |= self.cross(number, cast, limit, &mut events);
-            first = self.change(&events, 0, cast.states).map(|(met, _)| met);
+            unfollowed |= self.cross(number, cast, limit, &mut events, &mut states);
+            first = self.change(&events, 0, states).map(|(met, _)| met);
             if let Some(met) = &first {
                 // what comes later changes nothing before
                 limit = met.event.t().saturating_add(SAME);
@@ -313,20 +327,20 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
     /// How much light comes along a ray from beyond `limit`: what the things on the way let pass.
     #[inline(never)]
     pub(super) fn passed<const E: usize>(&self, cast: &Cast, limit: i32) -> Rgb {
-        let mut events = Events::<E>::new();
+        let (mut events, mut states) = (Events::<E>::new(), cast.states);
         for number in 0..self.objects.len() as u8 {
             if self.medium(number).is_none() {
                 // what is opaque needs no more than to be met
                 let mut own = Events::<E>::new();
-                self.cross(number, cast, limit, &mut own);
-                if self.change(&own, 0, cast.states).is_some() {
+                self.cross(number, cast, limit, &mut own, &mut states);
+                if self.change(&own, 0, states).is_some() {
                     return Rgb::BLACK;
                 }
             } else {
-                self.cross(number, cast, limit, &mut events);
+                self.cross(number, cast, limit, &mut events, &mut states);
             }
         }
-        let (mut light, mut states, mut at) = (Rgb::WHITE, cast.states, 0);
+        let (mut light, mut at) = (Rgb::WHITE, 0);
         while let Some((met, next)) = self.change(&events, at, states) {
             let leaf = self.leaf(met.event.leaf);
             let material = leaf.and_then(|leaf| self.material(leaf, met.event.crossing.face));
