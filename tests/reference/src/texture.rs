@@ -27,7 +27,7 @@ const PERMUTATION: [usize; 256] = [
 /// others change the bits of what the permutation gives for it and for the second.
 pub fn noise(keys: [u8; 3], place: Vector) -> f64 {
     let keys = keys.map(usize::from);
-    let cell = place.map(|c| libm::floor(c));
+    let cell = place.map(libm::floor);
     let rest: Vector = core::array::from_fn(|i| place[i] - cell[i]);
     let index = cell.map(|c| c.rem_euclid(256.0) as usize);
     let p = |i: usize| PERMUTATION[i % 256];
