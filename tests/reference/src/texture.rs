@@ -27,7 +27,7 @@ const PERMUTATION: [usize; 256] = [
 /// others change the bits of what the permutation gives for it and for the second.
 pub fn noise(keys: [u8; 3], place: Vector) -> f64 {
     let keys = keys.map(usize::from);
-    let cell = place.map(|c| libm::floor(c));
+    let cell = place.map(libm::floor);
     let rest: Vector = core::array::from_fn(|i| place[i] - cell[i]);
     let index = cell.map(|c| c.rem_euclid(256.0) as usize);
     let p = |i: usize| PERMUTATION[i % 256];
@@ -87,7 +87,7 @@ pub struct Wood {
     pub rings: f64,
     /// How far the axis goes along x and y with each unit of z.
     pub tilt: [f64; 2],
-    /// How many rings the rings wave in and out.
+    /// How many rings the rings wave in and out; inside the first one times the radius.
     pub wobble: f64,
     /// How often they do so in a turn.
     pub lobes: f64,
@@ -100,7 +100,8 @@ impl Wood {
     pub fn radius(&self, [x, y, z]: Vector, rough: f64) -> f64 {
         let (x, y) = (x - self.tilt[0] * z, y - self.tilt[1] * z);
         let angle = libm::atan2(y, x) * self.lobes + self.twist * z * core::f64::consts::TAU;
-        self.rings * libm::sqrt(x * x + y * y) + self.wobble * libm::sin(angle) + rough
+        let ideal = self.rings * libm::sqrt(x * x + y * y);
+        ideal + self.wobble * ideal.clamp(-1.0, 1.0) * libm::sin(angle) + rough
     }
 }
 

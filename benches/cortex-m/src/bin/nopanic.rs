@@ -28,6 +28,7 @@ fn main() -> ! {
     let _ = bb(curves());
     let _ = bb(copies());
     let _ = bb(julia_sets());
+    let _ = bb(textures());
     #[cfg(feature = "deliberate-panic")]
     bb([1, 2, 3][bb(0_usize)]);
     semihosting::process::exit(0)
@@ -203,6 +204,57 @@ fn julia_sets() -> Result<(), Error> {
 
 fn point(bits: i32) -> Point2 {
     Point2::new(bb(Real::from_bits(bits)), bb(Real::from_bits(bits)))
+}
+
+fn textures() -> Result<(), Error> {
+    use attractor::num::{Rgb, Vec3};
+    use attractor::trace::material::{Material, Mixture};
+    use attractor::trace::texture::{
+        Bumpy, Checker, Facets, Framed, Image, Lattice, Mapped, Marble, Mottle, Noise, Pasted, Relief, Rough,
+        Slice, Spline, Texels, Texture, Turbulence, Wood,
+    };
+    use attractor::trace::{Panorama, Sky, Surroundings, Tiles};
+    let (one, half, white) = (bb(Real::ONE), bb(Unit::ONE), bb(Rgb::WHITE));
+    bb(Noise::new(bb(1)).at(Vec3::new(bb(Lattice::ZERO), bb(Lattice::ZERO), bb(Lattice::ZERO))));
+    let turbulence = Turbulence::new(bb(Noise::PERLIN), one, bb(3))?;
+    let undulate = Spline::<4>::new(bb(&[(Unit::ZERO, Rgb::BLACK), (Unit::ONE, Rgb::WHITE)]))?;
+    let checker = Checker::cubes(bb([one; 3]), white, white);
+    let bounds = attractor::plane::Bounds2 { min: point(0), max: point(1 << 24) };
+    let window = Window::stretch(bb(bounds), bb(Size::new(8, 8)))?;
+    let slice = Slice::new(checker, window, one);
+    let place = slice.point(bb(1), bb(2));
+    bb(slice.at_height(one).row(bb(1), bb(0)..bb(8)).last());
+    let wood = Wood {
+        colors: [white; 2],
+        rings: one,
+        tilt: [one; 2],
+        wobble: one,
+        lobes: bb(3),
+        twist: one,
+        rough: Some((turbulence, one)),
+        soft: half,
+    };
+    bb((wood.at(&place), Marble { undulate, turbulence, amplitude: one, frequency: one }.at(&place)));
+    bb(Mottle { undulate, turbulence }.at(&place));
+    let mut texels = bb([0; 4 * 4 * 3 + 2 * 2 * 3 + 3]);
+    Image::write_levels(bb(Texels::Rgb888), bb(4), bb(4), &mut texels)?;
+    let image = Image::new(bb(Texels::Rgb888), bb(4), bb(4), bb(&texels))?;
+    bb((image.at(&place), image.nearest(one, one), Panorama::new(image).light(place.normal, half)));
+    bb((Mapped::new(image, bb([[one; 3]; 2]))?.at(&place), Mapped::repeated(image, bb(2), bb(3)).is_ok()));
+    let material = Mixture::matt(white);
+    let corners = bb([[Real::ZERO; 2], [Real::ONE; 2], [Real::ONE; 2]]);
+    let pasted = Pasted::new(material, &corners, material)?;
+    let none = core::iter::empty;
+    bb(pasted.respond(&place, place.normal, none()));
+    bb(Bumpy { material, bump: Rough { turbulence, height: one } }.normal(&place));
+    bb(Bumpy { material, bump: Relief { image, height: one } }.normal(&place));
+    bb(Bumpy { material, bump: Facets { cells: [one; 2], tilt: half, seed: bb(1) } }.normal(&place));
+    bb(Framed { material, grain: (turbulence, half) }.respond(&place, place.normal, none()));
+    let colors = [white; 2];
+    let tiles = Tiles { ceiling: colors, floor: colors, horizon: white, scale: one, fade: half };
+    bb(tiles.light(place.normal, half));
+    bb(Sky { zenith: white, horizon: white, nadir: white }.light(place.normal, half));
+    Ok(())
 }
 
 fn numbers() {

@@ -152,7 +152,7 @@ fn slope(knots: &[Knot], i: usize, part: usize, over: u32) -> i32 {
     let (a, b) = (u64::from(low.unsigned_abs()), u64::from(high.unsigned_abs()));
     // 3 a b / ((1 + q) p b + (1 + p) q a): below 2^22 and 2^31, the sum below 2^54; the quotient at most 3
     // times the greater rise, here with 4 + 4 fractional bits more
-    let weighted = (((1 << 30) + q) * p >> 30) * b + (((1 << 30) + p) * q >> 30) * a;
+    let weighted = ((((1 << 30) + q) * p) >> 30) * b + ((((1 << 30) + p) * q) >> 30) * a;
     let slope = ratio(3 * a * b, 38, weighted);
     // below 2^32 2^30
     let times_width = (slope.min(1 << 32) * share(over.into())) >> 34;

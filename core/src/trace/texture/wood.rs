@@ -3,7 +3,8 @@
 //! `rings(r) = int(r) mod 2` with the radius in rings. An ideal log has `r = f sqrt(x^2 + y^2)`; a real one is
 //! - tilted: its axis goes `tilt` along `x` and `y` with each unit of `z`, so that a cut shows ovals;
 //! - wobbly: `K sin(m theta + 2 pi B z)` is added to the radius, with a whole number of waves `m` in a turn, so
-//!   that there is no seam at `theta` = 0, and `B` turns of them along `z`;
+//!   that there is no seam at `theta` = 0, and `B` turns of them along `z`; inside the first ring times the
+//!   radius, so that the pith is no star;
 //! - rough: turbulence is added.
 //!
 //! The colours change at once, as the text has it, or over the first part of each ring.
@@ -57,7 +58,8 @@ impl Wood {
         // 48 fractional bits of a turn: the upper 16 are whole turns
         let along = (product(self.twist.to_bits(), place.z.to_bits()) >> 16) as u32;
         let (sine, _) = sin_cos(Angle::from_bits(round.wrapping_add(along)));
-        let wave = product(self.wobble.to_bits(), sine.to_bits()) >> 30;
+        let whole_wave = (product(self.wobble.to_bits(), sine.to_bits()) >> 30) as i32;
+        let wave = product(whole_wave, ideal.clamp(-(1 << 24), 1 << 24) as i32) >> 24;
         let rough = self
             .rough
             .map_or(0, |(turbulence, rings)| product(rings.to_bits(), turbulence.at(place).to_bits()) >> 30);
