@@ -15,6 +15,7 @@ mod ifs;
 mod num;
 mod picture;
 mod shade;
+mod shapes;
 mod trace;
 mod watch;
 
@@ -152,5 +153,11 @@ const TABLE: &[Kernel] = &[
     roomy(beside("normal", "unit normal of a hit", shade::normals, shade::normals_float::<f32>, shade::normals_float::<f64>)),
     roomy(beside("shade mirror", "call", shade::mirror, shade::mirror_float::<f32>, shade::mirror_float::<f64>)),
     roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
+    roomy(beside("sphere", "ray, both crossings", shapes::sphere, shapes::sphere_float::<f32>, shapes::sphere_float::<f64>)),
+    roomy(beside("square", "ray", shapes::square, shapes::square_float::<f32>, shapes::square_float::<f64>)),
+    roomy(beside("cube", "ray, both crossings and faces", shapes::cube, shapes::cube_float::<f32>, shapes::cube_float::<f64>)),
+    roomy(beside("tapered cylinder", "ray, both crossings and faces", shapes::tapered, shapes::tapered_float::<f32>, shapes::tapered_float::<f64>)),
+    roomy(beside("approach", "ray brought near; floats: mapped", shapes::reached, shapes::reached_float::<f32>, shapes::reached_float::<f64>)),
+    roomy(beside("passing by", "ray, of which most pass; floats: mapped", shapes::passing, shapes::passing_float::<f32>, shapes::passing_float::<f64>)),
     roomy(beside("mirror picture", "pixel; floats: the paper's way", picture::core, picture::paper::<f32>, picture::paper::<f64>)),
 ];

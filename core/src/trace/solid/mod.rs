@@ -6,11 +6,13 @@ mod cube;
 mod half_space;
 #[cfg(test)]
 mod judge;
+mod moved;
 mod placed;
 mod plane;
 mod polygon;
 mod polyhedron;
 mod shape;
+mod site;
 mod slab;
 mod sphere;
 mod square;
@@ -18,6 +20,7 @@ mod tapered_cylinder;
 
 pub use cube::Cube;
 pub use half_space::HalfSpace;
+pub use moved::Moved;
 pub use placed::Placed;
 pub use plane::Plane;
 pub use polygon::Polygon;

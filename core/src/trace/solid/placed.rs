@@ -1,71 +1,26 @@
 //! A shape put into a world by an affine map: rays go to its coordinates, what they meet comes back.
 //!
-//! `t` is the same on both sides: the direction is not normalised. A ray that comes near is moved along
-//! itself to where it is closest to the shape, `t = t_0 + s 2^-k`; `t_0` has so few bits that the place there,
-//! `M^-1 (o + t_0 d - c)`, is exact to `2^-29` at any distance. Normals come back by the inverse transpose,
-//! tangents by the map itself.
-//!
-//! Source: the course unit V, section 5.7; Glassner (ed.), "An Introduction to Ray Tracing", 1989, section 2.7.
+//! Source: the course unit V, section 5.7.
 
-use core::num::NonZeroU32;
 use core::ops::ControlFlow;
 
 use super::super::ray::Ray;
 use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
-use super::shape::{NearRay, Shape};
+use super::shape::Shape;
+use super::site::{Site, shifted};
 use crate::Error;
-use crate::num::formats::{Q24, Q28, Q29, Q30, Q54, Q58, UQ16};
-use crate::num::{
-    Affine3, Near, Real, Unit, Vec3, Wide, product, product_u, reciprocal_of, sqrt, square, unit,
-};
+use crate::num::{Affine3, Near, Real, Unit, Vec3, Wide, product};
 
 /// A shape at its place in a world.
 ///
 /// The map may scale by 1/64 to 64, and by a different factor along each axis; it may shear and mirror. For a
-/// scale of 1 a crossing lies on the surface within `2^-22` (`a_crossing_lies_on_the_surface`); what is
-/// 64 times larger or smaller, within `2^-22` of its size or of 1, whichever is more.
+/// scale of 1 a crossing lies on the surface within `2^-22` (`a_crossing_lies_on_the_surface`); of what is
+/// 64 times as large within `2^-21`, of what is 64 times smaller within `2^-22`, as `t` is known to `2^-24`.
 #[derive(Debug, Clone, Copy)]
 pub struct Placed<S> {
     shape: S,
-    /// `M^-1 = inverse 2^exponent`, its greatest entry in `[1/2, 1]`.
-    inverse: [[Q30; 3]; 3],
-    /// -8 to 8.
-    exponent: i32,
-    /// Where the middle of the shape's box is in the world.
-    centre: [Q24; 3],
-    /// That middle, in generic coordinates.
-    middle: [Q29; 3],
-    /// The square of the radius of a ball round the centre that holds the shape, 16 fractional bits, rounded
-    /// up.
-    ball: UQ16,
-    limited: bool,
-    linear: [Vec3; 3],
-    extent: Extent,
+    site: Site,
     error: Real,
-}
-
-/// A ray near the shape: `t = start + s 2^-k`.
-struct Approach {
-    near: NearRay,
-    /// 24 fractional bits.
-    start: i64,
-    /// `k`.
-    places: i32,
-    /// The `s` at `t` = 0.
-    from: Near,
-}
-
-/// The scalar product of words, which the caller knows to fit.
-#[inline(always)]
-fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
-    product(a[0], b[0]).wrapping_add(product(a[1], b[1])).wrapping_add(product(a[2], b[2]))
-}
-
-/// `v 2^places`, saturated to a word; places below 32, shifts to the right round down.
-#[inline(always)]
-fn shifted(v: i64, places: i32) -> i32 {
-    let v = if places >= 0 { v.saturating_mul(1 << (places & 63)) } else { v >> (-places).min(63) };
-    v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
 }
 
 impl<S: Shape> Placed<S> {
@@ -76,222 +31,20 @@ impl<S: Shape> Placed<S> {
     /// 128 times as large or more, or as small as one 256th or less, or that puts its middle more than 64 from
     /// the origin along an axis.
     pub fn new(shape: S, map: &Affine3) -> Result<Self, Error> {
-        let inverse = map.inverse()?;
-        let (min, max) = (Wide::ONE / 256, Wide::from_num(128));
-        let scale =
-            |value: Wide| Error::OutOfRange { what: "scale of a shape", index: None, value, min, max };
-        if map.greatest() >= max {
-            return Err(scale(map.greatest()));
-        }
-        // entries below 128 have an inverse whose greatest is above 2^-9
-        if !(-8..=8).contains(&inverse.exponent) {
-            return Err(scale(Wide::ONE >> inverse.exponent.clamp(0, 47) as u32));
-        }
-        let (linear, _) = map.parts();
-        let bounds = shape.bounds();
-        let corner = |v: Vec3<Near>| [v.x, v.y, v.z].map(Near::to_bits);
-        let [low, high] = bounds.map_or([[0; 3]; 2], |[low, high]| [corner(low), corner(high)]);
-        // bounds are within 2: no sum leaves a word
-        let middle = [0, 1, 2].map(|k: usize| low[k].saturating_add(high[k]));
-        let half = [0, 1, 2].map(|k: usize| i64::from(high[k].saturating_sub(low[k]) >> 1) + 1);
-        let [x, y, z] = middle.map(|c| Real::from_bits(c >> 5));
-        let centre = map.at(Vec3::new(x, y, z));
-        for (index, c) in [centre.x, centre.y, centre.z].into_iter().enumerate() {
-            if c > 64 || c <= -64 {
-                let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
-                let what = "place of a shape";
-                return Err(Error::OutOfRange { what, index: Some(index), value: c.into(), min, max });
-            }
-        }
-        let centre = [centre.x, centre.y, centre.z].map(Real::to_bits);
-        let rows = linear.map(|row| [row.x, row.y, row.z].map(|c| i64::from(c.to_bits())));
-        let size = |row: [i64; 3]| (0..3).map(|k: usize| (row[k].abs() * half[k]) >> 28).sum::<i64>();
-        // what rounding the inverse makes of a place as far away as the box's corner, and a few units
-        let greatest = rows.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
-        let largest = rows.iter().map(|row| size(*row)).max().unwrap_or(0);
-        let slack = 16 + (((greatest >> 12) * (largest >> 12) * 9) >> (31 - inverse.exponent));
-        let reach = rows.map(|row| size(row) + slack);
-        // four corners of the box, the others are opposite; 16 fractional bits
-        let corners = [(1, 1), (1, -1), (-1, 1), (-1, -1)].map(|(a, b)| {
-            let v = rows.map(|row| (row[0] * half[0] + row[1] * half[1] * a + row[2] * half[2] * b) >> 28);
-            v.iter().map(|c| ((c.abs() + slack) >> 8) + 1).map(|c| c * c).sum::<i64>() >> 16
-        });
-        let ball = u32::try_from(corners.into_iter().fold(0, i64::max) + 1).unwrap_or(u32::MAX);
-        let end = |c: Q24, r: i64| Real::from_bits(shifted(i64::from(c) + r, 0));
-        let [x, y, z] = [0, 1, 2].map(|k: usize| (end(centre[k], -reach[k]), end(centre[k], reach[k])));
-        let extent = Extent { low: Vec3::new(x.0, y.0, z.0), high: Vec3::new(x.1, y.1, z.1) };
-        // s is worth at most 2 sqrt(3) of t times the map's norm: 16 fractional bits
-        let norm = sqrt(rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum());
-        let near = i64::from(shape.error().to_bits()) + 8;
-        let error = shifted(((near * i64::from(norm) * 111) >> 25) + 2, 0);
-        Ok(Self {
-            limited: bounds.is_some(),
-            shape,
-            inverse: inverse.rows,
-            exponent: inverse.exponent,
-            centre,
-            middle,
-            ball,
-            linear,
-            extent: if bounds.is_some() { extent } else { Extent::SPACE },
-            error: Real::from_bits(error),
-        })
+        let site = Site::new(shape.bounds(), map)?;
+        let error = site.error(shape.error());
+        Ok(Self { shape, site, error })
     }
 
     /// The shape.
     pub fn shape(&self) -> &S {
         &self.shape
     }
-
-    /// Whether the ray passes the ball round the shape by, or leaves it behind. `w` is the way from the
-    /// centre to the ray's origin.
-    #[inline(always)]
-    fn is_far(&self, w: [Q24; 3], d: [Q28; 3]) -> bool {
-        // the distance of the line is |w x d| / |d|; words of 20 fractional bits, never too large
-        let across = |a: usize, b: usize| {
-            let v = product(w[a], d[b]).wrapping_sub(product(w[b], d[a]));
-            let high = (v >> 32) as i32;
-            high ^ (high >> 31)
-        };
-        let distance = square([across(1, 2), across(2, 0), across(0, 1)]);
-        let length = (square(d) >> 32) as u32 + 1;
-        if distance > product_u(length, self.ball) {
-            return true;
-        }
-        dot(w, d) > 0 && (square(w) >> 32) as u32 > self.ball
-    }
-
-    /// The ray in the shape's coordinates, moved to where it is closest; none if it comes nowhere near.
-    #[inline(always)]
-    fn approach(&self, ray: &Ray) -> Option<Approach> {
-        let d = ray.direction;
-        let w = [0, 1, 2].map(|k: usize| ray.origin[k].wrapping_sub(self.centre[k]));
-        if self.limited && self.is_far(w, d) {
-            return None;
-        }
-        self.mapped(w, d)
-    }
-
-    /// The same without a look at the ball.
-    #[inline(always)]
-    fn mapped(&self, w: [Q24; 3], d: [Q28; 3]) -> Option<Approach> {
-        // both without the inverse's power of two; a row's sum of magnitudes is at most 3
-        let origin: [Q54; 3] = self.inverse.map(|row| dot(row, w));
-        let along: [Q58; 3] = self.inverse.map(|row| dot(row, d));
-        // a sign takes no bit of the magnitude: or is as good as the greatest
-        let magnitude = along.iter().fold(0_u64, |all, c| all | (c ^ (c >> 63)) as u64);
-        // the direction's greatest component gets 29 bits
-        let shift = 35 - magnitude.leading_zeros() as i32;
-        if shift < 0 {
-            return None;
-        }
-        let direction: [Q28; 3] = along.map(|c| (c >> shift) as i32);
-        // n steps of 2^-(3 + exponent) each: 0 to 128
-        let most = 1 << 18 >> (8 - self.exponent);
-        let (towards, over) = if self.limited {
-            let o = origin.map(|c| (c >> 32) as i32);
-            (-dot(o, direction), ((square(direction)) >> 28) as u32)
-        } else {
-            let down = direction[2];
-            let high = (origin[2] >> 32) as i32;
-            (if down < 0 { product(high, 1 << 28) } else { product(-high, 1 << 28) }, down.unsigned_abs())
-        };
-        let n = if towards <= 0 { 0 } else { steps(towards, over, shift, self.exponent, most) };
-        // 29 fractional bits: 54 + exponent - 25 of the origin, 58 - 32 + (3 + exponent) of the way
-        let place = |k: usize| -> Option<Near> {
-            let way = product(n as i32, (along[k] >> 32) as i32)
-                .wrapping_add((product_u(n, along[k] as u32) >> 32) as i64);
-            let from = (origin[k] >> (25 - self.exponent)).wrapping_add(i64::from(self.middle[k]));
-            Some(Near::from_bits(i32::try_from(way.wrapping_add(from)).ok()? >> 1))
-        };
-        let origin = if self.limited {
-            Vec3::new(place(0)?, place(1)?, place(2)?)
-        } else {
-            // only its height counts
-            Vec3::new(Near::ZERO, Near::ZERO, place(2)?)
-        };
-        let [dx, dy, dz] = direction.map(Near::from_bits);
-        Some(Approach {
-            near: NearRay { origin, direction: Vec3::new(dx, dy, dz) },
-            start: i64::from(n) << (21 - self.exponent),
-            places: self.exponent + shift - 30,
-            from: Near::from_bits(shifted(-i64::from(n), shift - 5)),
-        })
-    }
-
-    /// A place of the world in generic coordinates, saturated.
-    fn place(&self, at: Vec3) -> Vec3 {
-        let at = [at.x, at.y, at.z].map(Real::to_bits);
-        let w = [0, 1, 2].map(|k: usize| at[k].saturating_sub(self.centre[k]));
-        let [x, y, z] = [0, 1, 2].map(|k: usize| {
-            // 54 fractional bits, then 24
-            let v = (dot(self.inverse[k], w) >> (29 - self.exponent)) + 1;
-            Real::from_bits(shifted((v >> 1) + i64::from(self.middle[k] >> 5), 0))
-        });
-        Vec3::new(x, y, z)
-    }
-
-    /// Where a crossing is in generic coordinates, to the last bit but one; none for a shape without limits.
-    fn near_place(&self, ray: &Ray, crossing: &Crossing) -> Option<Vec3<Near>> {
-        if !self.limited {
-            return None;
-        }
-        let w = [0, 1, 2].map(|k: usize| ray.origin[k].wrapping_sub(self.centre[k]));
-        let NearRay { origin, direction } = self.mapped(w, ray.direction)?.near;
-        let moved = |origin: Near, direction: Near| {
-            let way = (product(direction.to_bits(), crossing.memo[0] as i32) + (1 << 27)) >> 28;
-            Near::from_bits(shifted(i64::from(origin.to_bits()) + way, 0))
-        };
-        Some(Vec3::new(
-            moved(origin.x, direction.x),
-            moved(origin.y, direction.y),
-            moved(origin.z, direction.z),
-        ))
-    }
-
-    /// A direction in generic coordinates, brought to the world by the map.
-    fn mapped_tangent(&self, v: Vec3) -> Vec3 {
-        let v = [v.x, v.y, v.z].map(Real::to_bits);
-        let [x, y, z] = self.linear.map(|row| {
-            let [a, b, c] = [row.x, row.y, row.z].map(Real::to_bits);
-            let sum = (product(a, v[0]) >> 24) + (product(b, v[1]) >> 24) + (product(c, v[2]) >> 24);
-            Real::from_bits(shifted(sum, 0))
-        });
-        Vec3::new(x, y, z)
-    }
-
-    /// The unit normal in the world, by the inverse transpose.
-    fn mapped_normal(&self, n: Vec3<Near>) -> Vec3<Unit> {
-        let n = [n.x, n.y, n.z].map(Near::to_bits);
-        let sums = [0, 1, 2].map(|j: usize| dot([0, 1, 2].map(|i: usize| self.inverse[i][j]), n));
-        let magnitude = sums.iter().fold(0_u64, |all, c| all | (c ^ (c >> 63)) as u64);
-        let shift = 34_u32.saturating_sub(magnitude.leading_zeros());
-        unit(sums.map(|c| (c >> shift) as i32))
-    }
-}
-
-/// How many steps of `2^-(3 + exponent)` it is to the closest place, to nearest, at most `most`.
-///
-/// `towards` has 22 + 28 fractional bits, `over` 28, and the direction's unit is `2^(shift - 30)`, all without
-/// the inverse's `2^exponent`: `t = towards 2^(8 - shift) / over`.
-#[inline(always)]
-fn steps(towards: i64, over: u32, shift: i32, exponent: i32, most: u32) -> u32 {
-    let Some(over) = NonZeroU32::new(over) else { return most };
-    let (mantissa, zeros) = reciprocal_of(over);
-    // the upper word is enough: the reciprocal is mantissa 2^zeros / 2^62
-    let quotient = product((towards >> 32) as i32, mantissa);
-    let right = 19 + shift - zeros as i32 - exponent;
-    if right < 1 {
-        // a mantissa has 31 bits: far beyond the last step
-        return if quotient > 0 { most } else { 0 };
-    }
-    let n = ((quotient >> (right - 1).min(62)) + 1) >> 1;
-    n.clamp(0, i64::from(most)) as u32
 }
 
 impl<S: Shape> Surface for Placed<S> {
     fn extent(&self) -> Extent {
-        self.extent
+        self.site.extent
     }
 
     fn is_closed(&self) -> bool {
@@ -311,58 +64,55 @@ impl<S: Shape> Surface for Placed<S> {
     }
 
     fn cross(&self, ray: &Ray, _: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
-        let Some(approach) = self.approach(ray) else { return };
-        let right = 4 + approach.places;
-        self.shape.cross(&approach.near, approach.from, &mut |crossing| {
-            let s = i64::from(crossing.s.to_bits());
-            let moved = if right >= 1 {
-                ((s >> (right - 1).min(62)) + 1) >> 1
-            } else {
-                s.saturating_mul(1 << (-right).min(62))
-            };
-            match i32::try_from(approach.start.saturating_add(moved).max(0)) {
-                Ok(t) => found(Crossing {
-                    t: Real::from_bits(t),
+        let Some(approach) = self.site.approach(ray) else { return };
+        self.shape.cross(
+            &approach.near,
+            approach.from,
+            &mut |crossing| match approach.parameter(crossing.s) {
+                Some(t) => found(Crossing {
+                    t,
                     enters: crossing.enters,
                     face: crossing.face,
                     memo: [crossing.s.to_bits() as u32, 0],
                 }),
-                Err(_) => ControlFlow::Break(()),
-            }
-        });
+                None => ControlFlow::Break(()),
+            },
+        );
     }
 
     fn value(&self, place: Vec3) -> Wide {
-        self.shape.value(self.place(place))
+        self.shape.value(self.site.place(place))
     }
 
     fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {
         let position = ray.at(crossing.t);
-        let (near, place) = self.near_place(ray, crossing).map_or_else(
-            || {
-                let place = self.place(position);
-                let near = |c: Real| Near::from_bits(shifted(i64::from(c.to_bits()), 4));
-                (Vec3::new(near(place.x), near(place.y), near(place.z)), place)
-            },
-            |near| {
+        let s = Near::from_bits(crossing.memo[0] as i32);
+        let approach = if self.site.limited { self.site.approach_met(ray) } else { None };
+        let (near, place) = match approach {
+            Some(approach) => {
+                let near = approach.at(s);
                 let real = |c: Near| Real::from_bits(((c.to_bits() >> 3) + 1) >> 1);
                 (near, Vec3::new(real(near.x), real(near.y), real(near.z)))
-            },
-        );
+            }
+            // without limits, only the place in the world tells
+            None => {
+                let place = self.site.place(position);
+                let near = |c: Real| Near::from_bits(shifted(c.to_bits().into(), 4));
+                (Vec3::new(near(place.x), near(place.y), near(place.z)), place)
+            }
+        };
         let chart = if charted {
             let chart = self.shape.chart(place, crossing.face);
-            Chart {
-                along_u: self.mapped_tangent(chart.along_u),
-                along_v: self.mapped_tangent(chart.along_v),
-                ..chart
-            }
+            let (along_u, along_v) = (self.site.tangent(chart.along_u), self.site.tangent(chart.along_v));
+            Chart { along_u, along_v, ..chart }
         } else {
             Chart::default()
         };
+        let normal = self.shape.normal(near, crossing.face);
         SurfacePoint {
             position,
             place,
-            normal: self.mapped_normal(self.shape.normal(near, crossing.face)),
+            normal: self.site.normal([normal.x, normal.y, normal.z].map(Near::to_bits)),
             chart,
             face: crossing.face,
             width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),
@@ -374,7 +124,10 @@ impl<S: Shape> Surface for Placed<S> {
 mod tests {
     extern crate std;
     use super::super::super::exact::words;
+    use super::super::plane::Plane;
     use super::super::sphere::Sphere;
+    use super::super::square::Square;
+    use super::super::tapered_cylinder::TaperedCylinder;
     use super::*;
     use crate::num::Angle;
     use std::vec::Vec;
@@ -383,8 +136,7 @@ mod tests {
     struct Exact {
         inverse: [[f64; 3]; 3],
         centre: [f64; 3],
-        /// The greatest factor by which the map makes longer, or a little more.
-        size: f64,
+        rows: [[f64; 3]; 3],
     }
 
     impl Exact {
@@ -396,8 +148,7 @@ mod tests {
             };
             let determinant: f64 = (0..3).map(|j| rows[0][j] * minor(0, j)).sum();
             let inverse = [0, 1, 2].map(|i| [0, 1, 2].map(|j| minor(j, i) / determinant));
-            let size = rows.iter().flatten().map(|v| v * v).sum::<f64>().sqrt();
-            Self { inverse, centre: t, size }
+            Self { inverse, centre: t, rows }
         }
 
         fn direction(&self, d: [f64; 3]) -> [f64; 3] {
@@ -458,28 +209,37 @@ mod tests {
         Ray::new(origin, Vec3::new(x, y, z))
     }
 
-    /// Spheres of every size and shape: how many crossings, and how far from the surface they are in units of
-    /// the sphere's size or of 1, against double precision.
+    fn numbers_of(v: Vec3) -> [f64; 3] {
+        [v.x, v.y, v.z].map(|c| c.to_num::<f64>())
+    }
+
+    fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+        (0..3).map(|k| a[k] * b[k]).sum()
+    }
+
+    /// Spheres of many sizes: how many rays were judged, how many crossings there were, and how far they are
+    /// from the surface, in units of the sphere's greatest size or of 1, whichever is more.
     fn spheres(count: u32, sizes: impl Fn(u64) -> Vec3) -> (u32, u32, f64) {
         let mut word = words(7);
         let (mut tried, mut met, mut worst): (u32, u32, f64) = (0, 0, 0.0);
         for _ in 0..count / 20 {
-            let map = map(sizes(word()), &mut word);
+            let factors = sizes(word());
+            let size = numbers_of(factors).into_iter().fold(0.0, f64::max);
+            let map = map(factors, &mut word);
             let (sphere, exact) = (Placed::new(Sphere, &map).unwrap(), Exact::of(&map));
             for _ in 0..20 {
                 let ray = ray(&map, 2, &mut word);
                 let (o, d) = numbers(&ray);
                 let (p, e) = (exact.place(o), exact.direction(d));
-                let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
                 let cross = [0, 1, 2]
                     .map(|k: usize| p[(k + 1) % 3] * e[(k + 2) % 3] - p[(k + 2) % 3] * e[(k + 1) % 3]);
                 let distance = (dot(cross, cross) / dot(e, e)).sqrt();
                 let reach = (1.0 - distance * distance).max(0.0).sqrt() / dot(e, e).sqrt();
                 let middle = -dot(p, e) / dot(e, e);
                 let ends = [middle - reach, middle + reach];
-                // near a tangent, or where one of them is where the ray begins or t ends
-                let slack = 2_f64.powi(-21) * exact.size.max(1.0);
-                if (distance - 1.0).abs() < 2_f64.powi(-20)
+                // near a tangent, or where the ray begins or t ends
+                let slack = 2_f64.powi(-20) * size.max(1.0);
+                if (distance - 1.0).abs() < 2_f64.powi(-20) / size.min(1.0)
                     || ends.iter().any(|t| t.abs() < slack || (t - 128.0).abs() < slack)
                 {
                     continue;
@@ -496,9 +256,10 @@ mod tests {
                     met += 1;
                     let t = crossing.t.to_num::<f64>();
                     let place = exact.place([0, 1, 2].map(|k| o[k] + t * d[k]));
-                    worst =
-                        worst.max((dot(place, place).sqrt() - 1.0).abs() * exact.size / exact.size.max(1.8));
+                    worst = worst.max((dot(place, place).sqrt() - 1.0).abs() * size / size.max(1.0));
                     assert_eq!(crossing.enters, (t - ends[0]).abs() < (t - ends[1]).abs(), "{ends:?} {t}");
+                    let (at, extent) = (ray.at(crossing.t), sphere.extent());
+                    assert_eq!(extent.overlap(Extent { low: at, high: at }).low, at, "{extent:?} {at:?}");
                 }
             }
         }
@@ -510,5 +271,238 @@ mod tests {
         let (tried, met, worst) = spheres(20_000, |_| Vec3::lit("1", "1", "1"));
         assert!(tried > 19_000 && met > 8_000, "{tried} {met}");
         assert!(worst > 2_f64.powi(-25) && worst < 2_f64.powi(-22), "{worst:e}");
+    }
+
+    /// From a 64th to 64, the same along all axes: the unit is the size, or 1 for what is smaller.
+    #[test]
+    fn a_crossing_lies_on_the_surface_at_every_scale() {
+        for power in -6..=6_i32 {
+            let size = Real::from_bits(1 << (24 + power).clamp(0, 30));
+            let (tried, met, worst) = spheres(4_000, |_| Vec3::new(size, size, size));
+            assert!(tried > 2_500 && met > 1_000, "{power}: {tried} {met}");
+            assert!(worst > 2_f64.powi(-32) && worst < 2_f64.powi(-22), "{power}: {worst:e}");
+        }
+    }
+
+    /// Each axis by another factor: what is small along one axis is known as well as what is large along
+    /// another.
+    #[test]
+    fn a_crossing_lies_on_the_surface_of_an_ellipsoid() {
+        let (tried, met, worst) = spheres(20_000, |word| {
+            let size = |shift: u64| Real::from_bits(1 << (22 + (word >> shift) % 5));
+            Vec3::new(size(0), size(8), size(16))
+        });
+        assert!(tried > 17_000 && met > 7_000, "{tried} {met}");
+        assert!(worst > 2_f64.powi(-26) && worst < 2_f64.powi(-20), "{worst:e}");
+    }
+
+    /// `cargo test -p attractor --lib -- --ignored a_million_crossings`
+    #[test]
+    #[ignore = "a million rays"]
+    fn a_million_crossings_lie_on_the_surface() {
+        let (tried, _, worst) = spheres(1_000_000, |_| Vec3::lit("1", "1", "1"));
+        assert!(tried > 950_000 && worst < 2_f64.powi(-22), "{tried} {worst:e}");
+    }
+
+    /// A plane has no end: it is met wherever it is, up to `t` = 128, and entered from above.
+    #[test]
+    fn a_ray_meets_a_plane_wherever_it_is() {
+        let mut word = words(11);
+        let (mut met, mut missed, mut worst): (u32, u32, f64) = (0, 0, 0.0);
+        for _ in 0..10_000 {
+            let map = map(Vec3::lit("1", "2", "0.5"), &mut word);
+            let (plane, exact) = (Placed::new(Plane, &map).unwrap(), Exact::of(&map));
+            let ray = ray(&map, 40, &mut word);
+            let (o, d) = numbers(&ray);
+            let ([.., height], [.., up]) = (exact.place(o), exact.direction(d));
+            let t = -height / up;
+            if t.abs() < 1e-5 || (t - 128.0).abs() < 1e-3 || up.abs() < 1e-6 {
+                continue;
+            }
+            let got = crossings(&plane, &ray);
+            assert_eq!(got.len(), usize::from((0.0..128.0).contains(&t)), "{map:?} {ray:?} {t} {got:?}");
+            for crossing in &got {
+                worst = worst.max((height + crossing.t.to_num::<f64>() * up).abs() / 2.0);
+                assert_eq!(crossing.enters, up < 0.0);
+                let point = plane.point(&ray, Unit::DELTA, crossing, true);
+                let position = numbers_of(point.position);
+                let at = exact.place(position);
+                // what lies beyond the world is at its end
+                if position.iter().chain(&at).any(|c| c.abs() > 64.0) {
+                    continue;
+                }
+                for (got, want) in [(point.chart.u, at[0]), (point.chart.v, at[1]), (point.place.z, 0.0)] {
+                    assert!(
+                        want.abs() > 127.9 || (got.to_num::<f64>() - want).abs() < 1e-6,
+                        "{point:?} {at:?}"
+                    );
+                }
+            }
+            met += got.len() as u32;
+            missed += u32::from(got.is_empty());
+        }
+        assert!(met > 4_000 && missed > 1_000, "{met} {missed}");
+        assert!(worst > 2_f64.powi(-26) && worst < 2_f64.powi(-22), "{worst:e}");
+        assert_eq!(Placed::new(Plane, &Affine3::IDENTITY).unwrap().extent(), Extent::SPACE);
+    }
+
+    /// Under a different factor along each axis and a mirror image: the normal by the inverse transpose, the
+    /// tangents by the map, at right angles to each other still; the place as exact as the shape's numbers.
+    #[test]
+    fn normals_and_tangents_come_back_from_the_shape() {
+        let mut word = words(13);
+        let (mut met, mut worst): (u32, [f64; 4]) = (0, [0.0; 4]);
+        for k in 0..3_000 {
+            let x = if k % 2 == 0 { "0.25" } else { "-0.25" };
+            let map = map(
+                Vec3::new(Real::from_num(x.parse::<f64>().unwrap()), Real::ONE * 3, Real::ONE),
+                &mut word,
+            );
+            let exact = Exact::of(&map);
+            let ray = ray(&map, 1, &mut word);
+            let (sphere, cone) =
+                (Placed::new(Sphere, &map).unwrap(), Placed::new(TaperedCylinder::CONE, &map).unwrap());
+            for surface in [&sphere as &dyn Pointed, &cone] {
+                let Some((crossing, point)) = surface.first(&ray) else { continue };
+                met += 1;
+                let (o, d) = numbers(&ray);
+                let t = crossing.t.to_num::<f64>();
+                let at = exact.place([0, 1, 2].map(|k| o[k] + t * d[k]));
+                let place = numbers_of(point.place);
+                worst[0] = (0..3).fold(worst[0], |most, k| most.max((place[k] - at[k]).abs()));
+                let generic = surface.generic_normal(at, crossing.face);
+                let want: [f64; 3] =
+                    [0, 1, 2].map(|j| (0..3).map(|i| exact.inverse[i][j] * generic[i]).sum());
+                let length = dot(want, want).sqrt();
+                let normal = [point.normal.x, point.normal.y, point.normal.z].map(|c| c.to_num::<f64>());
+                worst[1] = (0..3).fold(worst[1], |most, k| most.max((normal[k] - want[k] / length).abs()));
+                let [u, v] = [point.chart.along_u, point.chart.along_v].map(numbers_of);
+                for tangent in [u, v] {
+                    let length = dot(tangent, tangent).sqrt();
+                    if length > 0.1 {
+                        worst[2] = worst[2].max((dot(tangent, normal) / length).abs());
+                    }
+                }
+                // P_u is the map's image of the generic tangent
+                let generic = [-place[1], place[0], 0.0].map(|c| c * core::f64::consts::TAU);
+                if crossing.face == 0 {
+                    for (k, row) in exact.rows.iter().enumerate() {
+                        worst[3] = worst[3].max((dot(*row, generic) - u[k]).abs());
+                    }
+                }
+                assert_eq!(point.width, Real::from_bits(crossing.t.to_bits() >> 1));
+            }
+        }
+        assert!(met > 1_500, "{met}");
+        // the cone's tip is met by few rays, and its normals turn there
+        assert!(
+            worst[0] < 2_f64.powi(-20) && worst[1] < 2e-4 && worst[2] < 2e-4 && worst[3] < 1e-5,
+            "{worst:?}"
+        );
+        assert!(worst.iter().all(|w| *w > 1e-9), "{worst:?}");
+    }
+
+    trait Pointed {
+        fn first(&self, ray: &Ray) -> Option<(Crossing, SurfacePoint)>;
+        fn generic_normal(&self, at: [f64; 3], face: u8) -> [f64; 3];
+    }
+
+    impl<S: Shape + Faced> Pointed for Placed<S> {
+        fn first(&self, ray: &Ray) -> Option<(Crossing, SurfacePoint)> {
+            let crossing = *crossings(self, ray).first()?;
+            Some((crossing, self.point(ray, Unit::ONE / 2, &crossing, true)))
+        }
+        fn generic_normal(&self, at: [f64; 3], face: u8) -> [f64; 3] {
+            S::normal_at(at, face)
+        }
+    }
+
+    trait Faced {
+        fn normal_at(at: [f64; 3], face: u8) -> [f64; 3];
+    }
+
+    impl Faced for Sphere {
+        fn normal_at(at: [f64; 3], _: u8) -> [f64; 3] {
+            at
+        }
+    }
+
+    impl Faced for TaperedCylinder {
+        fn normal_at([x, y, _]: [f64; 3], face: u8) -> [f64; 3] {
+            let radius = x.hypot(y);
+            if face == 0 { [x / radius, y / radius, 1.0] } else { [0.0, 0.0, -1.0] }
+        }
+    }
+
+    /// The corners of the box are corners of the mapped box, a few units out.
+    #[test]
+    fn an_extent_is_the_box_of_the_mapped_bounds() {
+        let mut word = words(17);
+        for _ in 0..500 {
+            let map = map(Vec3::lit("0.25", "3", "1"), &mut word);
+            let (exact, extent) = (Exact::of(&map), Placed::new(Sphere, &map).unwrap().extent());
+            let (low, high) = (numbers_of(extent.low), numbers_of(extent.high));
+            for k in 0..3 {
+                let reach: f64 = exact.rows[k].iter().map(|c| c.abs()).sum();
+                for (out, end) in [(exact.centre[k] - low[k], reach), (high[k] - exact.centre[k], reach)] {
+                    assert!(out >= end && out - end < 2e-6, "{k}: {out} {end}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_is_refused_that_makes_a_shape_too_large_or_too_small() {
+        let scale = |x: Real, y: Real| Affine3::scale(Vec3::new(x, y, x));
+        let (one, least) = (Real::ONE, Real::ONE / 64);
+        let placed = |map: Affine3| Placed::new(Sphere, &map).map(|_| ());
+        assert_eq!(
+            placed(scale(one, Real::ZERO)),
+            Err(Error::Degenerate { what: "determinant of an affine map" })
+        );
+        let what = "scale of a shape";
+        let refused = |map| matches!(placed(map), Err(Error::OutOfRange { what: w, .. }) if w == what);
+        assert_eq!([placed(scale(least, one * 64)), placed(scale(one * 127, -one * 64))], [Ok(()); 2]);
+        assert!(refused(scale(one, least / 8)) && refused(scale(one, Real::from_bits(1))));
+        let hundred = Affine3::scale(Vec3::new(one * 100, one, one));
+        assert!(refused(hundred.then(&hundred)));
+        let at = |c: &str| {
+            let c = Real::from_num(c.parse::<f64>().unwrap());
+            Affine3::translate(Vec3::new(Real::ZERO, c, Real::ZERO))
+        };
+        let far = |map| matches!(placed(map), Err(Error::OutOfRange { index: Some(1), .. }));
+        assert!(far(at("64.1")) && far(at("-64")) && !far(at("64")) && !far(at("-63.9")));
+        let (square, map) = (Square, at("1"));
+        let placed = Placed::new(square, &map).unwrap();
+        assert_eq!((placed.shape(), placed.is_closed(), placed.most_crossings()), (&square, false, 1));
+        // 1 above the upper side of the square, which is where its middle is
+        assert_eq!(placed.value(Vec3::lit("0.5", "1", "1")), Wide::ONE);
+    }
+
+    /// The stated error: t against the exact parameter, for directions of length 1 that are no tangents.
+    #[test]
+    fn a_parameter_is_as_wrong_as_is_stated_at_most() {
+        let mut word = words(19);
+        let (mut met, mut worst) = (0, 0.0_f64);
+        for _ in 0..4_000 {
+            let map = map(Vec3::lit("2", "2", "2"), &mut word);
+            let (sphere, exact) = (Placed::new(Sphere, &map).unwrap(), Exact::of(&map));
+            let ray = ray(&map, 1, &mut word);
+            let (o, d) = numbers(&ray);
+            let (p, e) = (exact.place(o), exact.direction(d));
+            let (a, b, c) = (dot(e, e), dot(p, e), dot(p, p) - 1.0);
+            let root = (b * b - a * c).max(0.0).sqrt();
+            // at 1/4 or more from a tangent's angle
+            if root / a.sqrt() < 0.25 {
+                continue;
+            }
+            for crossing in crossings(&sphere, &ray) {
+                let t = if crossing.enters { (-b - root) / a } else { (-b + root) / a };
+                met += 1;
+                let off = (crossing.t.to_num::<f64>() - t).abs() * dot(d, d).sqrt();
+                worst = worst.max(off / sphere.error().to_num::<f64>());
+            }
+        }
+        assert!(met > 3_000 && worst < 1.0 && worst > 0.02, "{met} {worst}");
     }
 }

@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_the_tapered_cylinder`
+    /// `cargo test -p attractor --lib -- --ignored rays_meet_the_tapered_cylinder`
     #[test]
     #[ignore = "a million rays"]
     fn a_million_rays_meet_the_tapered_cylinder_where_they_should() {

@@ -1,0 +1,293 @@
+//! Where a thing is in a world: rays go to its own coordinates by the inverse of an affine map, normals and
+//! tangents come back.
+//!
+//! `t` is the same on both sides: the direction is not normalised. A ray that comes near is moved along
+//! itself to where it is closest to the middle of the thing's box, `t = t_0 + s 2^-k`; `t_0` has so few bits
+//! that the place there, `M^-1 (o + t_0 d - c)`, is exact to `2^-29` at any distance. Normals come back by the
+//! inverse transpose, tangents by the map itself.
+//!
+//! Source: the course unit V, section 5.7; Glassner (ed.), "An Introduction to Ray Tracing", 1989, section 2.7.
+
+use core::num::NonZeroU32;
+
+use super::super::ray::Ray;
+use super::super::surface::Extent;
+use super::shape::NearRay;
+use crate::Error;
+use crate::num::formats::{Q24, Q28, Q29, Q30, Q54, Q58, UQ16};
+use crate::num::{
+    Affine3, Near, Real, Unit, Vec3, Wide, product, product_u, reciprocal_of, sqrt, square, unit,
+};
+
+/// A map and what it makes of a box.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Site {
+    /// `M^-1 = inverse 2^exponent`, its greatest entry in `[1/2, 1]`.
+    inverse: [[Q30; 3]; 3],
+    /// -8 to 8.
+    exponent: i32,
+    /// Where the middle of the shape's box is in the world.
+    centre: [Q24; 3],
+    /// That middle, in generic coordinates.
+    middle: [Q29; 3],
+    /// The square of the radius of a ball round the centre that holds the shape, 16 fractional bits, rounded
+    /// up.
+    ball: UQ16,
+    pub(super) limited: bool,
+    linear: [Vec3; 3],
+    /// The norm of the map, 16 fractional bits.
+    norm: u32,
+    pub(super) extent: Extent,
+}
+
+/// A ray near the shape: `t = start + s 2^-k`.
+pub(super) struct Approach {
+    pub(super) near: NearRay,
+    /// 24 fractional bits.
+    pub(super) start: i64,
+    /// `k`.
+    pub(super) places: i32,
+    /// The `s` at `t` = 0.
+    pub(super) from: Near,
+}
+
+impl Approach {
+    /// The ray's parameter where the near ray has `s`, 24 fractional bits, to nearest; beyond the format's end
+    /// none.
+    #[inline(always)]
+    pub(super) fn parameter(&self, s: Near) -> Option<Real> {
+        let (s, right) = (i64::from(s.to_bits()), 4 + self.places);
+        let moved = if right >= 1 {
+            ((s >> (right - 1).min(62)) + 1) >> 1
+        } else {
+            s.saturating_mul(1 << (-right).min(62))
+        };
+        i32::try_from(self.start.saturating_add(moved).max(0)).ok().map(Real::from_bits)
+    }
+
+    /// The place where the near ray has `s`, to nearest, saturated.
+    pub(super) fn at(&self, s: Near) -> Vec3<Near> {
+        let moved = |origin: Near, direction: Near| {
+            let way = (product(direction.to_bits(), s.to_bits()) + (1 << 27)) >> 28;
+            Near::from_bits(shifted(i64::from(origin.to_bits()) + way, 0))
+        };
+        let (o, d) = (self.near.origin, self.near.direction);
+        Vec3::new(moved(o.x, d.x), moved(o.y, d.y), moved(o.z, d.z))
+    }
+}
+
+/// The scalar product of words, which the caller knows to fit.
+#[inline(always)]
+fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
+    product(a[0], b[0]).wrapping_add(product(a[1], b[1])).wrapping_add(product(a[2], b[2]))
+}
+
+/// `v 2^places`, saturated to a word; places below 32, shifts to the right round down.
+#[inline(always)]
+pub(super) fn shifted(v: i64, places: i32) -> i32 {
+    let v = if places >= 0 { v.saturating_mul(1 << (places & 63)) } else { v >> (-places).min(63) };
+    v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+}
+
+impl Site {
+    /// The site of a box of generic coordinates, or of a half-space without one, under a map.
+    pub(super) fn new(bounds: Option<[Vec3<Near>; 2]>, map: &Affine3) -> Result<Self, Error> {
+        let inverse = map.inverse()?;
+        let (min, max) = (Wide::ONE / 256, Wide::from_num(128));
+        let scale =
+            |value: Wide| Error::OutOfRange { what: "scale of a shape", index: None, value, min, max };
+        if map.greatest() >= max {
+            return Err(scale(map.greatest()));
+        }
+        // entries below 128 have an inverse whose greatest is above 2^-9
+        if !(-8..=8).contains(&inverse.exponent) {
+            return Err(scale(Wide::ONE >> inverse.exponent.clamp(0, 47) as u32));
+        }
+        let (linear, _) = map.parts();
+        let corner = |v: Vec3<Near>| [v.x, v.y, v.z].map(Near::to_bits);
+        let [low, high] = bounds.map_or([[0; 3]; 2], |[low, high]| [corner(low), corner(high)]);
+        // bounds are within 2: no sum leaves a word
+        let middle = [0, 1, 2].map(|k: usize| low[k].saturating_add(high[k]));
+        let half = [0, 1, 2].map(|k: usize| i64::from(high[k].saturating_sub(low[k]) >> 1) + 1);
+        let [x, y, z] = middle.map(|c| Real::from_bits(c >> 5));
+        let centre = map.at(Vec3::new(x, y, z));
+        for (index, c) in [centre.x, centre.y, centre.z].into_iter().enumerate() {
+            if c > 64 || c <= -64 {
+                let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
+                let what = "place of a shape";
+                return Err(Error::OutOfRange { what, index: Some(index), value: c.into(), min, max });
+            }
+        }
+        let centre = [centre.x, centre.y, centre.z].map(Real::to_bits);
+        let rows = linear.map(|row| [row.x, row.y, row.z].map(|c| i64::from(c.to_bits())));
+        let size = |row: [i64; 3]| (0..3).map(|k: usize| (row[k].abs() * half[k]) >> 28).sum::<i64>();
+        // what rounding the inverse makes of a place as far away as the box's corner, and a few units
+        let greatest = rows.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
+        let largest = rows.iter().map(|row| size(*row)).max().unwrap_or(0);
+        let slack = 16 + (((greatest >> 12) * (largest >> 12) * 9) >> (31 - inverse.exponent));
+        let reach = rows.map(|row| size(row) + slack);
+        // four corners of the box, the others are opposite; 16 fractional bits
+        let corners = [(1, 1), (1, -1), (-1, 1), (-1, -1)].map(|(a, b)| {
+            let v = rows.map(|row| (row[0] * half[0] + row[1] * half[1] * a + row[2] * half[2] * b) >> 28);
+            v.iter().map(|c| ((c.abs() + slack) >> 8) + 1).map(|c| c * c).sum::<i64>() >> 16
+        });
+        let ball = u32::try_from(corners.into_iter().fold(0, i64::max) + 1).unwrap_or(u32::MAX);
+        let end = |c: Q24, r: i64| Real::from_bits(shifted(i64::from(c) + r, 0));
+        let [x, y, z] = [0, 1, 2].map(|k: usize| (end(centre[k], -reach[k]), end(centre[k], reach[k])));
+        let extent = Extent { low: Vec3::new(x.0, y.0, z.0), high: Vec3::new(x.1, y.1, z.1) };
+        Ok(Self {
+            limited: bounds.is_some(),
+            inverse: inverse.rows,
+            exponent: inverse.exponent,
+            centre,
+            middle,
+            ball,
+            linear,
+            norm: sqrt(rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum()),
+            extent: if bounds.is_some() { extent } else { Extent::SPACE },
+        })
+    }
+
+    /// How wrong a parameter is at most where `s` is wrong by `near`, for a direction of length 1.
+    pub(super) fn error(&self, near: Near) -> Real {
+        // s is worth at most 2 sqrt(3) of t times the map's norm; a place is known to a few units
+        let near = i64::from(near.to_bits()) + 8;
+        Real::from_bits(shifted(((near * i64::from(self.norm) * 111) >> 25) + 2, 0))
+    }
+
+    /// Whether the ray passes the ball round the shape by, or leaves it behind. `w` is the way from the
+    /// centre to the ray's origin.
+    #[inline(always)]
+    fn is_far(&self, w: [Q24; 3], d: [Q28; 3]) -> bool {
+        // the distance of the line is |w x d| / |d|; words of 20 fractional bits, never too large
+        let across = |a: usize, b: usize| {
+            let v = product(w[a], d[b]).wrapping_sub(product(w[b], d[a]));
+            let high = (v >> 32) as i32;
+            high ^ (high >> 31)
+        };
+        let distance = square([across(1, 2), across(2, 0), across(0, 1)]);
+        let length = (square(d) >> 32) as u32 + 1;
+        if distance > product_u(length, self.ball) {
+            return true;
+        }
+        dot(w, d) > 0 && (square(w) >> 32) as u32 > self.ball
+    }
+
+    /// The ray in the shape's coordinates, moved to where it is closest; none if it comes nowhere near.
+    #[inline(always)]
+    pub(super) fn approach(&self, ray: &Ray) -> Option<Approach> {
+        let w = self.way(ray);
+        if self.limited && self.is_far(w, ray.direction) {
+            return None;
+        }
+        self.mapped(w, ray.direction)
+    }
+
+    /// From the centre to the ray's origin.
+    #[inline(always)]
+    fn way(&self, ray: &Ray) -> [Q24; 3] {
+        [0, 1, 2].map(|k: usize| ray.origin[k].wrapping_sub(self.centre[k]))
+    }
+
+    /// The same as [`Site::approach`] for a ray of which something is known to be met.
+    pub(super) fn approach_met(&self, ray: &Ray) -> Option<Approach> {
+        self.mapped(self.way(ray), ray.direction)
+    }
+
+    /// The same without a look at the ball.
+    #[inline(always)]
+    fn mapped(&self, w: [Q24; 3], d: [Q28; 3]) -> Option<Approach> {
+        // both without the inverse's power of two; a row's sum of magnitudes is at most 3
+        let origin: [Q54; 3] = self.inverse.map(|row| dot(row, w));
+        let along: [Q58; 3] = self.inverse.map(|row| dot(row, d));
+        // a sign takes no bit of the magnitude: or is as good as the greatest
+        let magnitude = along.iter().fold(0_u64, |all, c| all | (c ^ (c >> 63)) as u64);
+        // the direction's greatest component gets 29 bits
+        let shift = 35 - magnitude.leading_zeros() as i32;
+        if shift < 0 {
+            return None;
+        }
+        let direction: [Q28; 3] = along.map(|c| (c >> shift) as i32);
+        // n steps of 2^-(3 + exponent) each: 0 to 128
+        let most = 1 << 18 >> (8 - self.exponent);
+        let (towards, over) = if self.limited {
+            let o = origin.map(|c| (c >> 32) as i32);
+            (-dot(o, direction), ((square(direction)) >> 28) as u32)
+        } else {
+            let down = direction[2];
+            let high = (origin[2] >> 32) as i32;
+            (if down < 0 { product(high, 1 << 28) } else { product(-high, 1 << 28) }, down.unsigned_abs())
+        };
+        let n = if towards <= 0 { 0 } else { steps(towards, over, shift, self.exponent, most) };
+        // 29 fractional bits: 54 + exponent - 25 of the origin, 58 - 32 + (3 + exponent) of the way
+        let place = |k: usize| -> Option<Near> {
+            let way = product(n as i32, (along[k] >> 32) as i32)
+                .wrapping_add((product_u(n, along[k] as u32) >> 32) as i64);
+            let from = (origin[k] >> (25 - self.exponent)).wrapping_add(i64::from(self.middle[k]));
+            Some(Near::from_bits(i32::try_from(way.wrapping_add(from)).ok()? >> 1))
+        };
+        let origin = if self.limited {
+            Vec3::new(place(0)?, place(1)?, place(2)?)
+        } else {
+            // only its height counts
+            Vec3::new(Near::ZERO, Near::ZERO, place(2)?)
+        };
+        let [dx, dy, dz] = direction.map(Near::from_bits);
+        Some(Approach {
+            near: NearRay { origin, direction: Vec3::new(dx, dy, dz) },
+            start: i64::from(n) << (21 - self.exponent),
+            places: self.exponent + shift - 30,
+            from: Near::from_bits(shifted(-i64::from(n), shift - 5)),
+        })
+    }
+
+    /// A place of the world in generic coordinates, saturated.
+    pub(super) fn place(&self, at: Vec3) -> Vec3 {
+        let at = [at.x, at.y, at.z].map(Real::to_bits);
+        let w = [0, 1, 2].map(|k: usize| at[k].saturating_sub(self.centre[k]));
+        let [x, y, z] = [0, 1, 2].map(|k: usize| {
+            // 54 fractional bits, then 24
+            let v = (dot(self.inverse[k], w) >> (29 - self.exponent)) + 1;
+            Real::from_bits(shifted((v >> 1) + i64::from(self.middle[k] >> 5), 0))
+        });
+        Vec3::new(x, y, z)
+    }
+
+    /// A direction in generic coordinates, brought to the world by the map.
+    pub(super) fn tangent(&self, v: Vec3) -> Vec3 {
+        let v = [v.x, v.y, v.z].map(Real::to_bits);
+        let [x, y, z] = self.linear.map(|row| {
+            let [a, b, c] = [row.x, row.y, row.z].map(Real::to_bits);
+            let sum = (product(a, v[0]) >> 24) + (product(b, v[1]) >> 24) + (product(c, v[2]) >> 24);
+            Real::from_bits(shifted(sum, 0))
+        });
+        Vec3::new(x, y, z)
+    }
+
+    /// The unit normal in the world, by the inverse transpose; that of a shape in any format.
+    pub(super) fn normal(&self, n: [i32; 3]) -> Vec3<Unit> {
+        let sums = [0, 1, 2].map(|j: usize| dot([0, 1, 2].map(|i: usize| self.inverse[i][j]), n));
+        let magnitude = sums.iter().fold(0_u64, |all, c| all | (c ^ (c >> 63)) as u64);
+        let shift = 34_u32.saturating_sub(magnitude.leading_zeros());
+        unit(sums.map(|c| (c >> shift) as i32))
+    }
+}
+
+/// How many steps of `2^-(3 + exponent)` it is to the closest place, to nearest, at most `most`.
+///
+/// `towards` has 22 + 28 fractional bits, `over` 28, and the direction's unit is `2^(shift - 30)`, all without
+/// the inverse's `2^exponent`: `t = towards 2^(8 - shift) / over`.
+#[inline(always)]
+fn steps(towards: i64, over: u32, shift: i32, exponent: i32, most: u32) -> u32 {
+    let Some(over) = NonZeroU32::new(over) else { return most };
+    let (mantissa, zeros) = reciprocal_of(over);
+    // the upper word is enough: the reciprocal is mantissa 2^zeros / 2^62
+    let quotient = product((towards >> 32) as i32, mantissa);
+    let right = 19 + shift - zeros as i32 - exponent;
+    if right < 1 {
+        // a mantissa has 31 bits: far beyond the last step
+        return if quotient > 0 { most } else { 0 };
+    }
+    let n = ((quotient >> (right - 1).min(62)) + 1) >> 1;
+    n.clamp(0, i64::from(most)) as u32
+}
