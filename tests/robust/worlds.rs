@@ -6,7 +6,9 @@ use attractor::trace::material::{
     Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Specular,
     TorranceSparrow, View,
 };
-use attractor::trace::solid::{Placed, Plane, Sphere};
+use attractor::trace::solid::{
+    Cube, HalfSpace, Moved, Placed, Plane, Polygon, Polyhedron, Shape, Sphere, Square, TaperedCylinder,
+};
 use attractor::trace::world::{Difference, Intersection, Lamp, Leaf, Object, Op, Union, World, WorldCaster};
 use attractor::trace::{Camera, Chart, Environment, Extent, Filter, Ray, Sampling, Surface, SurfacePoint};
 use embedded_graphics::geometry::Size;
@@ -234,4 +236,65 @@ fn ready_made_materials() {
     assert!(Mixture::mirror().medium().is_none() && Interior::medium(&()).is_none());
     assert_eq!(Mixture::glass(Real::from_num(1.5)).unwrap().passes(), Rgb::WHITE);
     fuzz(word(), 1, |bits| Mixture::glass(Real::from_bits(bits)).is_ok());
+}
+
+/// Whatever a ray meets of any shape under any map: crossings in order, points that are told.
+fn any_shape(shape: impl Shape + Copy, map: &Affine3, ray: &Ray, cone: Unit, place: Vec3) -> bool {
+    let Ok(placed) = Placed::new(shape, map) else { return false };
+    let mut before = Real::ZERO;
+    let met = |surface: &dyn Fn(&mut dyn FnMut(attractor::trace::Crossing)), before: &mut Real| {
+        surface(&mut |crossing| {
+            assert!(crossing.t >= *before && crossing.face < 32);
+            *before = crossing.t;
+        });
+    };
+    let crossed = |found: &mut dyn FnMut(attractor::trace::Crossing)| {
+        placed.cross(ray, cone, &mut |crossing| {
+            let point = placed.point(ray, cone, &crossing, true);
+            assert!(point.face == crossing.face && placed.faces() >= 1);
+            found(crossing);
+            std::ops::ControlFlow::Continue(())
+        });
+    };
+    met(&crossed, &mut before);
+    let _ = (placed.value(place), placed.error(), placed.extent(), placed.shape().bounds());
+    if let Ok(moved) = Moved::new(placed, map) {
+        moved.cross(ray, cone, &mut |crossing| {
+            let _ = moved.point(ray, cone, &crossing, true);
+            std::ops::ControlFlow::Continue(())
+        });
+        let _ = (moved.value(place), moved.error(), moved.extent(), moved.most_crossings());
+    }
+    true
+}
+
+#[test]
+fn shapes_of_any_numbers_under_any_map() {
+    let at = || vector(real());
+    let entry = || prop_oneof![Just(Wide::ZERO), any::<i64>().prop_map(|bits| Wide::from_bits(bits >> 14))];
+    let plane = (entry(), entry(), entry(), entry())
+        .prop_map(|(x, y, z, d)| HalfSpace::new(Vec3::new(x, y, z), d).unwrap_or_default());
+    let corner = vector(inside(2));
+    let lists = (vec(plane, 0..9), vec(corner, 0..9));
+    fuzz((map(), (at(), at(), unit(), at()), real(), lists), 60, |(map, ray, cap, (planes, corners))| {
+        let (origin, direction, cone, place) = ray;
+        let ray = Ray::new(origin, direction);
+        let mut any = any_shape(Sphere, &map, &ray, cone, place);
+        any |= any_shape(Plane, &map, &ray, cone, place);
+        any |= any_shape(Cube, &map, &ray, cone, place);
+        any |= any_shape(Square, &map, &ray, cone, place);
+        if let Ok(tapered) = TaperedCylinder::new(cap) {
+            any |= any_shape(tapered, &map, &ray, cone, place);
+        }
+        for tapered in [TaperedCylinder::CONE, TaperedCylinder::CYLINDER] {
+            any |= any_shape(tapered, &map, &ray, cone, place);
+        }
+        if let Ok(polyhedron) = Polyhedron::new(&planes) {
+            any |= any_shape(polyhedron, &map, &ray, cone, place);
+        }
+        if let Ok(polygon) = Polygon::<8>::new(&corners) {
+            any |= any_shape(polygon, &map, &ray, cone, place);
+        }
+        any
+    });
 }

@@ -19,7 +19,7 @@ use crate::num::{Real, Unit, Vec3, Wide};
 /// A height field `f(x) g(y)` as the pyramids of its factors.
 #[derive(Debug, Clone, Copy)]
 pub struct HeightField<'a> {
-    hierarchy: Hierarchy<'a>,
+    pub(super) hierarchy: Hierarchy<'a>,
     /// Whether nodes have two equal parts along both axes.
     halved: bool,
 }
@@ -151,6 +151,11 @@ impl<'a> HeightField<'a> {
     pub(super) fn normal(&self, leaf: &Leaf) -> [i32; 3] {
         // a walk's nodes have cells
         self.cells(leaf).map_or([0, 0, 1 << 24], |(f, g)| normal(f, g))
+    }
+
+    /// Bounds of the heights over a leaf, 24 fractional bits.
+    pub(super) fn leaf_heights(&self, leaf: &Leaf) -> Option<[i32; 2]> {
+        self.cells(leaf).map(|(f, g)| range(f, g).into())
     }
 
     fn hit(&self, ray: &Ray, leaf: &Leaf) -> Option<Hit> {

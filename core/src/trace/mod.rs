@@ -17,6 +17,7 @@ mod exact;
 mod finish;
 mod halves;
 mod height_field;
+mod height_surface;
 mod hierarchy;
 pub mod material;
 mod outline;

@@ -15,6 +15,7 @@ mod ifs;
 mod num;
 mod picture;
 mod shade;
+mod shapes;
 mod texture;
 mod trace;
 mod watch;
@@ -155,5 +156,11 @@ const TABLE: &[Kernel] = &[
     roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
     beside("noise", "value", texture::noise_fixed, texture::noise_float::<f32>, texture::noise_float::<f64>),
     beside("turbulence", "octave of four", texture::turbulence_fixed, texture::turbulence_float::<f32>, texture::turbulence_float::<f64>),
+    roomy(beside("sphere", "ray, both crossings", shapes::sphere, shapes::sphere_float::<f32>, shapes::sphere_float::<f64>)),
+    roomy(beside("square", "ray", shapes::square, shapes::square_float::<f32>, shapes::square_float::<f64>)),
+    roomy(beside("cube", "ray, both crossings and faces", shapes::cube, shapes::cube_float::<f32>, shapes::cube_float::<f64>)),
+    roomy(beside("tapered cylinder", "ray, both crossings and faces", shapes::tapered, shapes::tapered_float::<f32>, shapes::tapered_float::<f64>)),
+    roomy(beside("approach", "ray brought near; floats: mapped", shapes::reached, shapes::reached_float::<f32>, shapes::reached_float::<f64>)),
+    roomy(beside("passing by", "ray, of which most pass; floats: mapped", shapes::passing, shapes::passing_float::<f32>, shapes::passing_float::<f64>)),
     roomy(beside("mirror picture", "pixel; floats: the paper's way", picture::core, picture::paper::<f32>, picture::paper::<f64>)),
 ];

@@ -11,6 +11,7 @@
 mod camera;
 mod paper;
 mod shade;
+pub(crate) mod solid;
 mod vector;
 mod walk;
 

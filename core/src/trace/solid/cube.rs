@@ -109,7 +109,7 @@ mod tests {
         assert!(seen.off > 2_f64.powi(-28) && seen.off < 2_f64.powi(-25), "{seen:?}");
     }
 
-    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_the_cube`
+    /// `cargo test -p attractor --lib -- --ignored rays_meet_the_cube`
     #[test]
     #[ignore = "a million rays"]
     fn a_million_rays_meet_the_cube_where_they_should() {

@@ -6,12 +6,13 @@ mod cube;
 mod half_space;
 #[cfg(test)]
 mod judge;
+mod moved;
 mod placed;
-mod placement;
 mod plane;
 mod polygon;
 mod polyhedron;
 mod shape;
+mod site;
 mod slab;
 mod sphere;
 mod square;
@@ -20,6 +21,7 @@ mod torus;
 
 pub use cube::Cube;
 pub use half_space::HalfSpace;
+pub use moved::Moved;
 pub use placed::Placed;
 pub use plane::Plane;
 pub use polygon::Polygon;

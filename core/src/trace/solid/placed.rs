@@ -1,30 +1,25 @@
 //! A shape put into a world by an affine map: rays go to its coordinates, what they meet comes back.
 //!
-//! `t` is the same on both sides: the direction is not normalised. A ray that comes near is moved along
-//! itself to where it is closest to the shape, `t = t_0 + s 2^-k`; `t_0` has so few bits that the place there,
-//! `M^-1 (o + t_0 d - c)`, is exact to `2^-29` at any distance. Normals come back by the inverse transpose,
-//! tangents by the map itself.
-//!
-//! Source: the course unit V, section 5.7; Glassner (ed.), "An Introduction to Ray Tracing", 1989, section 2.7.
+//! Source: the course unit V, section 5.7.
 
 use core::ops::ControlFlow;
 
 use super::super::ray::Ray;
 use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
-use super::placement::{Placement, shifted};
 use super::shape::Shape;
+use super::site::{Site, shifted};
 use crate::Error;
 use crate::num::{Affine3, Near, Real, Unit, Vec3, Wide, product};
 
 /// A shape at its place in a world.
 ///
 /// The map may scale by 1/64 to 64, and by a different factor along each axis; it may shear and mirror. For a
-/// scale of 1 a crossing lies on the surface within `2^-22` (`a_crossing_lies_on_the_surface`); what is
-/// 64 times larger or smaller, within `2^-22` of its size or of 1, whichever is more.
+/// scale of 1 a crossing lies on the surface within `2^-22` (`a_crossing_lies_on_the_surface`); of what is
+/// 64 times as large within `2^-21`, of what is 64 times smaller within `2^-22`, as `t` is known to `2^-24`.
 #[derive(Debug, Clone, Copy)]
 pub struct Placed<S> {
     shape: S,
-    placement: Placement,
+    site: Site,
     error: Real,
 }
 
@@ -36,9 +31,9 @@ impl<S: Shape> Placed<S> {
     /// 128 times as large or more, or as small as one 256th or less, or that puts its middle more than 64 from
     /// the origin along an axis.
     pub fn new(shape: S, map: &Affine3) -> Result<Self, Error> {
-        let placement = Placement::new(shape.bounds(), map)?;
-        let error = placement.error(shape.error());
-        Ok(Self { shape, placement, error })
+        let site = Site::new(shape.bounds(), map)?;
+        let error = site.error(shape.error());
+        Ok(Self { shape, site, error })
     }
 
     /// The shape.
@@ -49,7 +44,7 @@ impl<S: Shape> Placed<S> {
 
 impl<S: Shape> Surface for Placed<S> {
     fn extent(&self) -> Extent {
-        self.placement.extent
+        self.site.extent
     }
 
     fn is_closed(&self) -> bool {
@@ -69,7 +64,7 @@ impl<S: Shape> Surface for Placed<S> {
     }
 
     fn cross(&self, ray: &Ray, _: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
-        let Some(approach) = self.placement.approach(ray) else { return };
+        let Some(approach) = self.site.approach(ray) else { return };
         self.shape.cross(
             &approach.near,
             approach.from,
@@ -86,36 +81,38 @@ impl<S: Shape> Surface for Placed<S> {
     }
 
     fn value(&self, place: Vec3) -> Wide {
-        self.shape.value(self.placement.place(place))
+        self.shape.value(self.site.place(place))
     }
 
     fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {
         let position = ray.at(crossing.t);
-        let (near, place) = self.placement.near_place(ray, crossing).map_or_else(
-            || {
-                let place = self.placement.place(position);
-                let near = |c: Real| Near::from_bits(shifted(i64::from(c.to_bits()), 4));
-                (Vec3::new(near(place.x), near(place.y), near(place.z)), place)
-            },
-            |near| {
+        let s = Near::from_bits(crossing.memo[0] as i32);
+        let approach = if self.site.limited { self.site.approach_met(ray) } else { None };
+        let (near, place) = match approach {
+            Some(approach) => {
+                let near = approach.at(s);
                 let real = |c: Near| Real::from_bits(((c.to_bits() >> 3) + 1) >> 1);
                 (near, Vec3::new(real(near.x), real(near.y), real(near.z)))
-            },
-        );
+            }
+            // without limits, only the place in the world tells
+            None => {
+                let place = self.site.place(position);
+                let near = |c: Real| Near::from_bits(shifted(c.to_bits().into(), 4));
+                (Vec3::new(near(place.x), near(place.y), near(place.z)), place)
+            }
+        };
         let chart = if charted {
             let chart = self.shape.chart(place, crossing.face);
-            Chart {
-                along_u: self.placement.mapped_tangent(chart.along_u),
-                along_v: self.placement.mapped_tangent(chart.along_v),
-                ..chart
-            }
+            let (along_u, along_v) = (self.site.tangent(chart.along_u), self.site.tangent(chart.along_v));
+            Chart { along_u, along_v, ..chart }
         } else {
             Chart::default()
         };
+        let normal = self.shape.normal(near, crossing.face);
         SurfacePoint {
             position,
             place,
-            normal: self.placement.mapped_normal(self.shape.normal(near, crossing.face)),
+            normal: self.site.normal([normal.x, normal.y, normal.z].map(Near::to_bits)),
             chart,
             face: crossing.face,
             width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),
@@ -127,7 +124,10 @@ impl<S: Shape> Surface for Placed<S> {
 mod tests {
     extern crate std;
     use super::super::super::exact::words;
+    use super::super::plane::Plane;
     use super::super::sphere::Sphere;
+    use super::super::square::Square;
+    use super::super::tapered_cylinder::TaperedCylinder;
     use super::*;
     use crate::num::Angle;
     use std::vec::Vec;
@@ -136,8 +136,7 @@ mod tests {
     struct Exact {
         inverse: [[f64; 3]; 3],
         centre: [f64; 3],
-        /// The greatest factor by which the map makes longer, or a little more.
-        size: f64,
+        rows: [[f64; 3]; 3],
     }
 
     impl Exact {
@@ -149,8 +148,7 @@ mod tests {
             };
             let determinant: f64 = (0..3).map(|j| rows[0][j] * minor(0, j)).sum();
             let inverse = [0, 1, 2].map(|i| [0, 1, 2].map(|j| minor(j, i) / determinant));
-            let size = rows.iter().flatten().map(|v| v * v).sum::<f64>().sqrt();
-            Self { inverse, centre: t, size }
+            Self { inverse, centre: t, rows }
         }
 
         fn direction(&self, d: [f64; 3]) -> [f64; 3] {
@@ -211,28 +209,37 @@ mod tests {
         Ray::new(origin, Vec3::new(x, y, z))
     }
 
-    /// Spheres of every size and shape: how many crossings, and how far from the surface they are in units of
-    /// the sphere's size or of 1, against double precision.
+    fn numbers_of(v: Vec3) -> [f64; 3] {
+        [v.x, v.y, v.z].map(|c| c.to_num::<f64>())
+    }
+
+    fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+        (0..3).map(|k| a[k] * b[k]).sum()
+    }
+
+    /// Spheres of many sizes: how many rays were judged, how many crossings there were, and how far they are
+    /// from the surface, in units of the sphere's greatest size or of 1, whichever is more.
     fn spheres(count: u32, sizes: impl Fn(u64) -> Vec3) -> (u32, u32, f64) {
         let mut word = words(7);
         let (mut tried, mut met, mut worst): (u32, u32, f64) = (0, 0, 0.0);
         for _ in 0..count / 20 {
-            let map = map(sizes(word()), &mut word);
+            let factors = sizes(word());
+            let size = numbers_of(factors).into_iter().fold(0.0, f64::max);
+            let map = map(factors, &mut word);
             let (sphere, exact) = (Placed::new(Sphere, &map).unwrap(), Exact::of(&map));
             for _ in 0..20 {
                 let ray = ray(&map, 2, &mut word);
                 let (o, d) = numbers(&ray);
                 let (p, e) = (exact.place(o), exact.direction(d));
-                let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
                 let cross = [0, 1, 2]
                     .map(|k: usize| p[(k + 1) % 3] * e[(k + 2) % 3] - p[(k + 2) % 3] * e[(k + 1) % 3]);
                 let distance = (dot(cross, cross) / dot(e, e)).sqrt();
                 let reach = (1.0 - distance * distance).max(0.0).sqrt() / dot(e, e).sqrt();
                 let middle = -dot(p, e) / dot(e, e);
                 let ends = [middle - reach, middle + reach];
-                // near a tangent, or where one of them is where the ray begins or t ends
-                let slack = 2_f64.powi(-21) * exact.size.max(1.0);
-                if (distance - 1.0).abs() < 2_f64.powi(-20)
+                // near a tangent, or where the ray begins or t ends
+                let slack = 2_f64.powi(-20) * size.max(1.0);
+                if (distance - 1.0).abs() < 2_f64.powi(-20) / size.min(1.0)
                     || ends.iter().any(|t| t.abs() < slack || (t - 128.0).abs() < slack)
                 {
                     continue;
@@ -249,9 +256,10 @@ mod tests {
                     met += 1;
                     let t = crossing.t.to_num::<f64>();
                     let place = exact.place([0, 1, 2].map(|k| o[k] + t * d[k]));
-                    worst =
-                        worst.max((dot(place, place).sqrt() - 1.0).abs() * exact.size / exact.size.max(1.8));
+                    worst = worst.max((dot(place, place).sqrt() - 1.0).abs() * size / size.max(1.0));
                     assert_eq!(crossing.enters, (t - ends[0]).abs() < (t - ends[1]).abs(), "{ends:?} {t}");
+                    let (at, extent) = (ray.at(crossing.t), sphere.extent());
+                    assert_eq!(extent.overlap(Extent { low: at, high: at }).low, at, "{extent:?} {at:?}");
                 }
             }
         }
@@ -263,5 +271,238 @@ mod tests {
         let (tried, met, worst) = spheres(20_000, |_| Vec3::lit("1", "1", "1"));
         assert!(tried > 19_000 && met > 8_000, "{tried} {met}");
         assert!(worst > 2_f64.powi(-25) && worst < 2_f64.powi(-22), "{worst:e}");
+    }
+
+    /// From a 64th to 64, the same along all axes: the unit is the size, or 1 for what is smaller.
+    #[test]
+    fn a_crossing_lies_on_the_surface_at_every_scale() {
+        for power in -6..=6_i32 {
+            let size = Real::from_bits(1 << (24 + power).clamp(0, 30));
+            let (tried, met, worst) = spheres(4_000, |_| Vec3::new(size, size, size));
+            assert!(tried > 2_500 && met > 1_000, "{power}: {tried} {met}");
+            assert!(worst > 2_f64.powi(-32) && worst < 2_f64.powi(-22), "{power}: {worst:e}");
+        }
+    }
+
+    /// Each axis by another factor: what is small along one axis is known as well as what is large along
+    /// another.
+    #[test]
+    fn a_crossing_lies_on_the_surface_of_an_ellipsoid() {
+        let (tried, met, worst) = spheres(20_000, |word| {
+            let size = |shift: u64| Real::from_bits(1 << (22 + (word >> shift) % 5));
+            Vec3::new(size(0), size(8), size(16))
+        });
+        assert!(tried > 17_000 && met > 7_000, "{tried} {met}");
+        assert!(worst > 2_f64.powi(-26) && worst < 2_f64.powi(-20), "{worst:e}");
+    }
+
+    /// `cargo test -p attractor --lib -- --ignored a_million_crossings`
+    #[test]
+    #[ignore = "a million rays"]
+    fn a_million_crossings_lie_on_the_surface() {
+        let (tried, _, worst) = spheres(1_000_000, |_| Vec3::lit("1", "1", "1"));
+        assert!(tried > 950_000 && worst < 2_f64.powi(-22), "{tried} {worst:e}");
+    }
+
+    /// A plane has no end: it is met wherever it is, up to `t` = 128, and entered from above.
+    #[test]
+    fn a_ray_meets_a_plane_wherever_it_is() {
+        let mut word = words(11);
+        let (mut met, mut missed, mut worst): (u32, u32, f64) = (0, 0, 0.0);
+        for _ in 0..10_000 {
+            let map = map(Vec3::lit("1", "2", "0.5"), &mut word);
+            let (plane, exact) = (Placed::new(Plane, &map).unwrap(), Exact::of(&map));
+            let ray = ray(&map, 40, &mut word);
+            let (o, d) = numbers(&ray);
+            let ([.., height], [.., up]) = (exact.place(o), exact.direction(d));
+            let t = -height / up;
+            if t.abs() < 1e-5 || (t - 128.0).abs() < 1e-3 || up.abs() < 1e-6 {
+                continue;
+            }
+            let got = crossings(&plane, &ray);
+            assert_eq!(got.len(), usize::from((0.0..128.0).contains(&t)), "{map:?} {ray:?} {t} {got:?}");
+            for crossing in &got {
+                worst = worst.max((height + crossing.t.to_num::<f64>() * up).abs() / 2.0);
+                assert_eq!(crossing.enters, up < 0.0);
+                let point = plane.point(&ray, Unit::DELTA, crossing, true);
+                let position = numbers_of(point.position);
+                let at = exact.place(position);
+                // what lies beyond the world is at its end
+                if position.iter().chain(&at).any(|c| c.abs() > 64.0) {
+                    continue;
+                }
+                for (got, want) in [(point.chart.u, at[0]), (point.chart.v, at[1]), (point.place.z, 0.0)] {
+                    assert!(
+                        want.abs() > 127.9 || (got.to_num::<f64>() - want).abs() < 1e-6,
+                        "{point:?} {at:?}"
+                    );
+                }
+            }
+            met += got.len() as u32;
+            missed += u32::from(got.is_empty());
+        }
+        assert!(met > 4_000 && missed > 1_000, "{met} {missed}");
+        assert!(worst > 2_f64.powi(-26) && worst < 2_f64.powi(-22), "{worst:e}");
+        assert_eq!(Placed::new(Plane, &Affine3::IDENTITY).unwrap().extent(), Extent::SPACE);
+    }
+
+    /// Under a different factor along each axis and a mirror image: the normal by the inverse transpose, the
+    /// tangents by the map, at right angles to each other still; the place as exact as the shape's numbers.
+    #[test]
+    fn normals_and_tangents_come_back_from_the_shape() {
+        let mut word = words(13);
+        let (mut met, mut worst): (u32, [f64; 4]) = (0, [0.0; 4]);
+        for k in 0..3_000 {
+            let x = if k % 2 == 0 { "0.25" } else { "-0.25" };
+            let map = map(
+                Vec3::new(Real::from_num(x.parse::<f64>().unwrap()), Real::ONE * 3, Real::ONE),
+                &mut word,
+            );
+            let exact = Exact::of(&map);
+            let ray = ray(&map, 1, &mut word);
+            let (sphere, cone) =
+                (Placed::new(Sphere, &map).unwrap(), Placed::new(TaperedCylinder::CONE, &map).unwrap());
+            for surface in [&sphere as &dyn Pointed, &cone] {
+                let Some((crossing, point)) = surface.first(&ray) else { continue };
+                met += 1;
+                let (o, d) = numbers(&ray);
+                let t = crossing.t.to_num::<f64>();
+                let at = exact.place([0, 1, 2].map(|k| o[k] + t * d[k]));
+                let place = numbers_of(point.place);
+                worst[0] = (0..3).fold(worst[0], |most, k| most.max((place[k] - at[k]).abs()));
+                let generic = surface.generic_normal(at, crossing.face);
+                let want: [f64; 3] =
+                    [0, 1, 2].map(|j| (0..3).map(|i| exact.inverse[i][j] * generic[i]).sum());
+                let length = dot(want, want).sqrt();
+                let normal = [point.normal.x, point.normal.y, point.normal.z].map(|c| c.to_num::<f64>());
+                worst[1] = (0..3).fold(worst[1], |most, k| most.max((normal[k] - want[k] / length).abs()));
+                let [u, v] = [point.chart.along_u, point.chart.along_v].map(numbers_of);
+                for tangent in [u, v] {
+                    let length = dot(tangent, tangent).sqrt();
+                    if length > 0.1 {
+                        worst[2] = worst[2].max((dot(tangent, normal) / length).abs());
+                    }
+                }
+                // P_u is the map's image of the generic tangent
+                let generic = [-place[1], place[0], 0.0].map(|c| c * core::f64::consts::TAU);
+                if crossing.face == 0 {
+                    for (k, row) in exact.rows.iter().enumerate() {
+                        worst[3] = worst[3].max((dot(*row, generic) - u[k]).abs());
+                    }
+                }
+                assert_eq!(point.width, Real::from_bits(crossing.t.to_bits() >> 1));
+            }
+        }
+        assert!(met > 1_500, "{met}");
+        // the cone's tip is met by few rays, and its normals turn there
+        assert!(
+            worst[0] < 2_f64.powi(-20) && worst[1] < 2e-4 && worst[2] < 2e-4 && worst[3] < 1e-5,
+            "{worst:?}"
+        );
+        assert!(worst.iter().all(|w| *w > 1e-9), "{worst:?}");
+    }
+
+    trait Pointed {
+        fn first(&self, ray: &Ray) -> Option<(Crossing, SurfacePoint)>;
+        fn generic_normal(&self, at: [f64; 3], face: u8) -> [f64; 3];
+    }
+
+    impl<S: Shape + Faced> Pointed for Placed<S> {
+        fn first(&self, ray: &Ray) -> Option<(Crossing, SurfacePoint)> {
+            let crossing = *crossings(self, ray).first()?;
+            Some((crossing, self.point(ray, Unit::ONE / 2, &crossing, true)))
+        }
+        fn generic_normal(&self, at: [f64; 3], face: u8) -> [f64; 3] {
+            S::normal_at(at, face)
+        }
+    }
+
+    trait Faced {
+        fn normal_at(at: [f64; 3], face: u8) -> [f64; 3];
+    }
+
+    impl Faced for Sphere {
+        fn normal_at(at: [f64; 3], _: u8) -> [f64; 3] {
+            at
+        }
+    }
+
+    impl Faced for TaperedCylinder {
+        fn normal_at([x, y, _]: [f64; 3], face: u8) -> [f64; 3] {
+            let radius = x.hypot(y);
+            if face == 0 { [x / radius, y / radius, 1.0] } else { [0.0, 0.0, -1.0] }
+        }
+    }
+
+    /// The corners of the box are corners of the mapped box, a few units out.
+    #[test]
+    fn an_extent_is_the_box_of_the_mapped_bounds() {
+        let mut word = words(17);
+        for _ in 0..500 {
+            let map = map(Vec3::lit("0.25", "3", "1"), &mut word);
+            let (exact, extent) = (Exact::of(&map), Placed::new(Sphere, &map).unwrap().extent());
+            let (low, high) = (numbers_of(extent.low), numbers_of(extent.high));
+            for k in 0..3 {
+                let reach: f64 = exact.rows[k].iter().map(|c| c.abs()).sum();
+                for (out, end) in [(exact.centre[k] - low[k], reach), (high[k] - exact.centre[k], reach)] {
+                    assert!(out >= end && out - end < 2e-6, "{k}: {out} {end}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_is_refused_that_makes_a_shape_too_large_or_too_small() {
+        let scale = |x: Real, y: Real| Affine3::scale(Vec3::new(x, y, x));
+        let (one, least) = (Real::ONE, Real::ONE / 64);
+        let placed = |map: Affine3| Placed::new(Sphere, &map).map(|_| ());
+        assert_eq!(
+            placed(scale(one, Real::ZERO)),
+            Err(Error::Degenerate { what: "determinant of an affine map" })
+        );
+        let what = "scale of a shape";
+        let refused = |map| matches!(placed(map), Err(Error::OutOfRange { what: w, .. }) if w == what);
+        assert_eq!([placed(scale(least, one * 64)), placed(scale(one * 127, -one * 64))], [Ok(()); 2]);
+        assert!(refused(scale(one, least / 8)) && refused(scale(one, Real::from_bits(1))));
+        let hundred = Affine3::scale(Vec3::new(one * 100, one, one));
+        assert!(refused(hundred.then(&hundred)));
+        let at = |c: &str| {
+            let c = Real::from_num(c.parse::<f64>().unwrap());
+            Affine3::translate(Vec3::new(Real::ZERO, c, Real::ZERO))
+        };
+        let far = |map| matches!(placed(map), Err(Error::OutOfRange { index: Some(1), .. }));
+        assert!(far(at("64.1")) && far(at("-64")) && !far(at("64")) && !far(at("-63.9")));
+        let (square, map) = (Square, at("1"));
+        let placed = Placed::new(square, &map).unwrap();
+        assert_eq!((placed.shape(), placed.is_closed(), placed.most_crossings()), (&square, false, 1));
+        // 1 above the upper side of the square, which is where its middle is
+        assert_eq!(placed.value(Vec3::lit("0.5", "1", "1")), Wide::ONE);
+    }
+
+    /// The stated error: t against the exact parameter, for directions of length 1 that are no tangents.
+    #[test]
+    fn a_parameter_is_as_wrong_as_is_stated_at_most() {
+        let mut word = words(19);
+        let (mut met, mut worst) = (0, 0.0_f64);
+        for _ in 0..4_000 {
+            let map = map(Vec3::lit("2", "2", "2"), &mut word);
+            let (sphere, exact) = (Placed::new(Sphere, &map).unwrap(), Exact::of(&map));
+            let ray = ray(&map, 1, &mut word);
+            let (o, d) = numbers(&ray);
+            let (p, e) = (exact.place(o), exact.direction(d));
+            let (a, b, c) = (dot(e, e), dot(p, e), dot(p, p) - 1.0);
+            let root = (b * b - a * c).max(0.0).sqrt();
+            // at 1/4 or more from a tangent's angle
+            if root / a.sqrt() < 0.25 {
+                continue;
+            }
+            for crossing in crossings(&sphere, &ray) {
+                let t = if crossing.enters { (-b - root) / a } else { (-b + root) / a };
+                met += 1;
+                let off = (crossing.t.to_num::<f64>() - t).abs() * dot(d, d).sqrt();
+                worst = worst.max(off / sphere.error().to_num::<f64>());
+            }
+        }
+        assert!(met > 3_000 && worst < 1.0 && worst > 0.02, "{met} {worst}");
     }
 }

@@ -236,7 +236,7 @@ mod tests {
         }
     }
 
-    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_a_polyhedron`
+    /// `cargo test -p attractor --lib -- --ignored rays_meet_a_polyhedron`
     #[test]
     #[ignore = "a million rays"]
     fn a_million_rays_meet_a_polyhedron_where_they_should() {

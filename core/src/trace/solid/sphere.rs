@@ -147,7 +147,7 @@ mod tests {
         assert!(seen.off > 2_f64.powi(-27) && seen.off < 2_f64.powi(-24), "{seen:?}");
     }
 
-    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_the_sphere`
+    /// `cargo test -p attractor --lib -- --ignored rays_meet_the_sphere`
     #[test]
     #[ignore = "a million rays"]
     fn a_million_rays_meet_the_sphere_where_they_should() {

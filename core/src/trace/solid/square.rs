@@ -99,7 +99,7 @@ mod tests {
         assert!(worst > 2_f64.powi(-28) && worst < 2_f64.powi(-25), "{worst:e}");
     }
 
-    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_the_square`
+    /// `cargo test -p attractor --lib -- --ignored rays_meet_the_square`
     #[test]
     #[ignore = "a million rays"]
     fn a_million_rays_meet_the_square_where_they_should() {

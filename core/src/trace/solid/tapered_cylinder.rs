@@ -2,10 +2,10 @@
 //! cylinder, `S` = 0 the cone.
 //!
 //! A ray is cut to `0 <= z <= 1` first: there is no other nappe then. What is left of it is inside where
-//! `a s^2 + 2 b s + c < 0`, `s` from where it is closest to the axis. Where `a` is below 0, that is outside the
+//! `a s^2 + 2 b s + c < 0`, `s` from where `x^2 + y^2 + (1 + (S - 1) z)^2` is least. Where `a` is below 0, that is outside the
 //! roots, and the slab leaves one of the two sides. A ray nearly along the axis has an `a` and a `b` close to
-//! 0, one close to the tip a `b` and a `c`: all powers of two go out of them, `s = 2^(m - q) r`, before 25
-//! fractional bits are kept.
+//! 0, one close to the tip a `b` and a `c`: all powers of two go out of them before 25 fractional bits
+//! are kept.
 //!
 //! Faces: 0 is the side, 1 the base at `z = 0`, 2 the cap at `z = 1`. Texture coordinates: on the side
 //! `u = atan2(y, x) / 2 pi`, `v = z`; on the cap `u = (1 + x) / 2`, on the base `u = (1 - x) / 2`, on both
@@ -58,26 +58,30 @@ impl TaperedCylinder {
     /// Cuts a part of a ray, within the slab, to what is inside the side's cone; false for nothing.
     #[inline(always)]
     fn side(self, o: [Q28; 3], [dx, dy, dz]: [Q28; 3], part: &mut Part) -> bool {
-        let level = product(dx, dx) + product(dy, dy);
-        // where it is closest to the axis: there the terms are smallest, also near the tip
-        let towards = -((product(o[0], dx) + product(o[1], dy)) >> 30) as i32;
-        let start = over(towards, slowness((level >> 30) as i32)).clamp(part.begin.0, part.end.0);
+        let (e, de) = (self.radius(o[2]), (product(self.taper, dz) >> 28) as i32);
+        let (level, steep) = (product(dx, dx) + product(dy, dy), product(de, de));
+        // where x^2 + y^2 + e^2 is least: at the axis of a cylinder, at the tip of a cone
+        let towards = -((product(o[0], dx) + product(o[1], dy) + product(e, de)) >> 30) as i32;
+        let start = over(towards, slowness(((level + steep) >> 30) as i32)).clamp(part.begin.0, part.end.0);
         let [x, y, z] =
             [(o[0], dx), (o[1], dy), (o[2], dz)].map(|(o, d)| i64::from(o) + (product(d, start) >> 28));
         if x.abs().max(y.abs()) >= 4 << 28 {
             return false;
         }
         let (x, y) = (x as i32, y as i32);
-        let (e, de) = (self.radius(z as i32), (product(self.taper, dz) >> 28) as i32);
+        let e = self.radius(z as i32);
         // 56 fractional bits: below 8, 16 and 32
-        let a = level - product(de, de);
+        let a = level - steep;
         let b = product(x, dx) + product(y, dy) - product(e, de);
         let c = product(x, x) + product(y, y) - product(e, e);
         // 4^m a, 2^(m + q) b, 4^q c are below 16 and have 25 fractional bits then
         let places = |v: i64| (v ^ (v >> 63)).leading_zeros().saturating_sub(4);
-        let m = (places(a) >> 1).min(places(b));
-        let q = (places(c) >> 1).min(places(b) - m);
         let word = |v: i64, up: u32| ((v << (up & 63)) >> 31) as i32;
+        let (most, far_up, near_up) = (places(b), places(a) & !1, places(c) & !1);
+        let m = (far_up >> 1).min(most);
+        let q = (near_up >> 1).min(most - m);
+        // for the roots all that a and c have
+        let [far_under, near_over] = [word(a, far_up), word(c, near_up)];
         let (a, b, c) = (word(a, 2 * m), word(b, m + q), word(c, 2 * q));
         let discriminant = product(b, b) - product(a, c);
         if discriminant <= 0 || (a | b) == 0 {
@@ -87,14 +91,15 @@ impl TaperedCylinder {
         let root = sqrt(discriminant as u64) as i32;
         // the sum that does not cancel out; the other root is c over it
         let sum: Q25 = if b > 0 { -b - root } else { root - b };
-        let up = m as i32 - q as i32;
-        let [far, near] = [quotient(sum, a, up), quotient(c, sum, up)].map(|s| match s {
-            i32::MIN | i32::MAX => s,
-            s => s.saturating_add(start),
-        });
+        let (up, far_up, near_up) = ((m + q) as i32, far_up as i32, near_up as i32);
+        let [far, near] = [quotient(sum, far_under, far_up - up), quotient(near_over, sum, up - near_up)]
+            .map(|s| match s {
+                i32::MIN | i32::MAX => s,
+                s => s.saturating_add(start),
+            });
         // an `a` of nearly 0 may have either sign: that of the far root goes with it
         let (first, second) = if far < near { (far, near) } else { (near, far) };
-        if a >= 0 {
+        if far_under >= 0 {
             part.from(first, SIDE);
             part.until(second, SIDE);
         } else if part.begin.0 < first {
@@ -282,7 +287,7 @@ mod tests {
         }
     }
 
-    /// `cargo test -p attractor --lib --release -- --ignored rays_meet_the_tapered_cylinder`
+    /// `cargo test -p attractor --lib -- --ignored rays_meet_the_tapered_cylinder`
     #[test]
     #[ignore = "a million rays"]
     fn a_million_rays_meet_the_tapered_cylinder_where_they_should() {

@@ -1,11 +1,17 @@
-//! Where a shape is in a world: its affine map, ready for rays that come and for normals that go back.
+//! Where a thing is in a world: rays go to its own coordinates by the inverse of an affine map, normals and
+//! tangents come back.
 //!
-//! What is here depends on no shape, so that a program has it once.
+//! `t` is the same on both sides: the direction is not normalised. A ray that comes near is moved along
+//! itself to where it is closest to the middle of the thing's box, `t = t_0 + s 2^-k`; `t_0` has so few bits
+//! that the place there, `M^-1 (o + t_0 d - c)`, is exact to `2^-29` at any distance. Normals come back by the
+//! inverse transpose, tangents by the map itself.
+//!
+//! Source: the course unit V, section 5.7; Glassner (ed.), "An Introduction to Ray Tracing", 1989, section 2.7.
 
 use core::num::NonZeroU32;
 
 use super::super::ray::Ray;
-use super::super::surface::{Crossing, Extent};
+use super::super::surface::Extent;
 use super::shape::NearRay;
 use crate::Error;
 use crate::num::formats::{Q24, Q28, Q29, Q30, Q54, Q58, UQ16};
@@ -13,9 +19,9 @@ use crate::num::{
     Affine3, Near, Real, Unit, Vec3, Wide, product, product_u, reciprocal_of, sqrt, square, unit,
 };
 
-/// An affine map from generic coordinates to the world, and its inverse.
+/// A map and what it makes of a box.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Placement {
+pub(super) struct Site {
     /// `M^-1 = inverse 2^exponent`, its greatest entry in `[1/2, 1]`.
     inverse: [[Q30; 3]; 3],
     /// -8 to 8.
@@ -27,11 +33,10 @@ pub(super) struct Placement {
     /// The square of the radius of a ball round the centre that holds the shape, 16 fractional bits, rounded
     /// up.
     ball: UQ16,
-    limited: bool,
+    pub(super) limited: bool,
     linear: [Vec3; 3],
-    /// The root of the sum of the squares of the map's entries, 16 fractional bits.
-    norm: UQ16,
-    /// The box of the shape in the world.
+    /// The norm of the map, 16 fractional bits.
+    norm: u32,
     pub(super) extent: Extent,
 }
 
@@ -39,11 +44,36 @@ pub(super) struct Placement {
 pub(super) struct Approach {
     pub(super) near: NearRay,
     /// 24 fractional bits.
-    start: i64,
+    pub(super) start: i64,
     /// `k`.
-    places: i32,
+    pub(super) places: i32,
     /// The `s` at `t` = 0.
     pub(super) from: Near,
+}
+
+impl Approach {
+    /// The ray's parameter where the near ray has `s`, 24 fractional bits, to nearest; beyond the format's end
+    /// none.
+    #[inline(always)]
+    pub(super) fn parameter(&self, s: Near) -> Option<Real> {
+        let (s, right) = (i64::from(s.to_bits()), 4 + self.places);
+        let moved = if right >= 1 {
+            ((s >> (right - 1).min(62)) + 1) >> 1
+        } else {
+            s.saturating_mul(1 << (-right).min(62))
+        };
+        i32::try_from(self.start.saturating_add(moved).max(0)).ok().map(Real::from_bits)
+    }
+
+    /// The place where the near ray has `s`, to nearest, saturated.
+    pub(super) fn at(&self, s: Near) -> Vec3<Near> {
+        let moved = |origin: Near, direction: Near| {
+            let way = (product(direction.to_bits(), s.to_bits()) + (1 << 27)) >> 28;
+            Near::from_bits(shifted(i64::from(origin.to_bits()) + way, 0))
+        };
+        let (o, d) = (self.near.origin, self.near.direction);
+        Vec3::new(moved(o.x, d.x), moved(o.y, d.y), moved(o.z, d.z))
+    }
 }
 
 /// The scalar product of words, which the caller knows to fit.
@@ -59,29 +89,14 @@ pub(super) fn shifted(v: i64, places: i32) -> i32 {
     v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
 }
 
-impl Approach {
-    /// The ray's parameter where the near ray has `s`, not below 0; none from 128 on.
-    #[inline]
-    pub(super) fn parameter(&self, s: Near) -> Option<Real> {
-        let (s, right) = (i64::from(s.to_bits()), 4 + self.places);
-        let moved = if right >= 1 {
-            ((s >> (right - 1).min(62)) + 1) >> 1
-        } else {
-            s.saturating_mul(1 << (-right).min(62))
-        };
-        i32::try_from(self.start.saturating_add(moved).max(0)).ok().map(Real::from_bits)
-    }
-}
-
 /// A coordinate of a place, of 24 + 28 fractional bits less 28.
 #[inline(never)]
 fn moved(row: &[i64; 3], place: &[i64; 3]) -> i64 {
     (row[0] * place[0] + row[1] * place[1] + row[2] * place[2]) >> 28
 }
 
-impl Placement {
-    /// Of a shape with these bounds. Errors: those of `Placed::new`.
-    #[inline(never)]
+impl Site {
+    /// The site of a box of generic coordinates, or of a half-space without one, under a map.
     pub(super) fn new(bounds: Option<[Vec3<Near>; 2]>, map: &Affine3) -> Result<Self, Error> {
         let inverse = map.inverse()?;
         let (min, max) = (Wide::ONE / 256, Wide::from_num(128));
@@ -132,8 +147,6 @@ impl Placement {
         let end = |c: Q24, r: i64| Real::from_bits(shifted(i64::from(c) + r, 0));
         let [x, y, z] = [0, 1, 2].map(|k: usize| (end(centre[k], -reach[k]), end(centre[k], reach[k])));
         let extent = Extent { low: Vec3::new(x.0, y.0, z.0), high: Vec3::new(x.1, y.1, z.1) };
-        // 16 fractional bits
-        let norm = sqrt(rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum());
         Ok(Self {
             limited: bounds.is_some(),
             inverse: inverse.rows,
@@ -142,14 +155,14 @@ impl Placement {
             middle,
             ball,
             linear,
-            norm,
+            norm: sqrt(rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum()),
             extent: if bounds.is_some() { extent } else { Extent::SPACE },
         })
     }
 
-    /// How wrong a parameter is, for a direction of length 1, where the near ray's is wrong by `near`.
+    /// How wrong a parameter is at most where `s` is wrong by `near`, for a direction of length 1.
     pub(super) fn error(&self, near: Near) -> Real {
-        // s is worth at most 2 sqrt(3) of t times the map's norm
+        // s is worth at most 2 sqrt(3) of t times the map's norm; a place is known to a few units
         let near = i64::from(near.to_bits()) + 8;
         Real::from_bits(shifted(((near * i64::from(self.norm) * 111) >> 25) + 2, 0))
     }
@@ -175,12 +188,22 @@ impl Placement {
     /// The ray in the shape's coordinates, moved to where it is closest; none if it comes nowhere near.
     #[inline(never)]
     pub(super) fn approach(&self, ray: &Ray) -> Option<Approach> {
-        let d = ray.direction;
-        let w = [0, 1, 2].map(|k: usize| ray.origin[k].wrapping_sub(self.centre[k]));
-        if self.limited && self.is_far(w, d) {
+        let w = self.way(ray);
+        if self.limited && self.is_far(w, ray.direction) {
             return None;
         }
-        self.mapped(w, d)
+        self.mapped(w, ray.direction)
+    }
+
+    /// From the centre to the ray's origin.
+    #[inline(always)]
+    fn way(&self, ray: &Ray) -> [Q24; 3] {
+        [0, 1, 2].map(|k: usize| ray.origin[k].wrapping_sub(self.centre[k]))
+    }
+
+    /// The same as [`Site::approach`] for a ray of which something is known to be met.
+    pub(super) fn approach_met(&self, ray: &Ray) -> Option<Approach> {
+        self.mapped(self.way(ray), ray.direction)
     }
 
     /// The same without a look at the ball.
@@ -231,7 +254,6 @@ impl Placement {
     }
 
     /// A place of the world in generic coordinates, saturated.
-    #[inline(never)]
     pub(super) fn place(&self, at: Vec3) -> Vec3 {
         let at = [at.x, at.y, at.z].map(Real::to_bits);
         let w = [0, 1, 2].map(|k: usize| at[k].saturating_sub(self.centre[k]));
@@ -243,28 +265,8 @@ impl Placement {
         Vec3::new(x, y, z)
     }
 
-    /// Where a crossing is in generic coordinates, to the last bit but one; none for a shape without limits.
-    #[inline(never)]
-    pub(super) fn near_place(&self, ray: &Ray, crossing: &Crossing) -> Option<Vec3<Near>> {
-        if !self.limited {
-            return None;
-        }
-        let w = [0, 1, 2].map(|k: usize| ray.origin[k].wrapping_sub(self.centre[k]));
-        let NearRay { origin, direction } = self.mapped(w, ray.direction)?.near;
-        let moved = |origin: Near, direction: Near| {
-            let way = (product(direction.to_bits(), crossing.memo[0] as i32) + (1 << 27)) >> 28;
-            Near::from_bits(shifted(i64::from(origin.to_bits()) + way, 0))
-        };
-        Some(Vec3::new(
-            moved(origin.x, direction.x),
-            moved(origin.y, direction.y),
-            moved(origin.z, direction.z),
-        ))
-    }
-
     /// A direction in generic coordinates, brought to the world by the map.
-    #[inline(never)]
-    pub(super) fn mapped_tangent(&self, v: Vec3) -> Vec3 {
+    pub(super) fn tangent(&self, v: Vec3) -> Vec3 {
         let v = [v.x, v.y, v.z].map(Real::to_bits);
         let [x, y, z] = self.linear.map(|row| {
             let [a, b, c] = [row.x, row.y, row.z].map(Real::to_bits);
@@ -274,10 +276,8 @@ impl Placement {
         Vec3::new(x, y, z)
     }
 
-    /// The unit normal in the world, by the inverse transpose.
-    #[inline(never)]
-    pub(super) fn mapped_normal(&self, n: Vec3<Near>) -> Vec3<Unit> {
-        let n = [n.x, n.y, n.z].map(Near::to_bits);
+    /// The unit normal in the world, by the inverse transpose; that of a shape in any format.
+    pub(super) fn normal(&self, n: [i32; 3]) -> Vec3<Unit> {
         let sums = [0, 1, 2].map(|j: usize| dot([0, 1, 2].map(|i: usize| self.inverse[i][j]), n));
         let magnitude = sums.iter().fold(0_u64, |all, c| all | (c ^ (c >> 63)) as u64);
         let shift = 34_u32.saturating_sub(magnitude.leading_zeros());
