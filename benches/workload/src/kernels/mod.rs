@@ -15,6 +15,7 @@ mod ifs;
 mod num;
 mod picture;
 mod shade;
+mod solid;
 mod trace;
 mod watch;
 
@@ -152,5 +153,8 @@ const TABLE: &[Kernel] = &[
     roomy(beside("normal", "unit normal of a hit", shade::normals, shade::normals_float::<f32>, shade::normals_float::<f64>)),
     roomy(beside("shade mirror", "call", shade::mirror, shade::mirror_float::<f32>, shade::mirror_float::<f64>)),
     roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
+    alone("torus", "ray, all crossings", solid::torus),
+    alone("superellipsoid", "ray, first crossing", solid::superellipsoid),
+    alone("star", "ray, first crossing; exponents below 1", solid::star),
     roomy(beside("mirror picture", "pixel; floats: the paper's way", picture::core, picture::paper::<f32>, picture::paper::<f64>)),
 ];
