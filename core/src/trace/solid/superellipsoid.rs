@@ -355,7 +355,7 @@ impl Shape for Superellipsoid {
         Chart {
             u: Real::from_bits((u.to_bits() >> 8) as i32),
             v: Real::from_bits((latitude >> 7) + (1 << 23)),
-            along_u: Vec3::new(signed(x_u, -place[1]), signed(y_u, place[0]), Real::ZERO),
+            along_u: Vec3::new(signed(x_u, place[1].saturating_neg()), signed(y_u, place[0]), Real::ZERO),
             along_v: Vec3::new(
                 signed(signed(share(x), place[0]), place[2].saturating_neg()),
                 signed(signed(share(y), place[1]), place[2].saturating_neg()),
