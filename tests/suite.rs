@@ -12,5 +12,6 @@ mod laws;
 mod pictures;
 mod promises;
 mod robust;
+mod solids;
 mod worked_examples;
 mod worlds;

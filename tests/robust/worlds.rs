@@ -1,5 +1,7 @@
 //! Worlds of any shapes under any maps, of any materials, in any light, from anywhere.
 
+use std::ops::ControlFlow;
+
 use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
 use attractor::plane::{Field, LinearRgb};
 use attractor::trace::material::{
@@ -7,7 +9,8 @@ use attractor::trace::material::{
     TorranceSparrow, View,
 };
 use attractor::trace::solid::{
-    Cube, HalfSpace, Moved, Placed, Plane, Polygon, Polyhedron, Shape, Sphere, Square, TaperedCylinder,
+    Cube, Function, HalfSpace, Implicit, Moved, NearRay, Placed, Plane, Polygon, Polyhedron, Shape, Sphere,
+    Square, Superellipsoid, TaperedCylinder, Torus,
 };
 use attractor::trace::world::{Difference, Intersection, Lamp, Leaf, Object, Op, Union, World, WorldCaster};
 use attractor::trace::{Camera, Chart, Environment, Extent, Filter, Ray, Sampling, Surface, SurfacePoint};
@@ -68,17 +71,82 @@ attractor::surfaces! {
     enum Solid {
         Sphere(Placed<Sphere>),
         Plane(Placed<Plane>),
+        Torus(Placed<Torus>),
+        Superellipsoid(Placed<Superellipsoid>),
     }
 }
 
 fn solid() -> impl Strategy<Value = Option<Solid>> {
-    (map(), any::<u8>()).prop_map(|(map, kind)| {
-        Some(if kind % 4 > 0 {
-            Solid::Sphere(Placed::new(Sphere, &map).ok()?)
-        } else {
-            Solid::Plane(Placed::new(Plane, &map).ok()?)
+    let exponent = || (3_355_444..=20 << 24).prop_map(Real::from_bits);
+    let tube = (1 << 21..=1 << 28).prop_map(Near::from_bits);
+    (map(), any::<u8>(), tube, (exponent(), exponent())).prop_map(|(map, kind, tube, (n, m))| {
+        Some(match kind % 8 {
+            0 | 1 => Solid::Plane(Placed::new(Plane, &map).ok()?),
+            2 | 3 => {
+                let torus = Placed::new(Torus::new(tube).ok()?, &map).ok()?;
+                assert_eq!(torus.shape().tube(), tube);
+                Solid::Torus(torus)
+            }
+            4 => Solid::Superellipsoid(Placed::new(Superellipsoid::new(n, m).ok()?, &map).ok()?),
+            _ => Solid::Sphere(Placed::new(Sphere, &map).ok()?),
         })
     })
+}
+
+/// Near rays of any kind within what is asked of them, and any places.
+#[test]
+fn shapes_that_take_an_iteration() {
+    let near = |limit: i32| (-limit..=limit).prop_map(Near::from_bits);
+    let three = |limit| (near(limit), near(limit), near(limit)).prop_map(|(x, y, z)| Vec3::new(x, y, z));
+    let exponent = || {
+        prop_oneof![
+            (0..=21 << 24).prop_map(Real::from_bits),
+            (-8_i32..=80).prop_map(|e| Real::from_num(e) / 4)
+        ]
+    };
+    let tube = prop_oneof![
+        (-8..=1 << 28).prop_map(Near::from_bits),
+        ((1 << 28) - (1 << 18)..=1 << 28).prop_map(Near::from_bits)
+    ];
+    let ray = (three(4 << 28 >> 1), three((1 << 29) - 1), 0..3_u8, near(i32::MAX));
+    let place = || vector(real());
+    fuzz(
+        (ray, (tube, exponent(), exponent()), (place(), three(2 << 28), place())),
+        99,
+        |((half, mut direction, axis, from), (tube, n, m), (place, on, far))| {
+            let origin = Vec3::new(half.x * 2, half.y * 2, half.z * 2);
+            let greatest = |c: Near| if c < 0 { c.min(-Near::ONE) } else { c.max(Near::ONE) };
+            match axis {
+                0 => direction.x = greatest(direction.x),
+                1 => direction.y = greatest(direction.y),
+                _ => direction.z = greatest(direction.z),
+            }
+            let ray = NearRay { origin, direction };
+            let plane = |p: Vec3<Near>| (p.z >> 1) - (p.x >> 2);
+            let [low, high] = [-Near::ONE, Near::ONE].map(|c| Vec3::new(c, c, c));
+            let sheet = Implicit::new(plane, [low, high], far.x);
+            let gradient = plane.gradient(low);
+            assert!(gradient.x < 0 && gradient.z > 0);
+            let _ = Torus::new(tube).map(|shape| any_ray(&shape, &ray, from, place, on));
+            let _ = Superellipsoid::new(n, m).map(|shape| any_ray(&shape, &ray, from, place, on));
+            let _ = sheet.map(|shape| any_ray(&shape, &ray, from, place, on));
+            true
+        },
+    );
+}
+
+fn any_ray(shape: &impl Shape, ray: &NearRay, from: Near, place: Vec3, on: Vec3<Near>) {
+    let (mut count, mut before) = (0, from);
+    shape.cross(ray, from, &mut |crossing| {
+        assert!(crossing.s >= before, "{ray:?}");
+        before = crossing.s;
+        count += 1;
+        ControlFlow::Continue(())
+    });
+    assert!(count <= shape.most_crossings());
+    shape.value(place);
+    shape.normal(on, 0);
+    shape.chart(place, 0);
 }
 
 fn highlight() -> impl Strategy<Value = Highlight> {

@@ -4,8 +4,8 @@
 //! 0 to 63 and `f` below `1/64`, and `e^-x = 2^-k 2^(-i / 64) e^(-f ln 2)`. The second factor is from a
 //! table; the third is `1 - y + y^2 / 2 - y^3 / 6` for `y = f ln 2 < 0.011`, within `2^-30.7`.
 
+use super::formats::{Q30, UQ30, UQ32};
 use super::formats::{Real, Unit};
-use super::formats::{UQ30, UQ32};
 use super::product::{high_u, product_u};
 
 /// `2^(-i / 64)`, below 1.
@@ -33,9 +33,14 @@ static POWERS: [UQ32; 64] = {
 /// (`e_to_the_minus_x_is_within_two_to_the_minus_29`). Cost: 32 Cortex-M4 instructions (kernel `exp_minus`),
 /// a table of 256 bytes.
 pub fn exp_minus(x: Real) -> Unit {
-    // x / ln 2 with 32 fractional bits
     const PER_LN_2: UQ30 = 0x5c55_1d95; // 1 / ln 2
-    let halvings = product_u(x.to_bits().max(0).unsigned_abs(), PER_LN_2) >> 22;
+    Unit::from_bits(exp2_minus(product_u(x.to_bits().max(0).unsigned_abs(), PER_LN_2) >> 22))
+}
+
+/// `2^-x`, for an `x` with 32 fractional bits. Error: below `2^-29`, none for whole `x`
+/// (`two_to_the_minus_x_is_within_two_to_the_minus_29`).
+#[inline]
+pub(crate) fn exp2_minus(halvings: u64) -> Q30 {
     let (whole, fraction) = ((halvings >> 32) as u32, halvings as u32);
     // the rest below 1/64 as a whole word: y / ln 2 with 38 fractional bits, y with 38 too
     const LN_2: UQ32 = 0xb172_17f8; // ln 2
@@ -49,7 +54,7 @@ pub fn exp_minus(x: Real) -> Unit {
     let value = power - high_u(power, less);
     // 1 is one unit more than the word holds; to 30 fractional bits, to nearest
     let halved = (value >> 1).checked_shr(whole).unwrap_or(0);
-    Unit::from_bits(((halved + 1) >> 1) as i32)
+    ((halved + 1) >> 1) as i32
 }
 
 #[cfg(test)]
@@ -66,6 +71,21 @@ mod tests {
         }
         assert_eq!((exp_minus(Real::ZERO), exp_minus(Real::MIN)), (Unit::ONE, Unit::ONE));
         assert!(worst > 1.119 * 2_f64.powi(-30) && worst < 1.12 * 2_f64.powi(-30), "{worst:e}");
+    }
+
+    #[test]
+    fn two_to_the_minus_x_is_within_two_to_the_minus_29() {
+        let mut worst: f64 = 0.0;
+        for i in 0..200_000_u64 {
+            let x = i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (26 + i % 30);
+            let exact = (-(x as f64) / 2_f64.powi(32)).exp2();
+            worst = worst.max((f64::from(exp2_minus(x)) / 2_f64.powi(30) - exact).abs());
+        }
+        for k in 0..31 {
+            assert_eq!(exp2_minus(k << 32), 1 << (30 - k));
+        }
+        assert_eq!(exp2_minus(u64::MAX), 0);
+        assert!(worst > 2_f64.powi(-31) && worst < 2_f64.powi(-29), "{worst:e}");
     }
 
     #[test]

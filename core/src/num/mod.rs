@@ -89,6 +89,7 @@ pub use atan::atan2;
 pub use complex::Complex;
 pub use decimal::limbs_for;
 pub use exponential::exp_minus;
+pub(crate) use exponential::exp2_minus;
 pub use formats::{Lumen, Near, Real, Scaling, Unit, Wide};
 pub use limbs::Limbs;
 pub use logarithm::log2;

@@ -4,6 +4,7 @@
 
 mod cube;
 mod half_space;
+mod implicit;
 #[cfg(test)]
 mod judge;
 mod moved;
@@ -16,11 +17,13 @@ mod site;
 mod slab;
 mod sphere;
 mod square;
+mod superellipsoid;
 mod tapered_cylinder;
 mod torus;
 
 pub use cube::Cube;
 pub use half_space::HalfSpace;
+pub use implicit::{Function, Implicit};
 pub use moved::Moved;
 pub use placed::Placed;
 pub use plane::Plane;
@@ -29,5 +32,6 @@ pub use polyhedron::Polyhedron;
 pub use shape::{NearCrossing, NearRay, Shape};
 pub use sphere::Sphere;
 pub use square::Square;
+pub use superellipsoid::Superellipsoid;
 pub use tapered_cylinder::TaperedCylinder;
 pub use torus::Torus;
