@@ -182,7 +182,14 @@ impl WorldScene {
             Question::Usual | Question::Pixels => self.pixels(request, out),
             Question::Rays(file) => numbers::crossings(self, file, out),
             Question::Along(ray) => numbers::along(self, ray, points, out),
-            Question::Places(_) => Err(Fail::new("--at: not yet")),
+            Question::Places(file) => {
+                let names = self.world.texture_names.iter().map(String::as_str);
+                let textures: Vec<_> = names.zip(&self.world.textures).collect();
+                if textures.is_empty() {
+                    return Err(Fail::new(format_args!("--at {}: the world has no texture", file.display())));
+                }
+                numbers::values(&textures, file, out)
+            }
         }
     }
 
@@ -215,8 +222,7 @@ impl WorldScene {
             writeln!(out, "i,j,r,g,b")?;
             for j in 0..request.size.height {
                 for (i, light) in caster.row(j, 0..request.size.width).enumerate() {
-                    let part = |part: u16| f64::from(part) / 65535.0;
-                    writeln!(out, "{i},{j},{:?},{:?},{:?}", part(light.r), part(light.g), part(light.b))?;
+                    writeln!(out, "{i},{j},{}", numbers::light(light))?;
                 }
             }
             Ok(())
