@@ -82,6 +82,11 @@ impl Source {
         }
     }
 
+    /// The path of a file that the scene names; none for a built-in scene.
+    pub(crate) fn beside(&self, file: &str) -> Option<PathBuf> {
+        self.directory.as_ref().map(|directory| directory.join(file))
+    }
+
     /// Whether nothing is in it.
     pub(crate) fn is_empty(&self) -> bool {
         self.text.trim().is_empty()

@@ -81,6 +81,7 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::Mandelbrot(scene) => escape::mandelbrot(scene, &mut module),
         Kind::Julia(scene) => escape::julia(scene, &mut module),
         Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
+        Kind::Texture(_) => {}
         Kind::World(scene) => {
             let _ = scene;
         }

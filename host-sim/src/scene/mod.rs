@@ -25,6 +25,7 @@ mod orbit;
 mod polyline;
 pub(crate) mod random_curve;
 mod request;
+pub(crate) mod slice;
 mod standpoint;
 mod system;
 mod trail;
@@ -92,10 +93,11 @@ pub(crate) enum Kind {
     Julia(julia::JuliaScene),
     JuliaSet(julia_set::JuliaSetScene),
     World(Box<world::WorldScene>),
+    Texture(Box<slice::SliceScene>),
 }
 
 /// What the key `kind` may say.
-const KINDS: [&str; 11] = [
+const KINDS: [&str; 12] = [
     "fif-curve",
     "fif-surface",
     "curve",
@@ -107,6 +109,7 @@ const KINDS: [&str; 11] = [
     "julia",
     "julia-set",
     "world",
+    "texture",
 ];
 
 /// The only key that is read before the kind is known.
@@ -154,6 +157,7 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
         "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
         "world" => Kind::World(Box::new(world::WorldScene::load(source)?)),
+        "texture" => Kind::Texture(Box::new(slice::SliceScene::load(source)?)),
         _ => {
             let reason = format!("allowed is {}", KINDS.join(", "));
             return Err(source.fail(named.span(), "kind", reason));
@@ -178,6 +182,7 @@ impl Scene {
             Kind::Julia(_) => "julia",
             Kind::JuliaSet(_) => "julia-set",
             Kind::World(_) => "world",
+            Kind::Texture(_) => "texture",
         }
     }
 
@@ -197,8 +202,8 @@ impl Scene {
             Kind::FifSurface(_) => {
                 return Err(Fail::new("a surface is not measured, only its profiles as fif-curve"));
             }
-            Kind::World(_) => {
-                return Err(Fail::new("a world is not measured"));
+            Kind::World(_) | Kind::Texture(_) => {
+                return Err(Fail::new("a world or a texture is not measured"));
             }
             Kind::LSystem(_) => {
                 let reason = "an L-system tends to no one set: its picture grows with the order; write it as a curve, a copier or an ifs";
@@ -219,6 +224,7 @@ impl Scene {
             Kind::Julia(scene) => return scene.go(size, motion),
             Kind::FifSurface(scene) => return scene.go(size, motion),
             Kind::World(scene) => return scene.go(size, motion),
+            Kind::Texture(scene) => return scene.go(size, motion),
             _ => "this kind of scene shows all there is",
         };
         Err(Fail::new(format_args!("{}: {reason}", self.name)))
@@ -238,6 +244,7 @@ impl Scene {
             Kind::Julia(scene) => scene.place(size).ok(),
             Kind::FifSurface(scene) => scene.place(),
             Kind::World(scene) => scene.place(),
+            Kind::Texture(scene) => Some(scene.place()),
             _ => None,
         }
     }
@@ -260,6 +267,7 @@ impl Scene {
             Kind::Julia(scene) => scene.draw(request, target, watch),
             Kind::JuliaSet(scene) => scene.draw(request, target, watch),
             Kind::World(scene) => scene.draw(request, target, watch),
+            Kind::Texture(scene) => scene.draw(request, target, watch),
         }
     }
 
@@ -273,6 +281,7 @@ impl Scene {
     ) -> Result<(), Fail> {
         match (&self.kind, question) {
             (Kind::World(scene), _) => return scene.sample(request, question, points, out),
+            (Kind::Texture(scene), _) => return scene.sample(request, question, out),
             (_, Question::Usual) => {}
             _ => {
                 let (name, kind) = (&self.name, self.kind());
@@ -293,6 +302,7 @@ impl Scene {
             Kind::Julia(scene) => scene.sample(request, out),
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
             Kind::World(scene) => scene.sample(request, question, points, out),
+            Kind::Texture(scene) => scene.sample(request, question, out),
         }
     }
 }

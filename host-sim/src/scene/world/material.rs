@@ -48,7 +48,7 @@ enum Model {
 #[serde(deny_unknown_fields)]
 struct Relief {
     texture: Spanned<String>,
-    strength: Num,
+    strength: Option<Num>,
 }
 
 /// What colours a material.
@@ -166,7 +166,10 @@ impl Matter {
         let relief = |relief: &Option<Spanned<Relief>>, name: &str| -> Result<Option<(usize, Real)>, Fail> {
             let Some(relief) = relief.as_ref().map(Spanned::get_ref) else { return Ok(None) };
             let number = texture(&relief.texture, &key(&format!("{name}.texture")))?;
-            let strength = source.fixed::<Real>(&relief.strength, &key(&format!("{name}.strength")))?;
+            let strength = match &relief.strength {
+                Some(strength) => source.fixed::<Real>(strength, &key(&format!("{name}.strength")))?,
+                None => Real::ONE,
+            };
             Ok(Some((number, strength)))
         };
         Ok(Self {

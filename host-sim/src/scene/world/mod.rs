@@ -5,12 +5,14 @@ mod figure;
 mod file;
 mod lamp;
 mod material;
-mod numbers;
+pub(in crate::scene) mod numbers;
 mod object;
+mod picture;
 mod placement;
 mod program;
+mod stuff;
 mod surroundings;
-mod texture;
+pub(in crate::scene) mod texture;
 mod view;
 
 pub(crate) use figure::Figure;

@@ -1,12 +1,14 @@
 //! What surrounds a world, as its file has it: one colour, a sky, squares overhead and underfoot, or a picture
 //! all round.
 
-use attractor::num::{Real, Rgb, Unit, Wide};
+use attractor::num::{Real, Rgb, Unit, Vec3, Wide};
+use attractor::trace::{Panorama, Sky, Surroundings, Tiles};
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::color::{Color, light_or};
 use super::material::within;
+use super::picture::Picture;
 use crate::fail::Fail;
 use crate::source::{Num, Source};
 
@@ -39,20 +41,9 @@ enum Kind {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Around {
     Plain(Rgb),
-    Sky {
-        zenith: Rgb,
-        horizon: Rgb,
-        nadir: Rgb,
-    },
-    Checkerboard {
-        bright: Rgb,
-        dark: Rgb,
-        horizon: Rgb,
-        scale: Real,
-        fade: Unit,
-    },
-    /// The name of its file.
-    Image(Spanned<String>),
+    Sky(Sky),
+    Tiles(Tiles),
+    Image(Picture),
 }
 
 /// The sky of a world that says nothing of one.
@@ -68,7 +59,7 @@ impl Around {
     pub(super) fn load(source: &Source, given: Option<&Spanned<Table>>) -> Result<Self, Fail> {
         let [zenith, horizon, nadir] = usual();
         let Some(given) = given.map(Spanned::get_ref) else {
-            return Ok(Self::Sky { zenith, horizon, nadir });
+            return Ok(Self::Sky(Sky { zenith, horizon, nadir }));
         };
         let kind = match &given.kind {
             Some(kind) => *kind.get_ref(),
@@ -83,28 +74,34 @@ impl Around {
         };
         Ok(match kind {
             Kind::Plain => Self::Plain(color(&given.color, "color", Rgb::BLACK)?),
-            Kind::Sky => Self::Sky {
+            Kind::Sky => Self::Sky(Sky {
                 zenith: color(&given.zenith, "zenith", zenith)?,
                 horizon: color(&given.horizon, "horizon", horizon)?,
                 nadir: color(&given.nadir, "nadir", nadir)?,
-            },
-            Kind::Checkerboard => Self::Checkerboard {
-                bright: color(&given.bright, "bright", Rgb::WHITE)?,
-                dark: color(&given.dark, "dark", Rgb::BLACK)?,
-                horizon: color(&given.horizon, "horizon", horizon)?,
-                scale: match &given.scale {
-                    None => Real::ONE,
-                    Some(number) => {
-                        within(source, number, "environment.scale", (Wide::ONE >> 6, Wide::from_num(64)))?
-                    }
-                },
-                fade: match &given.fade {
-                    None => Unit::ONE / 8,
-                    Some(number) => within(source, number, "environment.fade", (Wide::ONE >> 6, Wide::ONE))?,
-                },
-            },
+            }),
+            Kind::Checkerboard => {
+                let tiles =
+                    [color(&given.bright, "bright", Rgb::WHITE)?, color(&given.dark, "dark", Rgb::BLACK)?];
+                Self::Tiles(Tiles {
+                    ceiling: tiles,
+                    floor: tiles,
+                    horizon: color(&given.horizon, "horizon", horizon)?,
+                    scale: match &given.scale {
+                        None => Real::ONE,
+                        Some(number) => {
+                            within(source, number, "environment.scale", (Wide::ONE >> 6, Wide::from_num(64)))?
+                        }
+                    },
+                    fade: match &given.fade {
+                        None => Unit::ONE / 8,
+                        Some(number) => {
+                            within(source, number, "environment.fade", (Wide::ONE >> 6, Wide::ONE))?
+                        }
+                    },
+                })
+            }
             Kind::Image => match &given.image {
-                Some(image) => Self::Image(image.clone()),
+                Some(image) => Self::Image(Picture::load(source, image, "environment.image")?),
                 None => {
                     let span = given.kind.as_ref().map_or(0..0, Spanned::span);
                     return Err(source.fail(
@@ -152,38 +149,34 @@ fn check_keys(source: &Source, given: &Table, kind: Kind) -> Result<(), Fail> {
     Ok(())
 }
 
-/// Three tones in every direction.
+/// As core has it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sky([attractor::trace::Environment; 3]);
+pub(crate) enum Outside<'a> {
+    Plain(Rgb),
+    Sky(Sky),
+    Tiles(Tiles),
+    Panorama(Panorama<'a>),
+}
 
-impl attractor::trace::Surroundings for Sky {
-    fn light(&self, direction: attractor::num::Vec3<Unit>, _: Unit) -> Rgb {
-        let [r, g, b] = self.0.map(|one| Rgb::from_tone(one.tone(direction)).r);
-        Rgb::new(r, g, b)
+impl Surroundings for Outside<'_> {
+    fn light(&self, direction: Vec3<Unit>, width: Unit) -> Rgb {
+        match self {
+            Self::Plain(light) => *light,
+            Self::Sky(sky) => sky.light(direction, width),
+            Self::Tiles(tiles) => tiles.light(direction, width),
+            Self::Panorama(panorama) => panorama.light(direction, width),
+        }
     }
 }
 
 impl Around {
-    pub(crate) fn sky(&self) -> Sky {
-        use attractor::trace::Environment as E;
-        let parts = |c: Rgb| [c.r, c.g, c.b].map(|l| Unit::from_bits((l.to_bits() << 14) as i32));
-        Sky(match *self {
-            Self::Plain(c) => parts(c).map(E::Plain),
-            Self::Sky { zenith, horizon, nadir } => [0, 1, 2].map(|k: usize| E::Gradient {
-                zenith: parts(zenith)[k],
-                horizon: parts(horizon)[k],
-                nadir: parts(nadir)[k],
-            }),
-            Self::Checkerboard { bright, dark, horizon, scale, fade } => {
-                [0, 1, 2].map(|k: usize| E::Checkerboard {
-                    bright: parts(bright)[k],
-                    dark: parts(dark)[k],
-                    horizon: parts(horizon)[k],
-                    scale,
-                    fade,
-                })
-            }
-            Self::Image(_) => [E::Plain(Unit::ZERO); 3],
+    /// As core has it.
+    pub(crate) fn outside(&self) -> Result<Outside<'_>, attractor::Error> {
+        Ok(match self {
+            Self::Plain(light) => Outside::Plain(*light),
+            Self::Sky(sky) => Outside::Sky(*sky),
+            Self::Tiles(tiles) => Outside::Tiles(*tiles),
+            Self::Image(picture) => Outside::Panorama(Panorama::new(picture.image()?)),
         })
     }
 }

@@ -5,12 +5,15 @@ use std::ops::Range;
 use attractor::Error;
 use attractor::num::{Real, Rgb, Unit, Wide};
 use attractor::textures;
-use attractor::trace::texture::{Checker, Marble, Mottle, Noise, Spline, Turbulence, Wood};
+use attractor::trace::texture::{
+    Checker, Image, Lookup, Mapped, Marble, Mottle, Noise, Spline, Turbulence, Wood,
+};
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::color::{Color, light};
 use super::material::within;
+use super::picture::Picture;
 use super::placement::{Scale, factors};
 use crate::fail::Fail;
 use crate::source::{Num, Source};
@@ -36,6 +39,20 @@ pub(in crate::scene) struct Woven {
     twist: Option<Num>,
     rough: Option<Num>,
     soft: Option<Num>,
+    cells: Option<Spanned<[Num; 2]>>,
+    image: Option<Spanned<String>>,
+    lookup: Option<Spanned<Looked>>,
+    u: Option<Spanned<[Num; 3]>>,
+    v: Option<Spanned<[Num; 3]>>,
+}
+
+/// How an image is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Looked {
+    Nearest,
+    Bilinear,
+    Area,
 }
 
 /// What `kind` may say.
@@ -47,6 +64,8 @@ enum Weave {
     Turbulence,
     Wood,
     Marble,
+    Facets,
+    Image,
 }
 
 impl Weave {
@@ -63,6 +82,8 @@ impl Weave {
                     "octaves", "seed",
                 ],
             ),
+            Self::Facets => ("facets", &["cells", "seed"]),
+            Self::Image => ("image", &["image", "lookup", "u", "v"]),
             Self::Marble => {
                 ("marble", &["colors", "knots", "grain", "octaves", "seed", "amplitude", "veins"])
             }
@@ -76,12 +97,13 @@ const COLORS: usize = 16;
 textures! {
     /// What colours a thing.
     #[derive(Debug, Clone, Copy)]
-    pub(crate) enum Pigment {
+    pub(crate) enum Pigment<'a> {
         Plain(Rgb),
         Checker(Checker),
         Mottle(Mottle<COLORS>),
         Marble(Marble<COLORS>),
         Wood(Wood),
+        Image(Mapped<Image<'a>>),
     }
 }
 
@@ -94,7 +116,7 @@ pub(crate) struct Grain {
 }
 
 impl Grain {
-    fn turbulence(self) -> Result<Turbulence, Error> {
+    pub(crate) fn turbulence(self) -> Result<Turbulence, Error> {
         Turbulence::new(Noise::new(self.seed), self.frequency, self.octaves)
     }
 }
@@ -106,11 +128,13 @@ pub(crate) enum Pattern {
     Mottle { colors: Vec<(Unit, Rgb)>, grain: Grain },
     Marble { colors: Vec<(Unit, Rgb)>, grain: Grain, amplitude: Real, veins: Real },
     Wood { wood: Wood, rough: Option<(Grain, Real)> },
+    Facets { cells: [Real; 2], seed: u32 },
+    Image { picture: Picture, lookup: Looked, rows: [[Real; 3]; 2] },
 }
 
 impl Pattern {
     /// As core has it.
-    pub(crate) fn pigment(&self) -> Result<Pigment, Error> {
+    pub(crate) fn pigment(&self) -> Result<Pigment<'_>, Error> {
         Ok(match self {
             Self::Checker { colors: [even, odd], frequency, squares: false } => {
                 Pigment::Checker(Checker::cubes(*frequency, *even, *odd))
@@ -130,6 +154,16 @@ impl Pattern {
             Self::Wood { wood, rough } => {
                 let rough = rough.map(|(grain, rings)| Ok((grain.turbulence()?, rings)));
                 Pigment::Wood(Wood { rough: rough.transpose()?, ..*wood })
+            }
+            // facets have no colour
+            Self::Facets { .. } => Pigment::Plain(Rgb::WHITE),
+            Self::Image { picture, lookup, rows } => {
+                let lookup = match lookup {
+                    Looked::Nearest => Lookup::Nearest,
+                    Looked::Bilinear => Lookup::Bilinear,
+                    Looked::Area => Lookup::Area,
+                };
+                Pigment::Image(Mapped::new(picture.image()?.with_lookup(lookup), *rows)?)
             }
         })
     }
@@ -159,6 +193,29 @@ impl Pattern {
                 amplitude: reader.real(&given.amplitude, "amplitude", Real::from_num(4))?,
                 veins: reader.real(&given.veins, "veins", Real::from_num(2))?,
             },
+            Weave::Facets => Self::Facets {
+                cells: match &given.cells {
+                    Some(cells) => source.pair(cells.get_ref(), &reader.key("cells"))?,
+                    None => [Real::from_num(16); 2],
+                },
+                seed: given.seed.as_ref().map_or(0, |seed| *seed.get_ref()),
+            },
+            Weave::Image => {
+                let Some(image) = &given.image else {
+                    let reason = "image is missing, the name of a PNG file";
+                    return Err(source.fail(given.kind.span(), &reader.key("kind"), reason));
+                };
+                let row = |row: &Option<Spanned<[Num; 3]>>, name: &str, usual: [Real; 3]| match row {
+                    Some(row) => source.triple(row.get_ref(), &reader.key(name)),
+                    None => Ok(usual),
+                };
+                let (one, zero) = (Real::ONE, Real::ZERO);
+                Self::Image {
+                    picture: Picture::load(source, image, &reader.key("image"))?,
+                    lookup: given.lookup.as_ref().map_or(Looked::Area, |lookup| *lookup.get_ref()),
+                    rows: [row(&given.u, "u", [one, zero, zero])?, row(&given.v, "v", [zero, one, zero])?],
+                }
+            }
             Weave::Wood => Self::Wood {
                 wood: Wood {
                     colors: reader.two([Rgb::WHITE, Rgb::BLACK])?,
@@ -189,6 +246,10 @@ impl Pattern {
                 (Error::OutOfRange { what, .. }, _) if what.starts_with("octaves") => {
                     let octaves = given.octaves.as_ref().map_or(span, Spanned::span);
                     source.fail(octaves, &reader.key("octaves"), error)
+                }
+                (Error::Degenerate { .. }, None) => {
+                    let rows = given.u.as_ref().or(given.v.as_ref()).map_or(span, Spanned::span);
+                    source.fail(rows, &reader.key("u"), error)
                 }
                 (_, Some(colors)) => source.fail(colors, &reader.key("colors"), error),
                 (_, None) => source.fail(span, &format!("texture.{name}"), error),
@@ -295,6 +356,11 @@ impl Reader<'_> {
             entry("twist", &given.twist),
             entry("rough", &given.rough),
             entry("soft", &given.soft),
+            entry("cells", &given.cells),
+            entry("image", &given.image),
+            entry("lookup", &given.lookup),
+            entry("u", &given.u),
+            entry("v", &given.v),
         ];
         match all.into_iter().flatten().find(|(key, _)| !keys.contains(key)) {
             Some((key, span)) => {

@@ -5,7 +5,6 @@ use std::io::Write;
 
 use attractor::draw::Srgb;
 use attractor::plane::Field as _;
-use attractor::trace::material::{Clear, Highlight, Mixture};
 use attractor::trace::world::{Leaf, Object, World, WorldCaster};
 use attractor::trace::{Extent, Sampling, Surface};
 use attractor_gallery::{Watch, draw_field};
@@ -17,11 +16,11 @@ use super::super::orbit::Orbit;
 use super::super::request::{Question, Request};
 use super::figure::{Figure, Solid};
 use super::file::{DEEPEST, Description, Policy};
-use super::material::{Colored, Matter};
+use super::material::Matter;
 use super::numbers;
 use super::object::each;
-use super::surroundings::Sky;
-use super::texture::Pigment;
+use super::stuff::{Stuff, stuff};
+use super::surroundings::Outside;
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::source::Source;
@@ -34,11 +33,8 @@ const RAYS: usize = DEEPEST as usize + 2;
 /// The picture whose rays look for glass in glass.
 const PROBES: Size = Size::new(64, 64);
 
-/// What a thing is made of.
-pub(crate) type Stuff = Mixture<Pigment, Highlight, Option<Clear>>;
-
 /// The picture of a world on the host.
-pub(crate) type Caster<'a> = WorldCaster<'a, Solid<'a>, Stuff, Sky, EVENTS, RAYS>;
+pub(crate) type Caster<'a> = WorldCaster<'a, Solid<'a>, Stuff<'a>, Outside<'a>, EVENTS, RAYS>;
 
 /// A world, and where it is seen from.
 #[derive(Debug)]
@@ -75,7 +71,7 @@ impl WorldScene {
     /// Builds the world and lends it.
     pub(crate) fn with_world<T>(
         &self,
-        use_it: impl FnOnce(World<'_, Solid<'_>, Stuff>) -> Result<T, Fail>,
+        use_it: impl FnOnce(World<'_, Solid<'_>, Stuff<'_>>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
         let fail = |error: attractor::Error| self.file.fail_all("object", error);
         let surfaces = self.surfaces()?.into_iter().zip(&self.made_of);
@@ -93,18 +89,11 @@ impl WorldScene {
                 self.file.fail(of, &format!("{}of", thing.prefix(object.thing)), error)
             })?);
         }
-        let materials = self.world.materials.iter().map(|matter| self.stuff(matter));
-        let materials: Vec<Stuff> = materials.collect::<Result<_, _>>().map_err(fail)?;
+        let materials = self.world.materials.iter().map(|matter| stuff(matter, &self.world.textures));
+        let materials: Vec<Stuff<'_>> = materials.collect::<Result<_, _>>().map_err(fail)?;
         let lamps = self.world.lights.iter().map(|light| light.lamp());
         let lamps = lamps.collect::<Result<Vec<_>, _>>().map_err(fail)?;
         use_it(World::new(&leaves, &objects, &materials).map_err(fail)?.with_lamps(&lamps))
-    }
-
-    fn stuff(&self, matter: &Matter) -> Result<Stuff, attractor::Error> {
-        matter.mixture(match matter.pigment {
-            Colored::Color(color) => Pigment::Plain(color),
-            Colored::Texture(number) => self.world.textures[number].pigment()?,
-        })
     }
 
     /// The picture on a display of this size.
@@ -119,7 +108,7 @@ impl WorldScene {
             n => Sampling::Jittered { n, seed },
         };
         self.with_world(|world| {
-            let caster = Caster::new(world, self.world.around.sky(), self.world.camera, request.size)
+            let caster = Caster::new(world, self.outside()?, self.world.camera, request.size)
                 .and_then(|caster| caster.with_sampling(sampling, self.world.filter))
                 .and_then(|caster| caster.with_depth(self.world.depth))
                 .map_err(|error| self.world.eye.fail_at(request.size, error))?;
@@ -135,7 +124,7 @@ impl WorldScene {
             return self.with_world(|_| Ok(()));
         }
         let shared = self.with_world(|world| {
-            let caster = Caster::new(world, self.world.around.sky(), self.world.camera, PROBES)
+            let caster = Caster::new(world, self.outside()?, self.world.camera, PROBES)
                 .map_err(|error| self.world.eye.fail(error))?;
             Ok(caster.interpenetration())
         })?;
@@ -193,8 +182,20 @@ impl WorldScene {
             Question::Usual | Question::Pixels => self.pixels(request, out),
             Question::Rays(file) => numbers::crossings(self, file, out),
             Question::Along(ray) => numbers::along(self, ray, points, out),
-            Question::Places(_) => Err(Fail::new("--at: not yet")),
+            Question::Places(file) => {
+                let names = self.world.texture_names.iter().map(String::as_str);
+                let textures: Vec<_> = names.zip(&self.world.textures).collect();
+                if textures.is_empty() {
+                    return Err(Fail::new(format_args!("--at {}: the world has no texture", file.display())));
+                }
+                numbers::values(&textures, file, out)
+            }
         }
+    }
+
+    /// What is seen where nothing is met.
+    fn outside(&self) -> Result<Outside<'_>, Fail> {
+        self.world.around.outside().map_err(|error| self.file.fail_all("environment", error))
     }
 
     /// How often a ray may cross the world.
@@ -221,8 +222,7 @@ impl WorldScene {
             writeln!(out, "i,j,r,g,b")?;
             for j in 0..request.size.height {
                 for (i, light) in caster.row(j, 0..request.size.width).enumerate() {
-                    let part = |part: u16| f64::from(part) / 65535.0;
-                    writeln!(out, "{i},{j},{:?},{:?},{:?}", part(light.r), part(light.g), part(light.b))?;
+                    writeln!(out, "{i},{j},{}", numbers::light(light))?;
                 }
             }
             Ok(())
