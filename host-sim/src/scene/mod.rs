@@ -30,7 +30,6 @@ mod system;
 mod trail;
 
 use std::convert::Infallible;
-use std::io::Write;
 use std::path::Path;
 
 use attractor::escape::JuliaSet;
@@ -46,6 +45,7 @@ use crate::builtin;
 use crate::color::Depth;
 use crate::fail::{Fail, shortened};
 use crate::source::Source;
+use crate::table::Csv;
 
 pub(crate) use graph::Graph;
 pub(crate) use halving::Chords;
@@ -252,7 +252,7 @@ impl Scene {
     }
 
     /// Writes the numbers as CSV.
-    pub(crate) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(crate) fn sample(&self, request: &Request, points: u32, out: &mut Csv) -> Result<(), Fail> {
         match &self.kind {
             Kind::FifCurve(scene) => scene.sample(points, out),
             Kind::FifSurface(scene) => scene.sample(points, out),
