@@ -35,6 +35,15 @@ impl From<io::Error> for Fail {
     }
 }
 
+impl From<csv::Error> for Fail {
+    fn from(error: csv::Error) -> Self {
+        match error.into_kind() {
+            csv::ErrorKind::Io(error) => error.into(),
+            other => Self::new(format_args!("standard output: {other:?}")),
+        }
+    }
+}
+
 /// Says it on standard error; if nobody listens there either, so be it.
 pub(crate) fn say(message: &str) {
     let _ = writeln!(io::stderr(), "attractor: {}", one_line(message));

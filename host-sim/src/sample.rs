@@ -1,10 +1,9 @@
 //! `attractor sample`: the numbers of a scene as CSV on standard output.
 
-use std::io::{BufWriter, Write as _};
-
 use crate::cli::Sample;
 use crate::fail::Fail;
 use crate::scene::{self, Question, Request};
+use crate::table;
 
 /// The seed of the points that are listed.
 const SEED: u64 = 1;
@@ -12,7 +11,7 @@ const SEED: u64 = 1;
 /// Writes the header and a line a point.
 pub(crate) fn run(args: &Sample) -> Result<(), Fail> {
     let scene = scene::load(&args.scene)?;
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = table::records();
     let request = Request { size: args.size, seed: SEED };
     let question = match (&args.rays, &args.along, &args.at) {
         (Some(file), ..) => Question::Rays(file),

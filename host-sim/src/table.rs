@@ -1,6 +1,6 @@
 //! Tables: in columns for people, as CSV for programs.
 
-use std::io::stdout;
+use std::io::{StdoutLock, stdout};
 
 use comfy_table::{CellAlignment, Row, Table, presets};
 use serde::Serialize;
@@ -20,16 +20,18 @@ pub(crate) fn columns<R: Into<Row>>(rows: impl IntoIterator<Item = R>, left: usi
 
 /// Writes a header and rows to standard output.
 pub(crate) fn csv<R: Serialize>(header: &[&str], rows: impl IntoIterator<Item = R>) -> Result<(), Fail> {
-    let mut writer = csv::Writer::from_writer(stdout().lock());
-    let write = |writer: &mut csv::Writer<_>| -> Result<(), csv::Error> {
-        writer.write_record(header)?;
-        rows.into_iter().try_for_each(|row| writer.serialize(row))?;
-        Ok(writer.flush()?)
-    };
-    write(&mut writer).map_err(|error| match error.into_kind() {
-        csv::ErrorKind::Io(error) => Fail::from(error),
-        other => Fail::new(format_args!("standard output: {other:?}")),
-    })
+    let mut writer = records();
+    writer.write_record(header)?;
+    rows.into_iter().try_for_each(|row| writer.serialize(row))?;
+    Ok(writer.flush()?)
+}
+
+/// CSV on standard output, record by record.
+pub(crate) type Csv = csv::Writer<StdoutLock<'static>>;
+
+/// A writer of records to standard output; flush it at the end.
+pub(crate) fn records() -> Csv {
+    csv::Writer::from_writer(stdout().lock())
 }
 
 #[cfg(test)]

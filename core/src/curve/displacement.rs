@@ -63,30 +63,41 @@ pub fn displaced(part: &Part, along: Deviate, across: Deviate) -> Point2 {
 #[inline(always)]
 pub(super) fn raised_across(part: &Part, across: Q28) -> Point2 {
     let (from, to) = (part.from, part.to);
-    let (dx, dy) = (to.x.saturating_sub(from.x), to.y.saturating_sub(from.y));
     if cfg!(no_long_product)
-        && let Some(middle) = raised_by_halves(from, [dx, dy], across)
+        && let Some(middle) = raised_by_halves(from, to, across)
     {
         return middle;
     }
+    raised_in_full(from, to, across)
+}
+
+/// For any part; where products are made by halves it is asked seldom.
+#[cfg_attr(no_long_product, cold, inline(never))]
+#[cfg_attr(not(no_long_product), inline(always))]
+fn raised_in_full(from: Point2, to: Point2, across: Q28) -> Point2 {
+    let (dx, dy) = (to.x.saturating_sub(from.x), to.y.saturating_sub(from.y));
     Point2::new(raised(from.x, to.x, dy, across.wrapping_neg()), raised(from.y, to.y, dx, across))
 }
 
-/// The same bits at half the cost for a machine without a long product, when the part is shorter than 16 and
-/// `|across| < 2`: `a + (d + 1 + 2 g l) / 2` in words.
+/// The same bits at half the cost for a machine without a long product, when the part is shorter than 16,
+/// begins within ±64, and `|across| < 2`: `a + (d + 1 + 2 g l) / 2` in words.
 #[inline(always)]
-fn raised_by_halves(from: Point2, [dx, dy]: [Real; 2], across: Q28) -> Option<Point2> {
-    let (dx, dy) = (dx.to_bits(), dy.to_bits());
-    let beyond = |v: i32, reach: u32| v.wrapping_add(1 << reach) as u32 >> (reach + 1);
-    if beyond(dx, 28) | beyond(dy, 28) | beyond(across, 29) != 0 {
+fn raised_by_halves(from: Point2, to: Point2, across: Q28) -> Option<Point2> {
+    let [a, b] = [from.x, from.y].map(Real::to_bits);
+    // a difference that leaves its format comes back as 2^30 or more: the part begins within ±64
+    let (dx, dy) = (to.x.to_bits().wrapping_sub(a), to.y.to_bits().wrapping_sub(b));
+    // what is outside -2^28 .. 2^28 has one of the upper three bits of this
+    let shifted = |v: i32| v.wrapping_add(1 << 28) as u32;
+    let far = (a.wrapping_add(1 << 30) | b.wrapping_add(1 << 30)) as u32 >> 31;
+    if far | (shifted(dx) | shifted(dy) | shifted(across >> 1)) >> 29 != 0 {
         return None;
     }
-    // twice the height is at most 2^30
-    let raised = |a: Real, d: i32, length: i32| {
+    // twice the height is at most 2^30: no sum leaves 32 bits
+    let raised = |a: i32, d: i32, length: i32| {
         let twice = product_shifted::<27>(length, across, 0).wrapping_add(d).wrapping_add(1);
-        a.saturating_add(Real::from_bits(twice >> 1))
+        Real::from_bits(a.wrapping_add(twice >> 1))
     };
-    Some(Point2::new(raised(from.x, dx, dy.wrapping_neg()), raised(from.y, dy, dx)))
+    Some(Point2::new(raised(a, dx, dy.wrapping_neg()), raised(b, dy, dx)))
 }
 
 /// The midpoint of two coordinates raised by `g` times a length.
@@ -222,7 +233,7 @@ mod tests {
             [0x2545_f491, 0x6c07_8965, 0x1f12_3bb5, 0x4f6c_dd1d, 0x3141_5927, 0x2718_2819_i32]
                 .map(|n| i.wrapping_mul(n) >> (i % 5))
         });
-        // parts shorter than 16, up to the ends of that, and near the ends of the format
+        // parts shorter than 16 within 64, up to the ends of that
         let near = (1..5000_i32).map(|i| {
             let reach = |n: i32, bits: i32| match (i.wrapping_mul(n) >> 9) & 15 {
                 0 => (1 << bits) - 1,
@@ -230,7 +241,7 @@ mod tests {
                 _ => i.wrapping_mul(n) >> (31 - bits),
             };
             let (dx, dy, h) = (reach(0x3141_5927, 28), reach(0x2718_2819, 28), reach(0x1f12_3bb5, 29));
-            let [a, b] = [0x2545_f491, 0x6c07_8965].map(|n| i.wrapping_mul(n));
+            let [a, b] = [0x2545_f491, 0x6c07_8965].map(|n| reach(n, 30));
             [a, b, a.saturating_add(dx), b.saturating_add(dy), 0, h]
         });
         for [a, b, c, d, g, h] in extremes.chain(spread).chain(near) {
@@ -244,8 +255,7 @@ mod tests {
                 if h != i32::MIN {
                     assert_eq!(raised_across(&part, h), alone, "{a} {b} {c} {d} {h}");
                 }
-                let lengths = [to.x.saturating_sub(from.x), to.y.saturating_sub(from.y)];
-                if let Some(middle) = raised_by_halves(from, lengths, h) {
+                if let Some(middle) = raised_by_halves(from, to, h) {
                     assert_eq!(middle, alone, "{a} {b} {c} {d} {h}");
                     by_halves += 1;
                 }

@@ -185,9 +185,12 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
 
     #[inline(always)]
     fn is_short(&self, end: &End) -> bool {
+        if end.level >= self.levels {
+            return true;
+        }
         let limit = self.limit;
-        if limit == 0 || end.level >= self.levels {
-            return end.level >= self.levels;
+        if limit == 0 {
+            return false;
         }
         let (from, to) = (self.from, end.point);
         let dx = from.x.to_bits().abs_diff(to.x.to_bits());
@@ -269,7 +272,8 @@ impl<D: Displacement, const LEVELS: usize> Iterator for Subdivision<'_, D, LEVEL
                 from: self.from,
                 to: end.point,
                 middle: Parameter::from_bits(self.at.wrapping_add(i64::from(half(end.level)))),
-                level: end.level,
+                // at most 31: a Cortex-M0 has that number at hand for the parameter, and need not compare
+                level: if cfg!(no_long_product) { end.level & 31 } else { end.level },
                 span: self.span,
             };
             let level = end.level + 1;

@@ -254,16 +254,14 @@ mod halves {
         (ah.wrapping_mul(bh) << 1).wrapping_add(middle.wrapping_add(1 << 14) >> 15)
     }
 
-    /// With signed lower halves the sum in the middle stays below `2^30 + 2^16`.
+    /// The sum in the middle fits a word: where a lower half is not 0, an upper half is at most `2^14 - 1`,
+    /// and below 0 at least `-2^14`, times at most `2^16 - 1`.
     #[inline(always)]
     pub(super) fn product_shifted<const S: u32>(a: i32, b: i32, half: i32) -> i32 {
-        let split = |v: i32| {
-            let low = i32::from(v as i16);
-            (v.wrapping_sub(low) >> 16, low)
-        };
         let ((ah, al), (bh, bl)) = (split(a), split(b));
+        let low = (al as u32).wrapping_mul(bl as u32) >> 16;
         let middle = ah.wrapping_mul(bl).wrapping_add(al.wrapping_mul(bh));
-        let middle = middle.wrapping_add(al.wrapping_mul(bl) >> 16).wrapping_add(half);
+        let middle = middle.wrapping_add(low as i32).wrapping_add(half);
         (ah.wrapping_mul(bh) << (32 - S)).wrapping_add(middle >> (S - 16))
     }
 

@@ -91,19 +91,32 @@ pub(crate) fn reciprocal_sqrt_of(v: u64) -> (Q31, u32) {
 
 /// `floor(sqrt(v))`. Exact. Cost: 9 multiplications.
 pub fn sqrt(v: u64) -> u32 {
+    sqrt_by::<{ cfg!(no_long_product) }>(v)
+}
+
+/// The same, for a machine that multiplies `BY_HALVES` with products of 16 bits where these will do.
+#[inline(always)]
+fn sqrt_by<const BY_HALVES: bool>(v: u64) -> u32 {
     if v == 0 {
         return 0;
     }
     let (m, half) = normal(v);
-    let y = newton(m);
-    // sqrt(m) with 61 fractional bits, times 2^half: too large or small by less than 2^5
-    let root = u32::try_from(product_u(m, y) >> 30).unwrap_or(u32::MAX) >> (half ^ 31);
+    let seed = RECIPROCAL_SQRT[(m >> 24) as usize];
+    let y = if BY_HALVES { newton_short(m, seed) } else { newton_step(m, u32::from(seed) << 16) << 1 };
+    // low by a unit of m y^2 more than it was rounded: the root stays below 2^32
+    let y = high_u_below(y, (3 << 30) - 4 - high_u(m, high_of_square_u(y)));
+    // sqrt(m) with 61 fractional bits, times 2^half: too small by less than 2^5
+    let root = (high_u(m, y) << 2) >> (half ^ 31);
     let rest = |root: u32| v.wrapping_sub(square_u(root)) as i64;
     // one more Newton step: the remainder, below 2^7 2^half, times 1 / (2 root)
     let left = rest(root);
     // by words: a 64-bit shift by a variable is a call on a Cortex-M0
-    let left = (left as u32) >> half | (((left >> 32) as u32) << 1) << (half ^ 31);
-    let step = high(left as i32, y as i32);
+    let left = ((left as u32) >> half | (((left >> 32) as u32) << 1) << (half ^ 31)) as i32;
+    let step = if BY_HALVES {
+        (left.wrapping_mul((y >> 16) as i32) >> 15).wrapping_add(1) >> 1
+    } else {
+        high(left, y as i32)
+    };
     let root = root.wrapping_add(step as u32);
     let left = rest(root);
     if left < 0 { root.wrapping_sub(1) } else { root.wrapping_add(u32::from(left > 2 * i64::from(root))) }
@@ -162,10 +175,27 @@ fn normal(v: u64) -> (UQ30, u32) {
 /// `1/sqrt(m)`.
 #[inline(always)]
 fn newton(m: UQ30) -> UQ31 {
-    // y with 32 fractional bits, m y^2 and 3 - m y^2 with 30; their product is twice the next y, with 30
-    let mut y = u32::from(RECIPROCAL_SQRT[(m >> 24) as usize]) << 16;
-    y = high_u_below(y, (3 << 30) - high_u(m, high_of_square_u(y))) << 1;
+    let y = newton_step(m, u32::from(RECIPROCAL_SQRT[(m >> 24) as usize]) << 16) << 1;
+    newton_step(m, y)
+}
+
+/// One step from `y`, which has 32 fractional bits.
+#[inline(always)]
+fn newton_step(m: UQ30, y: u32) -> UQ31 {
+    // m y^2 and 3 - m y^2 with 30 fractional bits; their product is twice the next y, with 30
     high_u_below(y, (3 << 30) - high_u(m, high_of_square_u(y)))
+}
+
+/// The first step from a seed of 16 bits by products of 16 and 17 bits, 32 fractional bits: within `2^-13.9`
+/// of the exact root, and below 1.
+#[inline(always)]
+fn newton_short(m: UQ30, seed: u16) -> u32 {
+    let y = u32::from(seed);
+    // m y^2 with 31 fractional bits, within 2^-6 of 1
+    let square = (m >> 15).wrapping_mul(y.wrapping_mul(y) >> 16);
+    // half of what was rounded down there is taken off here, so that near m = 1 no y reaches 1
+    let rest = ((3 << 30) - (1 << 15) - (square >> 1)) >> 16;
+    y.wrapping_mul(rest) << 1
 }
 
 #[cfg(test)]
@@ -212,17 +242,31 @@ mod tests {
     #[test]
     fn a_root_is_the_floor_of_the_exact_one() {
         for v in inputs().chain([0, u64::MAX, u64::MAX - 1]) {
-            assert_eq!(u64::from(sqrt(v)), v.isqrt(), "{v}");
+            assert_eq!([sqrt_by::<false>(v), sqrt_by::<true>(v)].map(u64::from), [v.isqrt(); 2], "{v}");
         }
         // from the square to the last number before the next one
         let roots = inputs().map(|v| (v >> 32).max(1)).chain([u64::from(u32::MAX), (1 << 31) - 1, 1 << 31]);
         for root in roots {
             let square = root * root;
-            assert_eq!(u64::from(sqrt(square - 1)), root - 1, "{root}");
+            let both = |v: u64| [sqrt(v), sqrt_by::<false>(v), sqrt_by::<true>(v)].map(u64::from);
+            assert_eq!(both(square - 1), [root - 1; 3], "{root}");
             for v in [square, square + 1, square + root, square + 2 * root] {
-                assert_eq!(u64::from(sqrt(v)), root, "{v}");
+                assert_eq!(both(v), [root; 3], "{v}");
             }
         }
+    }
+
+    /// All that the short products see of a number.
+    #[test]
+    fn the_short_step_is_close_and_stays_in_its_format() {
+        let (mut high, mut low): (f64, f64) = (0.0, 0.0);
+        for m in ((1_u32 << 30)..=u32::MAX).step_by(1 << 15).flat_map(|m| [m, m | 0x7fff]) {
+            let y = newton_short(m, RECIPROCAL_SQRT[(m >> 24) as usize]);
+            let off = f64::from(y) / 2_f64.powi(32) * (f64::from(m) / 2_f64.powi(30)).sqrt() - 1.0;
+            (high, low) = (high.max(off), low.max(-off));
+        }
+        // one that reached 1 would begin again at 0
+        assert!((1.6e-5..1.7e-5).contains(&high) && (6.1e-5..6.3e-5).contains(&low), "{high:e} {low:e}");
     }
 
     #[test]

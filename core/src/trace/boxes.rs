@@ -17,40 +17,43 @@ pub fn meets(f: &Cell, g: &Cell, z_in: Real, z_out: Real) -> bool {
 
 #[inline(always)]
 pub(super) fn meets_bits(f: &Cell, g: &Cell, z_in: i32, z_out: i32) -> bool {
-    let (z_low, z_high) = if z_in < z_out { (z_in, z_out) } else { (z_out, z_in) };
     let [a, b, c, d] = [f.min, f.max, g.min, g.max].map(Real::to_bits);
     if (b | d | a & c) < 0 {
-        return meets_any(f, g, z_low, z_high);
+        return meets_any(f, g, z_in, z_out);
     }
     // no maximum is negative and at most one minimum: the maximum is that of the maxima
-    let top = product(f.max, g.max).wrapping_add(1);
-    if z_low > top {
+    let top = product(b, d).wrapping_add(1);
+    if z_in > top && z_out > top {
         return false;
     }
-    if z_high >= top {
+    if z_in >= top || z_out >= top {
         return true;
     }
-    if a | c < 0 { meets_any(f, g, z_low, z_high) } else { z_high >= product(f.min, g.min) }
+    // a negative minimum is furthest down times the other's maximum
+    let low = product(if c < 0 { b } else { a }, if a < 0 { d } else { c });
+    z_in >= low || z_out >= low
 }
 
 /// The same whatever the signs.
+#[cold]
 #[inline(never)]
-fn meets_any(f: &Cell, g: &Cell, z_low: i32, z_high: i32) -> bool {
+fn meets_any(f: &Cell, g: &Cell, z_in: i32, z_out: i32) -> bool {
     let (low, high) = range(f, g);
-    z_low <= high && z_high >= low
+    z_in.min(z_out) <= high && z_in.max(z_out) >= low
 }
 
 #[inline(always)]
-fn product(a: Real, b: Real) -> i32 {
+fn product(a: i32, b: i32) -> i32 {
     // HeightField::new has checked that the products stay below 64
-    ((i64::from(a.to_bits()) * i64::from(b.to_bits())) >> 24) as i32
+    ((i64::from(a) * i64::from(b)) >> 24) as i32
 }
 
 /// Bounds of the product of two ranges (eq. 49), 24 fractional bits, outward by at most one unit more than
 /// need be.
 #[inline(never)]
 pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
-    let ends = [product(f.min, g.min), product(f.min, g.max), product(f.max, g.min), product(f.max, g.max)];
+    let [a, b, c, d] = [f.min, f.max, g.min, g.max].map(Real::to_bits);
+    let ends = [product(a, c), product(a, d), product(b, c), product(b, d)];
     let (mut low, mut high) = (ends[0], ends[0]);
     for end in ends {
         (low, high) = (low.min(end), high.max(end));

@@ -8,9 +8,10 @@
 //!
 //! - The number of a node along an axis, plus 1, is a 1 followed by one binary digit a level: 0 for the lower
 //!   part of the node above, 1 for the upper. So the nodes that contain a node need not be remembered: they
-//!   are the number without its last digits.
+//!   are the number without its last digits. The walk carries the plane at which the ray enters the node:
+//!   the same digits along the ray's way, and zeros up to 32; the number is made of it for each test.
 //! - A ray passes the nearer part of a node first, then the farther one, then leaves the node. When it leaves
-//!   a node whose number ends in `k` digits that say "farther", it leaves the `k` nodes around it at the same
+//!   a node whose place ends in `k` digits that say "farther", it leaves the `k` nodes around it at the same
 //!   plane, and the walk rises by `k` levels at once.
 //! - With `u` a plane's place across the surface the way the ray goes, from -1/2 to 1/2, the ray crosses it
 //!   at `t = middle + whole u`, `middle` the parameter in the middle of the surface and `whole` what the ray
@@ -36,41 +37,39 @@ struct Crossings {
     middle: i32,
     /// Twice `whole`, what the ray takes across the surface.
     twice: i32,
-    /// 1 if the ray comes from above, and the second of two parts is its first.
-    from_above: u32,
+    /// The digits in which a node's number differs from its place on the ray's way: all of them if the ray
+    /// comes from above, and the second of two parts is its first.
+    flip: u32,
 }
 
 /// The node in which a walk stands, along one axis: the slab of space between its two planes.
 #[derive(Debug, Clone, Copy)]
 struct Slab {
-    /// Number of the node: the parts of `q` are `2 q + 1` and `2 q + 2`.
-    node: u32,
-    /// The plane at which the ray leaves it, 31 fractional bits, and the parameter there.
-    end: i32,
+    /// The plane at which the ray enters it: a 1, and the way there from the surface's near plane as 31 binary
+    /// digits.
+    begin: u32,
+    /// The parameter at the plane at which the ray leaves it.
     next: i32,
 }
-
-/// `u` = 1/2.
-const HALF: i32 = 1 << 30;
 
 impl Crossings {
     /// None where a parameter might leave its format.
     #[inline(always)]
-    fn new(profile: &Profile<'_>, origin: i32, direction: i32) -> Option<Self> {
-        let distance = (profile.origin + profile.width / 2).wrapping_sub(origin);
+    fn new(middle: &Middle, direction: i32) -> Option<Self> {
         let magnitude = direction.unsigned_abs();
-        // distance / magnitude, with 24 and 28 fractional bits, is below 64
-        if magnitude <= distance.unsigned_abs().max(profile.width.unsigned_abs()) >> 2 {
+        if magnitude <= middle.least {
             return None;
         }
-        let distance = if direction < 0 { distance.wrapping_neg() } else { distance };
-        let [middle, whole] = parameters([distance, profile.width], NonZeroU32::new(magnitude)?);
-        Some(Self { middle, twice: whole << 1, from_above: (direction as u32) >> 31 })
+        let distance = if direction < 0 { middle.distance.wrapping_neg() } else { middle.distance };
+        let [middle, whole] = parameters([distance, middle.width], NonZeroU32::new(magnitude)?);
+        Some(Self { middle, twice: whole << 1, flip: (direction >> 31) as u32 >> 1 })
     }
 
-    /// The parameter at the plane `u`.
+    /// The parameter at a plane, given as [`Slab::begin`]; the far plane of the surface is 0.
     #[inline(always)]
-    fn at(&self, u: i32) -> i32 {
+    fn at(&self, plane: u32) -> i32 {
+        // from -1/2 to 1/2, 31 fractional bits
+        let u = plane.wrapping_add(1 << 30) as i32;
         self.middle.wrapping_add(((i64::from(self.twice) * i64::from(u)) >> 32) as i32)
     }
 
@@ -80,108 +79,152 @@ impl Crossings {
         self.middle.wrapping_add(self.twice.wrapping_neg() >> 2)
     }
 
-    /// From the first of two parts to the second.
+    /// The number of the node that begins at a plane and is `2^shift` wide.
     #[inline(always)]
-    fn step(&self) -> u32 {
-        1_u32.wrapping_sub(self.from_above << 1)
+    fn node(&self, begin: u32, shift: u32) -> u32 {
+        ((begin ^ self.flip) >> (shift & 31)).wrapping_sub(1)
     }
 }
 
 impl Slab {
     #[inline(always)]
     fn root(planes: &Crossings) -> Self {
-        Self { node: 0, end: HALF, next: planes.middle.wrapping_add(planes.twice >> 2) }
+        Self { begin: 1 << 31, next: planes.middle.wrapping_add(planes.twice >> 2) }
     }
 
     /// Into the part, `size` wide, in which the ray is at `t`.
     #[inline(always)]
     fn descend(&mut self, planes: &Crossings, size: u32, t: i32) {
-        let middle = self.end.wrapping_sub(size as i32);
+        let middle = self.begin.wrapping_add(size);
         let next = planes.at(middle);
-        self.node = 2 * self.node + 1 + planes.from_above;
         if next > t {
-            (self.end, self.next) = (middle, next);
+            self.next = next;
         } else {
-            self.node = self.node.wrapping_add(planes.step());
+            self.begin = middle;
         }
     }
 
-    /// Over the plane at its end, into the next node, and out of the nodes that end there too. None at the
-    /// end of the surface.
+    /// Over the plane at its end, into the next node, and out of the nodes, `2^shift` wide, that end there
+    /// too. None at the end of the surface.
     #[inline(always)]
     fn advance(
         &mut self,
         planes: &Crossings,
         aside: &mut Self,
         planes_aside: &Crossings,
-        size: &mut u32,
+        shift: &mut u32,
     ) -> Option<()> {
-        // the last digit that does not say "far"
-        let near = (self.node + 1) ^ planes.from_above.wrapping_sub(1);
-        if near & 1 == 0 {
-            let levels = near.trailing_zeros() & 31;
-            *size <<= levels;
-            if *size as i32 <= 0 {
-                return None;
-            }
-            self.node = ((self.node + 1) >> levels).wrapping_sub(1);
-            aside.node = ((aside.node + 1) >> levels).wrapping_sub(1);
-            aside.end = (aside.end.wrapping_sub(1) | size.wrapping_sub(1) as i32).wrapping_add(1);
-            aside.next = planes_aside.at(aside.end);
+        let size = 1 << (*shift & 31);
+        self.begin = self.begin.wrapping_add(size);
+        let mut end = self.begin.wrapping_add(size);
+        if self.begin & size == 0 {
+            // the node was the far part of those that end here
+            *shift = NonZeroU32::new(self.begin)?.trailing_zeros();
+            let size = 1_u32 << (*shift & 31);
+            end = self.begin.wrapping_add(size);
+            aside.begin &= size.wrapping_neg();
+            aside.next = planes_aside.at(aside.begin.wrapping_add(size));
         }
-        self.node = self.node.wrapping_add(planes.step());
-        self.end = self.end.wrapping_add(*size as i32);
-        self.next = planes.at(self.end);
+        self.next = planes.at(end);
         Some(())
     }
 }
 
-/// From where on the nodes of one surface are no wider than a footprint, made ready for a walk.
+/// Where the middle plane across an axis of a surface is, seen from the origin of rays.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct LevelOfDetail {
+struct Middle {
+    /// How far away, and the width of the surface: 24 fractional bits.
+    distance: i32,
+    width: i32,
+    /// A direction of more than this magnitude crosses every plane at a parameter that fits.
+    least: u32,
+}
+
+impl Middle {
+    fn new(profile: &Profile<'_>, origin: i32) -> Self {
+        let width = profile.width;
+        let distance = (profile.origin + width / 2).wrapping_sub(origin);
+        // distance / magnitude, with 24 and 28 fractional bits, is below 64
+        Self { distance, width, least: distance.unsigned_abs().max(width.unsigned_abs()) >> 2 }
+    }
+}
+
+/// What all rays of one footprint that leave one point share, made ready for walks through one surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pencil {
+    /// 24 fractional bits.
+    pub(super) origin: [i32; 3],
     pub(super) footprint: Footprint,
+    detail: LevelOfDetail,
+    x: Middle,
+    y: Middle,
+}
+
+impl Pencil {
+    /// The ray in this direction, 28 fractional bits.
+    #[inline(always)]
+    pub(super) fn ray(&self, direction: &[i32; 3]) -> Ray {
+        Ray::from_bits(self.origin, *direction)
+    }
+}
+
+/// From where on the nodes of one surface are no wider than a footprint.
+#[derive(Debug, Clone, Copy)]
+struct LevelOfDetail {
     /// From where on the whole surface is small: twice that parameter less its last `shift` bits.
     small: u32,
     shift: u32,
 }
 
 impl LevelOfDetail {
-    /// Whether a node, `size` wide where the whole surface is `2^31`, is no wider than the footprint at `t`.
+    /// Whether a node, `2^shift` wide where the whole surface is `2^31`, is no wider than the footprint at
+    /// `t`.
     #[inline(always)]
-    fn is_reached(&self, size: u32, t: i32) -> bool {
-        let small = ((u64::from(self.small) * u64::from(size)) >> 32) as i32;
-        t >> (self.shift & 31) >= small
+    fn is_reached(&self, shift: u32, t: i32) -> bool {
+        let small = (self.small >> ((shift & 31) ^ 31)) >> 1;
+        t >> (self.shift & 31) >= small as i32
     }
 }
 
 impl Hierarchy<'_> {
-    pub(super) fn level_of_detail(&self, footprint: Footprint) -> LevelOfDetail {
+    /// The rays with this footprint that leave `origin` (24 fractional bits).
+    pub(super) fn pencil(&self, origin: [i32; 3], footprint: Footprint) -> Pencil {
+        let [x, y, _] = origin;
+        Pencil {
+            origin,
+            footprint,
+            detail: self.level_of_detail(footprint),
+            x: Middle::new(&self.x, x),
+            y: Middle::new(&self.y, y),
+        }
+    }
+
+    fn level_of_detail(&self, footprint: Footprint) -> LevelOfDetail {
         let small = footprint.reaches(self.x.width.max(self.y.width)).max(0);
         // at most 31: a width has 31 bits, the reciprocal of a footprint 32
         let shift = 33_u32.saturating_sub(small.leading_zeros());
-        LevelOfDetail { footprint, small: ((small >> shift) << 1) as u32, shift }
+        LevelOfDetail { small: ((small >> shift) << 1) as u32, shift }
     }
 
-    /// The first leaf that the ray meets.
+    /// The first leaf that the ray in this direction (28 fractional bits) meets.
     #[inline(never)]
     pub(super) fn walk_halves(
         &self,
-        ray: &Ray,
-        detail: &LevelOfDetail,
+        pencil: &Pencil,
+        direction: &[i32; 3],
         count: &mut impl Count,
     ) -> Option<Leaf> {
-        let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin, ray.direction);
-        let (Some(planes_x), Some(planes_y)) =
-            (Crossings::new(&self.x, ox, dx), Crossings::new(&self.y, oy, dy))
+        let ([_, _, oz], [dx, dy, dz]) = (pencil.origin, *direction);
+        let (Some(planes_x), Some(planes_y)) = (Crossings::new(&pencil.x, dx), Crossings::new(&pencil.y, dy))
         else {
-            return self.walk_parts(ray, detail.footprint, count);
+            return self.walk_parts(&pencil.ray(direction), pencil.footprint, count);
         };
         let (mut x, mut y) = (Slab::root(&planes_x), Slab::root(&planes_y));
         let z_at = |t: i32| oz.wrapping_add(((i64::from(dz) * i64::from(t)) >> 28) as i32);
         let end = x.next.min(y.next);
-        if !(-1 << 26..1 << 26).contains(&((i64::from(dz) * i64::from(end)) >> 32)) {
+        if !(-1 << 26..1 << 26).contains(&(((i64::from(dz) * i64::from(end)) >> 32) as i32)) {
             // 64 or more upwards or downwards
-            return self.walk_parts(ray, detail.footprint, count);
+            return self.walk_parts(&pencil.ray(direction), pencil.footprint, count);
         }
         count.ray();
         let mut t = planes_x.near().max(planes_y.near()).max(0);
@@ -202,34 +245,37 @@ impl Hierarchy<'_> {
             t = t.max(entry.min(end));
         }
         let mut z = z_at(t);
-        if z.max(z_end) < low || z.min(z_end) > high {
+        if (z < low && z_end < low) || (z > high && z_end > high) {
             return None;
         }
         let (cells_x, cells_y) = (self.x.cells, self.y.cells);
-        let (mut size, last) = (1_u32 << 31, (1 << 31) >> self.depth);
-        let mut next = end;
+        // a node is 2^shift wide
+        let (mut shift, last) = (31, 31_u32.wrapping_sub(self.depth) & 31);
         loop {
             // the ray meets the node where the walk stands
-            if size <= last || detail.is_reached(size, t) {
-                return Some(Leaf { nodes: (x.node, y.node), span: (t, next) });
+            if shift <= last || pencil.detail.is_reached(shift, t) {
+                let nodes = (planes_x.node(x.begin, shift), planes_y.node(y.begin, shift));
+                return Some(Leaf { nodes, span: (t, x.next.min(y.next)) });
             }
-            size >>= 1;
-            x.descend(&planes_x, size, t);
-            y.descend(&planes_y, size, t);
-            count.depth(size.leading_zeros());
+            shift = shift.wrapping_sub(1) & 31;
+            x.descend(&planes_x, 1 << shift, t);
+            y.descend(&planes_y, 1 << shift, t);
+            count.depth(31 - shift);
             loop {
-                next = x.next.min(y.next);
-                let z_next = z_at(next);
-                let (f, g) = (cells_x.get(x.node as usize)?, cells_y.get(y.node as usize)?);
+                let z_next = z_at(x.next.min(y.next));
+                let f = cells_x.get(planes_x.node(x.begin, shift) as usize)?;
+                let g = cells_y.get(planes_y.node(y.begin, shift) as usize)?;
                 count.test();
                 if meets_bits(f, g, z, z_next) {
                     break;
                 }
-                (t, z) = (next, z_next);
+                z = z_next;
                 if x.next <= y.next {
-                    x.advance(&planes_x, &mut y, &planes_y, &mut size)?;
+                    t = x.next;
+                    x.advance(&planes_x, &mut y, &planes_y, &mut shift)?;
                 } else {
-                    y.advance(&planes_y, &mut x, &planes_x, &mut size)?;
+                    t = y.next;
+                    y.advance(&planes_y, &mut x, &planes_x, &mut shift)?;
                 }
             }
         }
@@ -245,6 +291,19 @@ mod tests {
     use crate::num::{Real, Unit};
 
     const HALVES: [u32; 2] = [0, 1 << 30];
+    /// `u` = 1/2.
+    const HALF: i32 = 1 << 30;
+
+    /// Down to the deepest level.
+    fn walk_down(hierarchy: &Hierarchy<'_>, ray: &Ray) -> Option<Leaf> {
+        let pencil = hierarchy.pencil(ray.origin, Footprint::new(Unit::DELTA));
+        hierarchy.walk_halves(&pencil, &ray.direction, &mut Statistics::default())
+    }
+
+    /// A plane as a walk names it.
+    fn plane(u: i32) -> u32 {
+        u.wrapping_sub(HALF) as u32
+    }
 
     /// Against fractions: the leaf, its span, and every box that is tested on the way.
     #[test]
@@ -275,8 +334,8 @@ mod tests {
                     continue;
                 }
                 let mut statistics = Statistics::default();
-                let detail = hierarchy.level_of_detail(Footprint::new(Unit::from_bits(per_t)));
-                let leaf = hierarchy.walk_halves(&ray, &detail, &mut statistics);
+                let pencil = hierarchy.pencil(ray.origin, Footprint::new(Unit::from_bits(per_t)));
+                let leaf = hierarchy.walk_halves(&pencil, &ray.direction, &mut statistics);
                 assert_eq!(leaf.as_ref().map(|leaf| leaf.nodes), truth.nodes, "{ray:?} {truth:?}");
                 let stack = if clipped { truth.unfinished } else { truth.statistics.stack };
                 assert_eq!(statistics, Statistics { stack, ..truth.statistics }, "{ray:?} {truth:?}");
@@ -331,8 +390,7 @@ mod tests {
                 let hierarchy = Hierarchy { x, y, depth: 1, leaves: 1, heights: (0, (1 << 24) + 1) };
                 let mut ray = Ray::from_bits([1 << 22, 1 << 22, 1 << 23], [1 << 27, 1 << 27, 0]);
                 (ray.origin[axis], ray.direction[axis]) = (0, direction);
-                let detail = hierarchy.level_of_detail(Footprint::new(Unit::DELTA));
-                let walk = |ray: &Ray| hierarchy.walk_halves(ray, &detail, &mut Statistics::default());
+                let walk = |ray: &Ray| walk_down(&hierarchy, ray);
                 assert_eq!(walk(&ray), None, "{axis} {direction}");
                 ray.direction[axis] = -direction;
                 let part = if direction > 0 { 1 } else { 2 };
@@ -362,7 +420,7 @@ mod tests {
                 {
                     for direction in [d, -d] {
                         let profile = Profile { cells: &[], starts: &HALVES, origin, width };
-                        let planes = Crossings::new(&profile, from, direction);
+                        let planes = Crossings::new(&Middle::new(&profile, from), direction);
                         assert_eq!(planes.is_none(), d <= limit, "{origin} {width} {from} {direction}");
                         let Some(planes) = planes else {
                             none += 1;
@@ -373,16 +431,19 @@ mod tests {
                             let place =
                                 (i128::from(middle) << 31) + i128::from(width) * i128::from(u) * forward;
                             let exact = Fraction::new(place, i128::from(direction) << 3);
-                            let got = Fraction::new(planes.at(u).into(), 1);
+                            let got = Fraction::new(planes.at(plane(u)).into(), 1);
                             while !exact.is_within(worst, got) {
                                 worst += 1;
                             }
                         }
                         crossed += 1;
-                        assert_eq!(planes.near(), planes.at(-HALF));
+                        assert_eq!(planes.near(), planes.at(plane(-HALF)));
                         let root = Slab::root(&planes);
-                        assert_eq!((root.node, root.end, root.next), (0, HALF, planes.at(HALF)));
-                        assert_eq!(planes.step(), forward as u32);
+                        assert_eq!((root.begin, root.next), (plane(-HALF), planes.at(plane(HALF))));
+                        assert_eq!(planes.node(root.begin, 31), 0);
+                        // the lower half is the first from below, the second from above
+                        let lower = if direction > 0 { plane(-HALF) } else { plane(0) };
+                        assert_eq!([lower, lower ^ 1 << 30].map(|begin| planes.node(begin, 30)), [1, 2]);
                     }
                 }
             }
@@ -413,7 +474,7 @@ mod tests {
                     let (mut low, mut high) = (0_i64, 1 << 31);
                     while low < high {
                         let t = (low + high) / 2;
-                        if detail.is_reached((1 << 31) >> level, t as i32) { high = t } else { low = t + 1 }
+                        if detail.is_reached(31 - level, t as i32) { high = t } else { low = t + 1 }
                     }
                     let early = exact - i128::from(low) * under;
                     if low == 1 << 31 {
@@ -446,11 +507,7 @@ mod tests {
                         let mut ray = Ray::from_bits([1 << 21, 1 << 21, 1 << 24], [1 << 27, 1 << 27, 0]);
                         ray.origin[axis] = if up { high + beyond } else { low - beyond };
                         ray.direction[axis] = if up { 1 << 28 } else { -(1 << 28) };
-                        hierarchy.walk_halves(
-                            &ray,
-                            &hierarchy.level_of_detail(Footprint::new(Unit::DELTA)),
-                            &mut Statistics::default(),
-                        )
+                        walk_down(&hierarchy, &ray)
                     };
                     let mut nodes = if depth == 0 { [0, 0] } else { [2, 2] };
                     if axis < 2 && !up && depth == 1 {
@@ -492,17 +549,7 @@ mod tests {
         ] {
             for direction in [[1 << 28, 1 << 23, 0], [-(1 << 28), 1 << 26, 0]] {
                 let ray = Ray::from_bits([if direction[0] > 0 { -77 } else { 3 << 24 }, 3, z], direction);
-                assert_eq!(
-                    hierarchy
-                        .walk_halves(
-                            &ray,
-                            &hierarchy.level_of_detail(Footprint::new(Unit::DELTA)),
-                            &mut Statistics::default()
-                        )
-                        .map(|leaf| leaf.nodes.0),
-                    part,
-                    "{z}"
-                );
+                assert_eq!(walk_down(&hierarchy, &ray).map(|leaf| leaf.nodes.0), part, "{z}");
             }
         }
     }
@@ -511,47 +558,47 @@ mod tests {
     /// integers.
     #[test]
     fn every_node_is_passed_in_order() {
-        for from_above in [0, 1] {
+        for flip in [0, u32::MAX >> 1] {
             for depth in [1, 3, 16] {
                 // the plane `u` is crossed at u / 16
-                let planes = Crossings { middle: 0, twice: 1 << 28, from_above };
-                let aside_planes = Crossings { middle: 7, twice: 1 << 20, from_above: 0 };
+                let planes = Crossings { middle: 0, twice: 1 << 28, flip };
+                let aside_planes = Crossings { middle: 7, twice: 1 << 20, flip: 0 };
                 let number = |level: u32, k: u32| {
-                    let index = if from_above == 0 { k } else { (1 << level) - 1 - k };
+                    let index = if flip == 0 { k } else { (1 << level) - 1 - k };
                     (1 << level) - 1 + index
                 };
                 let (mut slab, mut aside) = (Slab::root(&planes), Slab::root(&aside_planes));
-                let (mut size, last) = (1_u32 << 31, (1_u32 << 31) >> depth);
-                let mut k = 0;
+                let last = 31 - depth;
+                let (mut shift, mut k) = (31, 0_u32);
                 loop {
-                    while size > last {
-                        size >>= 1;
-                        // where the node begins
-                        slab.descend(&planes, size, planes.at((k * i64::from(last) - (1 << 30)) as i32));
+                    // where the node begins
+                    let begin = (1 << 31) + (k << last);
+                    while shift > last {
+                        shift -= 1;
+                        slab.descend(&planes, 1 << shift, planes.at(begin));
                         // the second part of the other axis each time
-                        aside.descend(&aside_planes, size, i32::MAX);
+                        aside.descend(&aside_planes, 1 << shift, i32::MAX);
                     }
-                    assert_eq!(slab.node, number(depth, k as u32), "{from_above} {depth} {k}");
-                    assert_eq!(i64::from(slab.end), (k + 1) * i64::from(last) - (1 << 30));
-                    assert_eq!(slab.next, planes.at(slab.end));
+                    assert_eq!(planes.node(slab.begin, shift), number(depth, k), "{flip} {depth} {k}");
+                    assert_eq!(slab.begin, begin);
+                    assert_eq!(slab.next, planes.at(begin.wrapping_add(1 << last)));
                     k += 1;
-                    if slab.advance(&planes, &mut aside, &aside_planes, &mut size).is_none() {
+                    if slab.advance(&planes, &mut aside, &aside_planes, &mut shift).is_none() {
                         break;
                     }
                     // up by as many levels as nodes end here
                     let levels = k.trailing_zeros();
-                    assert_eq!(size, last << levels);
-                    assert_eq!(slab.node, number(depth - levels, k as u32 >> levels));
-                    assert_eq!(i64::from(slab.end), k * i64::from(last) - (1 << 30) + i64::from(size));
-                    assert_eq!(slab.next, planes.at(slab.end));
+                    assert_eq!(shift, last + levels);
+                    assert_eq!(planes.node(slab.begin, shift), number(depth - levels, k >> levels));
+                    assert_eq!(slab.begin, (1 << 31) + (k << last));
+                    assert_eq!(slab.next, planes.at(slab.begin.wrapping_add(1 << shift)));
                     // the second part of the node that is left: the last there, wherever that one is
-                    let around = aside.node + 1;
+                    let around = aside_planes.node(aside.begin, shift) + 1;
                     assert!(around.is_power_of_two() || (around + 1).is_power_of_two() || depth > 1);
-                    assert_eq!(aside.next, aside_planes.at(aside.end));
-                    let index = i64::from(around - (1 << (depth - levels)));
-                    assert_eq!(i64::from(aside.end), (index + 1) * i64::from(size) - (1 << 30));
+                    assert_eq!(aside.begin << (32 - shift), 0);
+                    assert_eq!(aside.next, aside_planes.at(aside.begin.wrapping_add(1 << shift)));
                 }
-                assert_eq!(k, 1 << depth, "{from_above} {depth}");
+                assert_eq!(k, 1 << depth, "{flip} {depth}");
             }
         }
     }
@@ -563,7 +610,6 @@ mod tests {
         let profile = Profile { cells: &cells, starts: &HALVES, origin: 0, width: 1 << 24 };
         let (low, high) = (1 << 24, (1 << 24) + 1);
         let hierarchy = Hierarchy { x: profile, y: profile, depth: 0, leaves: 0, heights: (low, high) };
-        let detail = hierarchy.level_of_detail(Footprint::new(Unit::DELTA));
         // a unit takes 256 at a slope of 1/256
         for (z, slope, begin) in [
             (high + 1, -(1 << 20), 256),
@@ -574,14 +620,14 @@ mod tests {
             (low, 1 << 20, 0),
         ] {
             let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 28, 1 << 27, slope]);
-            let leaf = hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).unwrap();
+            let leaf = walk_down(&hierarchy, &ray).unwrap();
             assert!((begin - 1..=begin).contains(&leaf.span.0), "{z} {slope}: {:?}", leaf.span);
         }
         // over 3/4 it falls by 49152 units and rises by one less: to the first height that counts, and to the
         // one beside it
         let walk = |z: i32, slope: i32| {
             let ray = Ray::from_bits([1 << 22, 1 << 22, z], [1 << 28, 1 << 27, slope]);
-            hierarchy.walk_halves(&ray, &detail, &mut Statistics::default()).is_some()
+            walk_down(&hierarchy, &ray).is_some()
         };
         assert_eq!([49_152, 49_153].map(|fall| walk(high + fall, -(1 << 20))), [true, false]);
         assert_eq!([49_151, 49_152].map(|rise| walk(low - rise, 1 << 20)), [true, false]);

@@ -93,11 +93,12 @@ impl Surface for HeightField<'_> {
     }
 
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
-        let detail = self.level_of_detail(Footprint::new(cone));
+        let footprint = Footprint::new(cone);
         // the ray begins anew behind each leaf: `from` is where
         let (mut rest, mut from, mut left) = (*ray, 0_i32, CROSSINGS);
         for k in 0..LEAVES {
-            let Some(leaf) = self.leaf(&rest, &detail, &mut Uncounted) else { return };
+            let rays = self.pencil(rest.origin, footprint);
+            let Some(leaf) = self.leaf(&rays, &rest.direction, &mut Uncounted) else { return };
             // right behind the leaf before, it is the same crossing
             if k == 0 || leaf.span.0 > GAP {
                 let Some(crossing) = self.crossing(&rest, &leaf, from) else { return };

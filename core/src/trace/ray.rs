@@ -86,6 +86,7 @@ impl Footprint {
     }
 
     /// Its width at `t` = 1.
+    #[cfg(test)]
     pub(crate) fn per_t(self) -> Unit {
         self.per_t
     }

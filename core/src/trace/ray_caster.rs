@@ -10,10 +10,10 @@ use embedded_graphics_core::geometry::Size;
 use super::camera::Camera;
 use super::environment::Environment;
 use super::finish::{Finish, Light, Shade};
-use super::halves::LevelOfDetail;
+use super::halves::Pencil;
 use super::height_field::{HeightField, Hit};
 use super::outline::Outline;
-use super::ray::{Footprint, Ray};
+use super::ray::Footprint;
 use super::sampling::{Filter, Pattern, Sampling};
 use super::statistics::{Statistics, Uncounted};
 use crate::Error;
@@ -47,7 +47,8 @@ const HALF: i64 = 1 << 31;
 #[derive(Debug, Clone)]
 pub struct RayCaster<'a> {
     surface: HeightField<'a>,
-    camera: Camera,
+    /// Of half the view, 28 fractional bits.
+    tangent: i32,
     size: Size,
     material: Finish,
     light: Light,
@@ -60,8 +61,8 @@ pub struct RayCaster<'a> {
     down: [i64; 3],
     /// Width of a pixel's cone a unit of `t`.
     footprint: Footprint,
-    /// From where on nodes are no wider than a sample's cone.
-    detail: LevelOfDetail,
+    /// The rays from the eye, as wide as a sample's cone.
+    rays: Pencil,
     outline: Outline,
 }
 
@@ -75,7 +76,7 @@ impl<'a> RayCaster<'a> {
     pub fn new(surface: HeightField<'a>, camera: Camera, size: Size) -> Result<Self, Error> {
         let size = checked_size(size)?;
         let (cols, rows) = (i64::from(size.width), i64::from(size.height));
-        in_reach(&camera, cols, rows, 0)?;
+        in_reach(camera.tangent, cols, rows, 0)?;
         // one pixel: 2 k / rows, with 28 + 30 + 2 = 60 fractional bits for a direction cosine of 30
         let step =
             |cosine: Unit| nth((i64::from(camera.tangent) * i64::from(cosine.to_bits())) << 3, size.height);
@@ -89,9 +90,10 @@ impl<'a> RayCaster<'a> {
         // 2 k / rows with 30 fractional bits
         let footprint = nth(i64::from(camera.tangent) << 3, size.height).min(i64::from(i32::MAX));
         let footprint = Footprint::new(Unit::from_bits(footprint as i32));
+        let eye = [camera.eye.x, camera.eye.y, camera.eye.z].map(|c| c.to_bits());
         Ok(Self {
             surface,
-            camera,
+            tangent: camera.tangent,
             size,
             material: Finish::DIFFUSE,
             light: Light::ORDINARY,
@@ -101,7 +103,7 @@ impl<'a> RayCaster<'a> {
             right,
             down,
             footprint,
-            detail: surface.level_of_detail(footprint),
+            rays: surface.pencil(eye, footprint),
             outline: Outline::new(surface.extent(), &camera, size.width, size.height),
         })
     }
@@ -139,8 +141,9 @@ impl<'a> RayCaster<'a> {
     pub fn with_sampling(mut self, sampling: Sampling, filter: Filter) -> Result<Self, Error> {
         self.pattern = Pattern::new(sampling, filter)?;
         let (cols, rows) = (i64::from(self.size.width), i64::from(self.size.height));
-        in_reach(&self.camera, cols, rows, filter.margin())?;
-        self.detail = self.surface.level_of_detail(self.footprint.part(self.pattern.parts_a_side()));
+        in_reach(self.tangent, cols, rows, filter.margin())?;
+        let footprint = self.footprint.part(self.pattern.parts_a_side());
+        self.rays = self.surface.pencil(self.rays.origin, footprint);
         Ok(self)
     }
 
@@ -151,9 +154,7 @@ impl<'a> RayCaster<'a> {
             for x in 0..self.size.width {
                 for (dx, dy, _) in self.pattern.samples(x, y) {
                     let direction = self.offset(self.direction(x, y), dx, dy);
-                    let ray = Ray::from_bits(self.eye(), direction);
-                    let _ =
-                        self.surface.intersect_counted(&ray, self.detail.footprint.per_t(), &mut statistics);
+                    let _ = self.surface.leaf(&self.rays, &direction, &mut statistics);
                 }
             }
         }
@@ -165,12 +166,7 @@ impl<'a> RayCaster<'a> {
         if x >= self.size.width || y >= self.size.height {
             return None;
         }
-        let ray = Ray::from_bits(self.eye(), self.direction(x, y).map(narrow));
-        self.surface.intersect(&ray, self.detail.footprint.per_t())
-    }
-
-    fn eye(&self) -> [i32; 3] {
-        [self.camera.eye.x, self.camera.eye.y, self.camera.eye.z].map(|c| c.to_bits())
+        self.surface.first_hit(&self.rays, &self.direction(x, y).map(narrow), &mut Uncounted)
     }
 
     /// The direction through the centre of pixel `(x, y)`, 60 fractional bits.
@@ -183,7 +179,6 @@ impl<'a> RayCaster<'a> {
     }
 
     /// The direction moved by an offset in pixels (24 fractional bits), 28 fractional bits.
-    #[inline]
     fn offset(&self, mut direction: [i64; 3], dx: i32, dy: i32) -> [i32; 3] {
         if (dx, dy) != (0, 0) {
             for ((c, r), d) in direction.iter_mut().zip(self.right).zip(self.down) {
@@ -194,15 +189,16 @@ impl<'a> RayCaster<'a> {
         direction.map(narrow)
     }
 
-    /// The tone of one ray.
-    #[inline]
-    fn tone(&self, direction: [i32; 3], visible: bool) -> Unit {
-        let leaf = if visible {
-            self.surface.leaf(&Ray::from_bits(self.eye(), direction), &self.detail, &mut Uncounted)
-        } else {
-            None
-        };
-        let towards = match leaf {
+    /// The tone of a ray in the direction `(x, y, z)`, which are handed over in registers.
+    #[inline(always)]
+    fn tone(&self, [x, y, z]: [i32; 3], visible: bool) -> Unit {
+        if visible { self.cast(x, y, z) } else { self.beyond(x, y, z) }
+    }
+
+    #[inline(never)]
+    fn cast(&self, x: i32, y: i32, z: i32) -> Unit {
+        let direction = [x, y, z];
+        let [x, y, z] = match self.surface.leaf(&self.rays, &direction, &mut Uncounted) {
             None => direction,
             Some(leaf) => {
                 match self.material.shade(unit(self.surface.normal(&leaf)), direction, &self.light) {
@@ -211,22 +207,32 @@ impl<'a> RayCaster<'a> {
                 }
             }
         };
-        self.environment.towards(towards)
+        self.beyond(x, y, z)
     }
 
-    #[inline]
-    fn pixel(&self, x: u32, y: u32, direction: [i64; 3], visible: bool) -> Tone {
-        let tone = if self.pattern.is_centre() {
-            self.tone(direction.map(narrow), visible).to_bits() as u32
-        } else {
-            let mut sum = 0_i64;
-            for (dx, dy, weight) in self.pattern.samples(x, y) {
-                sum += i64::from(self.tone(self.offset(direction, dx, dy), visible).to_bits())
-                    * i64::from(weight);
-            }
-            (sum >> 30).clamp(0, 1 << 30) as u32
-        };
-        rounded(tone)
+    /// The tone of the environment.
+    #[inline(never)]
+    fn beyond(&self, x: i32, y: i32, z: i32) -> Unit {
+        self.environment.towards([x, y, z])
+    }
+
+    /// The tone of pixel `(x, y)`, by way of the direction through its centre.
+    #[inline(always)]
+    fn pixel(&self, x: u32, y: u32, direction: [i32; 3], visible: bool) -> Tone {
+        let tone =
+            if self.pattern.is_centre() { self.tone(direction, visible) } else { self.mean(x, y, visible) };
+        rounded(tone.to_bits() as u32)
+    }
+
+    /// The weighted mean of the tones of a pixel's samples.
+    #[inline(never)]
+    fn mean(&self, x: u32, y: u32, visible: bool) -> Unit {
+        let (direction, mut sum) = (self.direction(x, y), 0_i64);
+        for (dx, dy, weight) in self.pattern.samples(x, y) {
+            let tone = self.tone(self.offset(direction, dx, dy), visible);
+            sum += i64::from(tone.to_bits()) * i64::from(weight);
+        }
+        Unit::from_bits((sum >> 30).clamp(0, 1 << 30) as i32)
     }
 }
 
@@ -240,9 +246,9 @@ fn rounded(tone: u32) -> Tone {
 
 /// Checks that directions stay inside ±4 on a picture with `margin` pixels around it:
 /// `|w| + k (cols / rows |r| + |u|) < 4`.
-fn in_reach(camera: &Camera, cols: i64, rows: i64, margin: i64) -> Result<(), Error> {
+fn in_reach(tangent: i32, cols: i64, rows: i64, margin: i64) -> Result<(), Error> {
     let sides = cols + rows + 4 * margin;
-    let reach = (i64::from(camera.tangent) * sides).checked_div(rows).unwrap_or(i64::MAX);
+    let reach = (i64::from(tangent) * sides).checked_div(rows).unwrap_or(i64::MAX);
     if reach >= 3 << 28 {
         return Err(Error::OutOfRange {
             what: "tangent of half the view, width plus height",
@@ -269,7 +275,7 @@ impl Field for RayCaster<'_> {
 
     fn at(&self, x: u32, y: u32) -> Tone {
         let visible = self.outline.columns(y, self.size.width).contains(&x);
-        self.pixel(x, y, self.direction(x, y), visible)
+        self.pixel(x, y, self.direction(x, y).map(narrow), visible)
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Tone> {
@@ -278,7 +284,10 @@ impl Field for RayCaster<'_> {
         let x = x.start.min(width)..x.end.min(width);
         let visible = self.outline.columns(y, width);
         let directions = Directions { caster: self, direction: self.direction(x.start, y), columns: x };
-        along(directions, move |(x, direction)| self.pixel(x, y, direction, visible.contains(&x)))
+        let seen = visible.len() as u32;
+        along(directions, move |(x, direction)| {
+            self.pixel(x, y, direction, x.wrapping_sub(visible.start) < seen)
+        })
     }
 }
 
@@ -290,11 +299,11 @@ struct Directions<'a, 'b> {
 }
 
 impl Iterator for Directions<'_, '_> {
-    type Item = (u32, [i64; 3]);
+    type Item = (u32, [i32; 3]);
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
-        let pixel = (self.columns.next()?, self.direction);
+        let pixel = (self.columns.next()?, self.direction.map(narrow));
         for (c, r) in self.direction.iter_mut().zip(self.caster.right) {
             *c += r;
         }
@@ -321,6 +330,7 @@ impl FusedIterator for Directions<'_, '_> {}
 #[cfg(test)]
 mod tests {
     use super::super::exact::with_polygon;
+    use super::super::ray::Ray;
     use super::*;
     use crate::num::Real;
     use std::vec::Vec;
@@ -402,9 +412,9 @@ mod tests {
                 let caster = RayCaster::new(surface, camera, Size::new(size.0, size.1)).unwrap();
                 let width = (i64::from(camera.tangent) << 3) / i64::from(size.1);
                 assert_eq!(i64::from(caster.footprint.per_t().to_bits()), width);
-                assert_eq!(caster.detail.footprint, caster.footprint);
+                assert_eq!(caster.rays.footprint, caster.footprint);
                 let sampled = caster.with_sampling(Sampling::Grid(n), Filter::Box).unwrap();
-                assert_eq!(i64::from(sampled.detail.footprint.per_t().to_bits()), width / i64::from(n));
+                assert_eq!(i64::from(sampled.rays.footprint.per_t().to_bits()), width / i64::from(n));
             }
             // 2 tan(55 degrees) is beyond the format
             let caster = RayCaster::new(surface, camera(110), Size::new(1, 1)).unwrap();
@@ -416,7 +426,7 @@ mod tests {
     #[test]
     fn a_view_is_refused_from_where_its_rays_could_leave_their_format() {
         let fits = |tangent, cols, rows, margin| {
-            let refused = in_reach(&Camera { tangent, ..camera(1) }, cols, rows, margin);
+            let refused = in_reach(tangent, cols, rows, margin);
             assert!(match &refused {
                 Ok(()) => true,
                 // reported with 48 fractional bits
@@ -464,7 +474,7 @@ mod tests {
                     assert_eq!(row.len(), cols as usize);
                     let visible = caster.outline.columns(y, size.width);
                     for (x, tone) in (0..).zip(&row) {
-                        let pixel = |visible| caster.pixel(x, y, caster.direction(x, y), visible);
+                        let pixel = |visible| caster.pixel(x, y, caster.direction(x, y).map(narrow), visible);
                         assert_eq!((*tone, *tone), (pixel(visible.contains(&x)), pixel(true)), "{x} {y}");
                         tones[usize::from(caster.hit(x, y).is_some())] += 1;
                     }
@@ -500,7 +510,7 @@ mod tests {
             let (mut met, mut statistics) = (0, Statistics::default());
             for (x, y) in (0..20).flat_map(|y| (0..24).map(move |x| (x, y))) {
                 let direction = caster.direction(x, y).map(narrow);
-                let eye = caster.camera.eye;
+                let eye = camera(40).eye;
                 let ray = Ray::from_bits([eye.x, eye.y, eye.z].map(Real::to_bits), direction);
                 let hit = surface.intersect_counted(&ray, caster.footprint.per_t(), &mut statistics);
                 assert_eq!(hit, caster.hit(x, y));

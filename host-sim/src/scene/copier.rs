@@ -2,7 +2,6 @@
 //! multiples on one picture.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::curve::koch;
 use attractor::ifs::{Ifs, MAX_MAPS, catalogue};
@@ -21,6 +20,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
 use crate::source::{Place, Source};
+use crate::table::Csv;
 
 /// Room for orders.
 const DEPTH: usize = 24;
@@ -91,7 +91,7 @@ impl CopierScene {
     }
 
     /// `x,y` of the first vertices of the last order.
-    pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(super) fn sample(&self, points: u32, out: &mut Csv) -> Result<(), Fail> {
         let last = self.orders.last().copied().unwrap_or(0);
         let path = self.copies()?.path(last);
         vertices(path.map_err(|error| self.place.fail(error))?, points, out)

@@ -1,7 +1,6 @@
 //! `kind = "curve"`: a polyline each of whose segments is replaced by the generator, again and again.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::Error;
 use attractor::curve::catalogue::{self, Curve};
@@ -22,6 +21,7 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Place, Source};
+use crate::table::Csv;
 use crate::theory::{Theory, boundary_of};
 
 /// Room for segments of a generator and for orders.
@@ -144,7 +144,7 @@ impl CurveScene {
     }
 
     /// `x,y` of the first vertices.
-    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut Csv) -> Result<(), Fail> {
         let path = self.picture().path(request.size);
         vertices(path.map_err(|error| self.place.fail_at(request.size, error))?, points, out)
     }
@@ -154,11 +154,11 @@ impl CurveScene {
 pub(super) fn vertices(
     path: impl Iterator<Item = PathElement>,
     points: u32,
-    out: &mut dyn Write,
+    out: &mut Csv,
 ) -> Result<(), Fail> {
-    writeln!(out, "x,y")?;
+    out.write_record(["x", "y"])?;
     for PathElement::MoveTo(p) | PathElement::LineTo(p) in path.take(points as usize) {
-        writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
+        out.write_record([exact(p.x), exact(p.y)])?;
     }
     Ok(())
 }

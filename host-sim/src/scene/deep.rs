@@ -1,7 +1,5 @@
 //! Deep zooms: coordinates with all their digits, for views that are finer than 32 bits.
 
-use std::io::Write;
-
 use attractor::Error;
 use attractor::escape::{DeepMandelbrot, DeepView, OrbitPoint};
 use attractor::num::Complex;
@@ -14,6 +12,7 @@ use super::motion::Sight;
 use crate::fail::Fail;
 use crate::number;
 use crate::source::{Num, Source};
+use crate::table::Csv;
 
 /// 380 fractional bits: 114 decimal places.
 pub(crate) const LIMBS: usize = 12;
@@ -93,12 +92,13 @@ pub(super) fn orbit(view: &View, max_dwell: u32) -> Vec<OrbitPoint> {
 }
 
 /// `re,im,dwell,reference` for every pixel, row by row; no reference reaches as deep.
-pub(super) fn sample(picture: &Picture<'_>, out: &mut dyn Write) -> Result<(), Fail> {
-    writeln!(out, "re,im,dwell,reference")?;
+pub(super) fn sample(picture: &Picture<'_>, out: &mut Csv) -> Result<(), Fail> {
+    out.write_record(["re", "im", "dwell", "reference"])?;
     let size = picture.size();
     for (row, column) in (0..size.height).flat_map(|row| (0..size.width).map(move |column| (row, column))) {
         let c = picture.view().point(column, row);
-        writeln!(out, "{},{},{},", exact(c.re), exact(c.im), picture.dwell_at(column, row).count)?;
+        let dwell = picture.dwell_at(column, row).count.to_string();
+        out.write_record([exact(c.re), exact(c.im), dwell, String::new()])?;
     }
     Ok(())
 }

@@ -1,7 +1,5 @@
 //! What Mandelbrot and Julia scenes share: the view, the limit, the colours, the CSV.
 
-use std::io::Write;
-
 use attractor::Error;
 use attractor::escape::{MAX_DWELL, View};
 use attractor::num::Complex;
@@ -19,6 +17,7 @@ use crate::fail::{Fail, shortened};
 use crate::number::{self, exact};
 use crate::palette::{Colors, Named, color};
 use crate::source::Source;
+use crate::table::Csv;
 
 /// What is seen, and how.
 #[derive(Debug)]
@@ -204,15 +203,16 @@ pub(super) fn sample(
     view: &View,
     dwell: impl Fn(Complex<Wide>) -> u32,
     reference: impl Fn(f64, f64) -> u32,
-    out: &mut dyn Write,
+    out: &mut Csv,
 ) -> Result<(), Fail> {
     debug_assert!(view.size().width <= MAX_SIDE);
-    writeln!(out, "re,im,dwell,reference")?;
+    out.write_record(["re", "im", "dwell", "reference"])?;
     for row in 0..view.size().height {
         for column in 0..view.size().width {
             let p = view.point(column, row);
             let (re, im) = (p.re.to_num(), p.im.to_num());
-            writeln!(out, "{},{},{},{}", exact(p.re), exact(p.im), dwell(p), reference(re, im))?;
+            let (dwell, reference) = (dwell(p).to_string(), reference(re, im).to_string());
+            out.write_record([exact(p.re), exact(p.im), dwell, reference])?;
         }
     }
     Ok(())

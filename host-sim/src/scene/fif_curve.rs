@@ -1,7 +1,6 @@
 //! `kind = "fif-curve"`: the graph of a fractal interpolation function, figures 1 to 3, and data.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::fif::{Cell, Pyramid};
 use attractor::num::Wide;
@@ -19,6 +18,7 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Place, Source};
+use crate::table::Csv;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -108,15 +108,16 @@ impl FifCurve {
     }
 
     /// `x,fixed,reference,error` at `points` equally spaced abscissae, first and last knot included.
-    pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        writeln!(out, "x,fixed,reference,error")?;
+    pub(super) fn sample(&self, points: u32, out: &mut Csv) -> Result<(), Fail> {
+        out.write_record(["x", "fixed", "reference", "error"])?;
         let (from, to) = self.function.fixed.domain();
         for i in 0..points {
             let x = abscissa(from, to, i, points);
             let fixed = self.function.fixed.at(x);
             let reference = self.function.reference.at(x.to_num());
             let error = fixed.to_num::<f64>() - reference;
-            writeln!(out, "{},{},{reference:?},{error:?}", exact(x), exact(fixed))?;
+            let (reference, error) = (format!("{reference:?}"), format!("{error:?}"));
+            out.write_record([exact(x), exact(fixed), reference, error])?;
         }
         Ok(())
     }

@@ -1,7 +1,6 @@
 //! `kind = "fif-surface"`: the height field `f(x) g(y)` under a ray caster, figure 6.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::fif::{Cell, Factor, Pyramid, Surface};
 use attractor::num::Vec3;
@@ -25,6 +24,7 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Place, Source};
+use crate::table::Csv;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -220,7 +220,7 @@ impl FifSurface {
     }
 
     /// Height and normal on a square grid of about `points` points, corners included.
-    pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(super) fn sample(&self, points: u32, out: &mut Csv) -> Result<(), Fail> {
         let factor = |profile: &Profile| {
             Factor::<MAPS, DEGREE>::new(&profile.function.fixed)
                 .map(Box::new)
@@ -233,7 +233,18 @@ impl FifSurface {
         };
         let exactly = reference::Surface { x: exact_factor(&self.f)?, y: exact_factor(&self.g)? };
         let surface = Surface::new(&f, &g);
-        writeln!(out, "x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference")?;
+        out.write_record([
+            "x",
+            "y",
+            "height",
+            "nx",
+            "ny",
+            "nz",
+            "height_reference",
+            "nx_reference",
+            "ny_reference",
+            "nz_reference",
+        ])?;
         let root = points.isqrt();
         let side = if root * root < points { root + 1 } else { root };
         let ((x0, x1), (y0, y1)) = (self.f.function.fixed.domain(), self.g.function.fixed.domain());
@@ -245,9 +256,10 @@ impl FifSurface {
                 // no negative zeros
                 let [nx, ny, nz] = exactly.normal(u, v).map(|n| n + 0.0);
                 let n = surface.normal(x, y);
-                write!(out, "{},{},{},", exact(x), exact(y), exact(surface.height(x, y)))?;
-                write!(out, "{},{},{},", exact(n.x), exact(n.y), exact(n.z))?;
-                writeln!(out, "{:?},{nx:?},{ny:?},{nz:?}", exactly.height(u, v))?;
+                let fixed =
+                    [exact(x), exact(y), exact(surface.height(x, y)), exact(n.x), exact(n.y), exact(n.z)];
+                let reference = [exactly.height(u, v), nx, ny, nz].map(|v| format!("{v:?}"));
+                out.write_record(fixed.iter().chain(&reference))?;
             }
         }
         Ok(())

@@ -1,7 +1,6 @@
 //! `kind = "ifs"`: the attractor of affine maps by the chaos game.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::ifs::{Ifs, MAX_MAPS};
 use attractor_gallery::{IfsPicture, Shading, Watch};
@@ -17,6 +16,7 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Place, Source};
+use crate::table::Csv;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -75,10 +75,10 @@ impl IfsScene {
     }
 
     /// `x,y` of the first points of the chaos game.
-    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        writeln!(out, "x,y")?;
+    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut Csv) -> Result<(), Fail> {
+        out.write_record(["x", "y"])?;
         for p in self.ifs.seeded_chaos_game(request.seed).take(points as usize) {
-            writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
+            out.write_record([exact(p.x), exact(p.y)])?;
         }
         Ok(())
     }

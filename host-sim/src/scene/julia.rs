@@ -1,7 +1,6 @@
 //! `kind = "julia"`: the dwell of every pixel's own orbit, one constant for all.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::escape::{Julia, JuliaSet};
 use attractor::num::Complex;
@@ -21,6 +20,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
 use crate::source::{Num, Source};
+use crate::table::Csv;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -107,7 +107,7 @@ impl JuliaScene {
         coloring::draw(self.picture(request)?, coloring, equalised, colors, target, watch)
     }
 
-    pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(super) fn sample(&self, request: &Request, out: &mut Csv) -> Result<(), Fail> {
         let picture = self.picture(request)?;
         let reference =
             |re, im| attractor_reference::julia_dwell((re, im), self.float, self.escape.max_dwell);

@@ -1,7 +1,6 @@
 //! `kind = "julia-set"`: the Julia set itself, covered or as a cloud of points found by backward iteration.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::escape::JuliaSet;
 use attractor::num::Complex;
@@ -20,6 +19,7 @@ use crate::fail::Fail;
 use crate::number::exact;
 use crate::palette::Named;
 use crate::source::{Num, Place, Source};
+use crate::table::Csv;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -81,12 +81,12 @@ impl JuliaSetScene {
     }
 
     /// `x,y` of the first points, or of the middles of the first pixels that the set meets.
-    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
-        writeln!(out, "x,y")?;
+    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut Csv) -> Result<(), Fail> {
+        out.write_record(["x", "y"])?;
         match self.picture.method {
             Method::Plain => {
                 for p in self.picture.walk(request.seed).take(points as usize) {
-                    writeln!(out, "{},{}", exact(p.x), exact(p.y))?;
+                    out.write_record([exact(p.x), exact(p.y)])?;
                 }
             }
             Method::Cover => {
@@ -99,7 +99,7 @@ impl JuliaSetScene {
                     (0..height).flat_map(|y| cover.row(y, 0..width).zip(0..).map(move |(n, x)| (n, x, y)));
                 for (_, x, y) in pixels.filter(|(n, ..)| *n > 0).take(points as usize) {
                     let p = view.point(x, y);
-                    writeln!(out, "{},{}", exact(p.re), exact(p.im))?;
+                    out.write_record([exact(p.re), exact(p.im)])?;
                 }
             }
         }

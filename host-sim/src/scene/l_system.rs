@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::Error;
 use attractor::curve::LSystem;
@@ -19,6 +18,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
 use crate::source::{Num, Source};
+use crate::table::Csv;
 
 /// Room for rewritings and for open brackets.
 const ORDERS: usize = 32;
@@ -125,7 +125,7 @@ impl LSystemScene {
     }
 
     /// `x,y` of the first points.
-    pub(super) fn sample(&self, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(super) fn sample(&self, points: u32, out: &mut Csv) -> Result<(), Fail> {
         self.with(|picture| Ok(vertices(picture.path()?, points, out))).map_err(Fail::new)?
     }
 }

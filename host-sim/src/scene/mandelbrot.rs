@@ -1,7 +1,6 @@
 //! `kind = "mandelbrot"`: the dwell of every pixel's orbit of 0.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::escape::Mandelbrot;
 use attractor::num::Wide;
@@ -21,6 +20,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
 use crate::source::{Num, Source};
+use crate::table::Csv;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -97,7 +97,7 @@ impl MandelbrotScene {
         coloring::draw(self.picture(request)?, coloring, equalised, colors, target, watch)
     }
 
-    pub(super) fn sample(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(super) fn sample(&self, request: &Request, out: &mut Csv) -> Result<(), Fail> {
         if let Some(view) = self.0.deep_view(request.size)? {
             let mut orbit = deep::orbit(&view, self.0.max_dwell);
             let picture = Picture::new(view, self.0.max_dwell, &mut orbit).map_err(Fail::new)?;

@@ -32,7 +32,7 @@ mod trail;
 pub(crate) mod world;
 
 use std::convert::Infallible;
-use std::io::Write;
+use std::io::stdout;
 use std::path::Path;
 
 use attractor::escape::JuliaSet;
@@ -48,6 +48,7 @@ use crate::builtin;
 use crate::color::Depth;
 use crate::fail::{Fail, shortened};
 use crate::source::Source;
+use crate::table::Csv;
 
 pub(crate) use graph::Graph;
 pub(crate) use halving::Chords;
@@ -277,18 +278,14 @@ impl Scene {
         request: &Request,
         question: Question<'_>,
         points: u32,
-        out: &mut dyn Write,
+        out: &mut Csv,
     ) -> Result<(), Fail> {
-        match (&self.kind, question) {
-            (Kind::World(scene), _) => return scene.sample(request, question, points, out),
-            (Kind::Texture(scene), _) => return scene.sample(request, question, out),
-            (_, Question::Usual) => {}
-            _ => {
-                let (name, kind) = (&self.name, self.kind());
-                let reason =
-                    format_args!("{}: {name} is a {kind}, only a world is asked for that", question.option());
-                return Err(Fail::new(reason));
-            }
+        let asks = question.option();
+        if !matches!((&self.kind, &question), (Kind::World(_) | Kind::Texture(_), _) | (_, Question::Usual)) {
+            let (name, kind) = (&self.name, self.kind());
+            return Err(Fail::new(format_args!(
+                "{asks}: {name} is a {kind}, only a world is asked for that"
+            )));
         }
         match &self.kind {
             Kind::FifCurve(scene) => scene.sample(points, out),
@@ -301,8 +298,8 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.sample(request, out),
             Kind::Julia(scene) => scene.sample(request, out),
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
-            Kind::World(scene) => scene.sample(request, question, points, out),
-            Kind::Texture(scene) => scene.sample(request, question, out),
+            Kind::World(scene) => scene.sample(request, question, points, &mut stdout().lock()),
+            Kind::Texture(scene) => scene.sample(request, question, &mut stdout().lock()),
         }
     }
 }

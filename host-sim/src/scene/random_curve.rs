@@ -2,7 +2,6 @@
 //! it.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::Error;
 use attractor::curve::{Stop, Subdivision, coast, koch};
@@ -22,6 +21,7 @@ use crate::color::Depth;
 use crate::fail::Fail;
 use crate::palette::Named;
 use crate::source::{Num, Place, Source};
+use crate::table::Csv;
 
 /// The most halvings between two knots.
 const LEVELS: usize = 20;
@@ -165,7 +165,7 @@ impl RandomCurve {
     }
 
     /// `x,y` of the first points.
-    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+    pub(super) fn sample(&self, request: &Request, points: u32, out: &mut Csv) -> Result<(), Fail> {
         let path = self.picture().path(request.size);
         vertices(path.map_err(|error| self.place.fail_at(request.size, error))?, points, out)
     }
