@@ -70,8 +70,10 @@ mod tests {
         }
         // the seam, the poles, and a wide cone
         assert!((at(0.0, 1.0) - 175.0).abs() < 0.1 && (at(1e-6, 1.0) - at(-1e-6, 1.0)).abs() < 0.1);
+        // straight up has no longitude: the seam's
         let pole = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
-        assert!((panorama.light(pole, Unit::ZERO).g.to_num::<f64>() * 255.0 - 225.0).abs() < 30.0);
+        let light = panorama.light(pole, Unit::ZERO).g.to_num::<f64>() * 255.0;
+        assert!((light - 175.0).abs() < 0.1, "{light}");
         let level = Vec3::new(Unit::ONE, Unit::ZERO, Unit::ZERO);
         // without coarser levels two texels at most
         let wide = panorama.light(level, Unit::ONE).g.to_num::<f64>() * 255.0;
