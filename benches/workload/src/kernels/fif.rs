@@ -28,6 +28,12 @@ pub(super) fn dyadic(watch: &mut Watch<'_>) -> Tally {
 }
 
 #[inline(never)]
+pub(super) fn compiled(watch: &mut Watch<'_>) -> Tally {
+    let Some(f) = figure_1().and_then(|f| f.compiled()).ok() else { return Tally::default() };
+    watch.over(&PLACES, |u| f.at(Angle::from_bits(u)).to_bits() as u32)
+}
+
+#[inline(never)]
 pub(super) fn any(watch: &mut Watch<'_>) -> Tally {
     let Ok(f) = figure_1() else { return Tally::default() };
     watch.over(&PLACES, |u| f.at(Wide::from_bits(i64::from(u) << 17)).to_bits() as u32)
@@ -170,7 +176,7 @@ macro_rules! by_level {
 }
 
 by_level!(dyadic_level of dyadic, dyadic_level_f32 of dyadic_f32, dyadic_level_f64 of dyadic_f64);
-by_level!(any_level of any, any_level_f32 of any_f32, any_level_f64 of any_f64);
+by_level!(compiled_level of compiled, any_level of any, any_level_f32 of any_f32, any_level_f64 of any_f64);
 
 #[cfg(test)]
 mod tests {

@@ -144,6 +144,8 @@ const TABLE: &[Kernel] = &[
     beside("complex sqrt", "call", backward::root, backward::root_f32, backward::root_f64),
     beside("fif dyadic", "call of 24 levels", fif::dyadic, fif::dyadic_f32, fif::dyadic_f64),
     beside("fif dyadic level", "level", fif::dyadic_level, fif::dyadic_level_f32, fif::dyadic_level_f64),
+    beside("fif compiled", "call of 24 levels", fif::compiled, fif::any_f32, fif::any_f64),
+    beside("fif compiled level", "level", fif::compiled_level, fif::any_level_f32, fif::any_level_f64),
     beside("fif", "call at any abscissa", fif::any, fif::any_f32, fif::any_f64),
     beside("fif level", "level", fif::any_level, fif::any_level_f32, fif::any_level_f64),
     alone("fif integrate", "function of 2 maps", fif::integrate),
