@@ -95,7 +95,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::super::bounds::LEVELS;
     use super::*;
     use crate::fif::Knot;
@@ -278,7 +278,7 @@ pub(super) mod tests {
     }
 
     /// `x^2 / 4` over `[0, 3]`, in two parts that meet at 1.
-    pub(crate) fn parabola(alphas: [f64; 2]) -> Fif<2, 2> {
+    fn parabola(alphas: [f64; 2]) -> Fif<2, 2> {
         // q_j(x) = (L_j(x)^2 - alpha_j x^2) / 4, L_1(x) = x / 3, L_2(x) = 1 + 2 x / 3
         let q = [[0.0, 0.0, 1.0 / 9.0 - alphas[0]], [1.0, 4.0 / 3.0, 4.0 / 9.0 - alphas[1]]];
         let q = q.map(|q| q.map(|c: f64| Wide::from_num(c / 4.0)));

@@ -38,12 +38,14 @@ pub(crate) fn in_range(what: &'static str, index: Option<usize>, y: Wide) -> Res
 }
 
 /// As many fractional bits as a word has room for above numbers up to `largest`, 20 to 30.
+#[inline(never)]
 pub(super) fn fraction_for(largest: u64) -> u32 {
     let integer_bits = (64 - largest.leading_zeros()).saturating_sub(FRACTION_Q55);
     31_u32.saturating_sub(integer_bits).clamp(20, 30)
 }
 
 /// The nearest word with so many fractional bits, saturated.
+#[inline(never)]
 pub(super) fn word(value: i64, fraction: u32) -> i32 {
     round_shift(value, FRACTION_Q55 - fraction).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
 }

@@ -124,7 +124,7 @@ const TABLE: &[Kernel] = &[
     roomy(alone("density with maps", "point", ifs::density_with_maps)),
     alone("ifs", "fern set up", ifs::system),
     alone("bounds", "fern", ifs::bounds),
-    alone("moments", "fern", ifs::moments),
+    roomy(alone("moments", "fern", ifs::moments)),
     beside("copied point", "image of one point", ifs::copied_point, ifs::copied_f32, ifs::copied_f64),
     alone("copied path", "point of an image of four", ifs::copied_path),
     beside("koch", "vertex of order 6", curve::koch_fixed, curve::koch_f32, curve::koch_f64),
