@@ -117,9 +117,9 @@ impl<const N: usize, const D: usize> Compiled<N, D> {
     ///
     /// Error: at most [`Compiled::error_bound`] at a place no further than [`Compiled::abscissa_bound`] from
     /// `u` (`a_compiled_value_is_exact_at_a_place_beside`). Cost: 22.3 Cortex-M4 instructions
-    /// (kernel `fif compiled level`) a level for two maps of degree 1, 5 more for each doubling of `N`, 2 for each
-    /// further power; the same number of levels for every place whose pre-images do not meet the left end,
-    /// and never more than 32,768: 31 for two equal maps with scalings of a half.
+    /// (kernel `fif compiled level`) a level for two maps of degree 1, some 5 more for each doubling of `N`
+    /// and 2 for each further power; the same number of levels for every place whose pre-images do not meet
+    /// the left end, and never more than 32,768: 31 for two equal maps with scalings of a half.
     #[inline]
     pub fn at(&self, u: Angle) -> Real {
         real(self.walk(u.to_bits()), self.fraction)
