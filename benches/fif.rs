@@ -40,6 +40,10 @@ fn evaluation(criterion: &mut Criterion) {
     group.bench_function("Dyadic::at, G", |b| {
         b.iter(|| places.iter().fold(0, |sum, u| sum ^ fast_integral.at(Angle::from_bits(*u)).to_bits()));
     });
+    let fast = g.compiled().expect("two halves");
+    group.bench_function("Compiled::at, g", |b| {
+        b.iter(|| places.iter().fold(0, |sum, u| sum ^ fast.at(Angle::from_bits(*u)).to_bits()));
+    });
     // start of the interval, constant and linear coefficient, scaling
     let maps = black_box([[0.0, 0.0, 1.0, 0.85], [0.5, 1.0, -1.0, -0.85]]);
     assert!((plain(&maps, places[0]) - exact.at(floats[0])).abs() < 1e-6, "the plain walk is no walk");

@@ -246,6 +246,18 @@ fn functions() -> Vec<Row> {
             ));
         }
     }
+    for example in dyadic_examples() {
+        let (fast, exact) = (example.fixed().compiled().expect(example.name), example.exact());
+        let (x0, xn) = (example.knots[0].0, example.knots[example.knots.len() - 1].0);
+        let name: &'static str = Box::leak(format!("Compiled::at ({})", example.name).into_boxed_str());
+        let off = |u: f64| {
+            let bits = (u * two_to(32)) as u32;
+            let x = x0 + f64::from(bits) / two_to(32) * (xn - x0);
+            fast.at(Angle::from_bits(bits)).to_num::<f64>() - exact.at(x)
+        };
+        let bound = fast.error_bound().to_num();
+        rows.push(row(name, "I8F24", bound, places().filter(|u| *u < 1.0).map(off)));
+    }
     let rough = &dyadic_examples()[1];
     let (fixed, exact) = (rough.fixed(), rough.exact());
     rows.push(row(

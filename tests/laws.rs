@@ -1,7 +1,7 @@
 //! What must hold for every function, tried on random ones.
 
 use attractor::fif::{Cell, Fif, Knot, Pyramid};
-use attractor::num::{Real, Scaling, Wide};
+use attractor::num::{Angle, Real, Scaling, Wide};
 use attractor_reference as reference;
 use attractor_tests::accuracy::{dyadic_examples, nearest, other_examples, two_to, words};
 use core::cell::Cell as Count;
@@ -293,6 +293,36 @@ fn values_are_exact_at_an_abscissa_within_two_to_the_minus_40() {
         }
         assert_eq!(tried, 1000);
     }
+}
+
+/// The same for functions compiled to words, for places no further than they say; the reference has the same
+/// scalings.
+#[test]
+fn a_compiled_value_is_exact_at_a_place_beside() {
+    let mut telling = 0;
+    for mut example in other_examples() {
+        example.scaling.iter_mut().for_each(|alpha| *alpha = nearest(*alpha).to_num());
+        let (fast, exact) = (example.fixed().compiled().unwrap(), example.exact());
+        let (x0, xn) = (example.knots[0].0, example.knots[example.knots.len() - 1].0);
+        let bound = fast.error_bound().to_num::<f64>();
+        let shift = f64::from(fast.abscissa_bound().to_bits());
+        assert!(bound < two_to(-20) && shift > 0.0 && shift < 20.0, "{}: {bound} {shift}", example.name);
+        let at = |u: f64| exact.at(x0 + (u / two_to(32)).clamp(0.0, 1.0) * (xn - x0));
+        for w in words(6).take(100) {
+            let u = (w >> 32) as u32;
+            let y = fast.at(Angle::from_bits(u)).to_num::<f64>();
+            // f is continuous: it takes every value between those it takes near u
+            let near = (-300..=300).map(|i| at(f64::from(u) + f64::from(i) / 300.0 * shift));
+            let (min, max) = near.fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
+            assert!(
+                min - bound <= y && y <= max + bound,
+                "{} at {u:#x}: {y} outside [{min}, {max}] by more than {bound}",
+                example.name
+            );
+            telling += u32::from((y - at(f64::from(u))).abs() > bound);
+        }
+    }
+    assert!(telling > 15, "{telling}");
 }
 
 /// The pyramids of the papers' functions exceed the sampled range by less than 2 %.

@@ -10,7 +10,18 @@ use std::vec::Vec;
 const NOT_SERDE: [(&str, &[&str]); 4] = [
     (
         "made from values that are written, by a constructor that keeps only what it computes from them",
-        &["Fif", "Dyadic", "Composite", "Factor", "Camera", "Light", "Ray", "Generator", "JuliaCover"],
+        &[
+            "Fif",
+            "Dyadic",
+            "Compiled",
+            "Composite",
+            "Factor",
+            "Camera",
+            "Light",
+            "Ray",
+            "Generator",
+            "JuliaCover",
+        ],
     ),
     ("the same, with a seed", &["Elbow", "LineToLine", "OneVariable", "TwoVariable"]),
     ("a step on the way to a value", &["Reciprocal", "Alias", "Ending", "OrbitPoint"]),
@@ -19,7 +30,10 @@ const NOT_SERDE: [(&str, &[&str]); 4] = [
 
 /// Why a type is not logged.
 const NOT_DEFMT: [(&str, &[&str]); 3] = [
-    ("as large as a program, or made of what is logged", &["Dyadic", "Composite", "Factor", "JuliaCover"]),
+    (
+        "as large as a program, or made of what is logged",
+        &["Dyadic", "Compiled", "Composite", "Factor", "JuliaCover"],
+    ),
     ("a step on the way to a value", &["Ending", "OrbitPoint"]),
     ("walks along something else, or a function", &["BackwardIteration", "Walk", "FromFn"]),
 ];

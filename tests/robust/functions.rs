@@ -92,6 +92,17 @@ fn exercise<const N: usize, const D: usize>(f: &Fif<N, D>, xs: &[Wide], epsilon:
         }
         fast.error_bound();
     }
+    if let Ok(fast) = f.compiled() {
+        for x in xs {
+            let y = Wide::from(fast.at(Angle::from_bits(x.to_bits() as u32)));
+            let slack = Wide::from(fast.error_bound());
+            assert!(
+                Wide::from(low) - slack <= y && y <= Wide::from(high) + slack,
+                "{y} outside {low} to {high}"
+            );
+        }
+        fast.abscissa_bound();
+    }
 }
 
 /// A pyramid's levels for `maps` maps: few enough cells.

@@ -72,9 +72,9 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Checks coefficients and range.
+    /// Checks coefficients and range. Walks of a function whose polynomials are curved end with the scalings.
     #[inline(never)]
-    pub(super) fn of(images: &[Image]) -> Result<Self, Error> {
+    pub(super) fn of(images: &[Image], curved: bool) -> Result<Self, Error> {
         let mut bounds = Self::default();
         let (mut widest, mut steepest, mut largest) = (0, 0, 0);
         for (index, image) in images.iter().enumerate() {
@@ -93,7 +93,7 @@ impl Bounds {
         if extreme.unsigned_abs() >= LIMIT as u64 {
             return Err(limit("range of the function", None, extreme, LIMIT));
         }
-        bounds.levels = levels(widest, steepest);
+        bounds.levels = levels(if curved { ONE_UQ63 } else { widest }, steepest);
         Ok(bounds)
     }
 }
@@ -197,7 +197,7 @@ mod tests {
             let image = image(scaling, (constant * 2_f64.powi(55)) as i64, 0);
             let alpha = f64::from(scaling) / 2_f64.powi(31);
             let exact = constant / (1.0 - alpha);
-            let bounds = Bounds::of(&[image]).unwrap();
+            let bounds = Bounds::of(&[image], false).unwrap();
             let [low, high] = [bounds.range.0, bounds.range.1].map(|end| end as f64 / 2_f64.powi(55));
             assert!(low <= exact && exact <= high, "{alpha}: {exact} outside [{low}, {high}]");
             assert!(high - low < 2_f64.powi(-8) / (1.0 - alpha.abs()), "{alpha}: [{low}, {high}]");
@@ -220,7 +220,7 @@ mod tests {
     /// The range of a function ends below 128, the sum of a map's coefficients below 256.
     #[test]
     fn limits_are_where_the_format_ends() {
-        let what = |maps: &[Image]| match Bounds::of(maps) {
+        let what = |maps: &[Image]| match Bounds::of(maps, false) {
             Ok(_) => None,
             Err(Error::OutOfRange { what, .. }) => Some(what),
             Err(other) => panic!("{other:?}"),
@@ -249,7 +249,7 @@ mod tests {
                 image(scalings[0], i64::from(k) << 45, i64::from(k % 11) << 52),
                 image(scalings[1], -(i64::from(k % 7) << 52), i64::from(k) << 40),
             ];
-            let Ok(bounds) = Bounds::of(&maps) else { continue };
+            let Ok(bounds) = Bounds::of(&maps, false) else { continue };
             let (mut low, mut high) = (0.0_f64, 0.0_f64);
             let real = |v: i64| v as f64 / 2_f64.powi(55);
             for _ in 0..200_000 {
@@ -286,7 +286,7 @@ mod tests {
         let (a, b) = (wide(ONE_UQ63 / 4 * 3, i32::MAX - (1 << 29)), wide(ONE_UQ63 / 4, 1 << 20));
         for maps in [[a, b], [b, a]] {
             // a scaling just below 3/4
-            assert_eq!(Bounds::of(&maps).unwrap().levels, 28 * 4);
+            assert_eq!(Bounds::of(&maps, false).unwrap().levels, 28 * 4);
         }
     }
 }

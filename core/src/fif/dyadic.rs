@@ -12,7 +12,7 @@ use heapless::Vec;
 use super::compose::Composite;
 use super::error::up;
 use super::function::Fif;
-use super::value::{FRACTION_Q55, ONE_UQ63};
+use super::value::{FRACTION_Q55, ONE_UQ63, fraction_for, real, word};
 use crate::num::{Angle, Real, mul_high_u, product, ratio, round_shift};
 
 /// One map in 32-bit words.
@@ -127,12 +127,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let powers = map.q.powers.iter().fold(0_i64, |s, c| s.saturating_add(c.saturating_abs()));
             largest = largest.max(powers);
         }
-        // words with `fraction` bits: largest * 2^(fraction - 55) < 2^31
-        let integer_bits = (64 - largest.leading_zeros()).saturating_sub(FRACTION_Q55);
-        let fraction = 31_u32.saturating_sub(integer_bits).clamp(20, 30);
-        let word = |v: i64| {
-            round_shift(v, FRACTION_Q55 - fraction).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
-        };
+        let fraction = fraction_for(largest.unsigned_abs());
         let mut maps = Vec::new();
         let mut errors = Errors { unit: 1 << (FRACTION_Q55 - fraction), value, step: 0, steepest: 0 };
         for address in 0..1_usize << bits {
@@ -146,14 +141,21 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let words = Words {
                 constant: constant.wrapping_add(1 << 30),
                 scaling: round_shift(map.scaling, 32).min(i64::from(i32::MAX)) as i32,
-                powers: map.q.powers.map(word),
+                powers: map.q.powers.map(|c| word(c, fraction)),
             };
             errors.add(&map, &words);
             // 2^bits <= M: never full
             let _ = maps.push(words);
         }
         let error = errors.bound(D as u64 + 1, digits as u64);
-        Some(Dyadic { maps, bits, per_bits: per_bits(bits), fraction, first: word(self.first), error })
+        Some(Dyadic {
+            maps,
+            bits,
+            per_bits: per_bits(bits),
+            fraction,
+            first: word(self.first, fraction),
+            error,
+        })
     }
 }
 
@@ -208,16 +210,6 @@ impl<const M: usize, const D: usize> Dyadic<M, D> {
         }
         y
     }
-}
-
-/// As [`crate::num::real_from`], without its 64 bits.
-#[inline(always)]
-fn real(word: i32, fraction: u32) -> Real {
-    Real::from_bits(match fraction.checked_sub(24) {
-        Some(0) => word,
-        Some(places) => (word >> (places & 31)) + ((word >> ((places - 1) & 31)) & 1),
-        None => word.saturating_mul(1 << ((24 - fraction) & 31)),
-    })
 }
 
 /// `2^9 / bits`, rounded up.

@@ -4,7 +4,8 @@
 //! the abscissa: places and knots of the unit interval have 63 bits and a pre-image is low by up to `2^-60`,
 //! so that elsewhere than on a dyadic partition the value is that of a point near `x`. Traced back along the
 //! address it lies within `2^-60 (1 + a + a a' + ...)` of `x`, `a, a', ...` the widths of the maps; there a
-//! rough function may differ much.
+//! rough function may differ much. A walk that ends in a cell less than `2^-63` wide takes the value from the
+//! chord of the cell; the graph crosses the chord in the cell, so that it is exact there as well.
 //!
 //! How much follows from the maps. Over a cell of width `W` values differ by at most `C W^h` for any `h` in
 //! `(0, 1]` with `a_j^h > |alpha_j|` and `C` no less than `max f - min f` and
@@ -76,17 +77,17 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     }
 
     /// The largest magnitude of the scalings, 63 fractional bits.
-    fn steepest(&self) -> u64 {
+    pub(super) fn steepest(&self) -> u64 {
         self.maps.iter().map(|m| m.scaling.unsigned_abs()).max().unwrap_or(0)
     }
 
     /// `max f - min f`, 55 fractional bits.
-    fn spread(&self) -> u64 {
+    pub(super) fn spread(&self) -> u64 {
         self.range.1.abs_diff(self.range.0)
     }
 
     /// The largest magnitude of a polynomial's slope, 55 fractional bits, rounded up.
-    fn slope(&self) -> u64 {
+    pub(super) fn slope(&self) -> u64 {
         let slope = |q: &super::polynomial::Polynomial<D>| q.derivative().norm().unsigned_abs();
         self.maps.iter().map(|m| slope(&m.q)).max().unwrap_or(0).saturating_add(1 << (FRACTION_Q55 - 47))
     }

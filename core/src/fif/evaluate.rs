@@ -2,16 +2,20 @@
 //!
 //! `f(x) = q_j1(u_1) + alpha_j1 q_j2(u_2) + alpha_j1 alpha_j2 q_j3(u_3) + ...`, `u_k` the `k`-th pre-image of
 //! `x`. The walk ends exactly where a pre-image is an end of the domain (after finitely many maps for a
-//! dyadic abscissa on a dyadic partition), or when the product of the horizontal factors is below `2^-63`
-//! (then the value is exact at an abscissa no further away than that), or when that of the scalings is below
-//! `2^-40`, or after [`super::bounds::LEVELS`] maps. How far the value can then be from that at `x`:
-//! `error.rs`.
+//! dyadic abscissa on a dyadic partition), or when the product of the horizontal factors is below `2^-63`, or
+//! when that of the scalings is below `2^-40`, or after [`super::bounds::LEVELS`] maps. How far the value can
+//! then be from that at `x`: `error.rs`.
+//!
+//! At the end the function is replaced by its chord, the straight line between its end points. All terms are
+//! straight then over the cell of the address, and the value lies on the chord of that cell: the graph, which
+//! is continuous, crosses it, and the value is exact at an abscissa of the cell. Where polynomials are curved
+//! it need not be; such a walk goes on until the scalings are below `2^-40`.
 //!
 //! Source: Cochran, Lewis, Hart, eq. 17.
 
 use super::function::Fif;
 use super::map::{first_step, map_at};
-use super::polynomial::by_scaling;
+use super::polynomial::{by_scaling, product_q55};
 use super::value::{FRACTION_Q55, ONE_UQ63, wide};
 use crate::num::{Real, Wide, mul_high, ratio, real_from};
 
@@ -40,8 +44,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// `values_are_exact_at_an_abscissa_within_two_to_the_minus_40`). Cost: 106 Cortex-M4 instructions
     /// (kernel `fif level`) a level on two equal intervals; at most 63 levels for two equal maps, as many as
     /// it takes until the product of the widths is below `2^-63` or that of the scalings below `2^-40`
-    /// elsewhere, and never more than 32,768; [`super::Dyadic`] takes 7.2 (kernel `fif dyadic level`) where
-    /// the partition is dyadic.
+    /// elsewhere, and never more than 32,768; [`super::Compiled`] takes fewer, and [`super::Dyadic`] 7.2
+    /// (kernel `fif dyadic level`) where the partition is dyadic.
     pub fn at(&self, x: Wide) -> Real {
         real_from(self.evaluate(self.unit(x)), FRACTION_Q55)
     }
@@ -69,9 +73,18 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             scaling = by_scaling(scaling, map.scaling);
             left -= map.per_width.halvings() as i32;
             levels -= 1;
+            if D > 1 && left < 0 && self.is_curved() {
+                left = VANISHED;
+            }
         }
-        let end = if u < ONE_UQ63 / 2 { self.first } else { self.last };
-        sum.wrapping_add(mul_high(scaling, end)) << 2
+        let chord = self.first.wrapping_add(product_q55(self.last.wrapping_sub(self.first), u));
+        sum.wrapping_add(mul_high(scaling, chord)) << 2
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn is_curved(&self) -> bool {
+        self.degree() > 1
     }
 
     /// The value at the place `numerator / denominator` of the domain, as a point's ordinate.
@@ -186,8 +199,8 @@ mod tests {
                 assert!(off(near_an_end) < 1 << 74, "{near_an_end:#x}: {}", off(near_an_end));
             }
         }
-        // the nearer end is 0
-        let left_out = value(third) >> 41;
+        // the chord there is 8
+        let left_out = (value(third) - (8 << 118)) >> 41;
         assert!(worst > left_out - (1 << 74) && worst < left_out + (1 << 74), "{worst} {left_out}");
     }
 
@@ -261,6 +274,55 @@ mod tests {
             let exact = 1.0 + sum + weight * (value(1.0 - d) - 1.0);
             // what the first part makes of a place that is known to 2^-50
             assert!((got - exact).abs() < 2e-3 * weight + 1e-9, "{k}: {got} against {exact}, {weight}");
+        }
+    }
+
+    /// `x^2 / 4` over `[0, 3]`, in two parts that meet at 1.
+    fn parabola(alphas: [f64; 2]) -> Fif<2, 2> {
+        // q_j(x) = (L_j(x)^2 - alpha_j x^2) / 4, L_1(x) = x / 3, L_2(x) = 1 + 2 x / 3
+        let q = [[0.0, 0.0, 1.0 / 9.0 - alphas[0]], [1.0, 4.0 / 3.0, 4.0 / 9.0 - alphas[1]]];
+        let q = q.map(|q| q.map(|c: f64| Wide::from_num(c / 4.0)));
+        let scalings = alphas.map(Scaling::from_num);
+        Fif::from_polynomials(&[0, 1, 3].map(Wide::from_num), &scalings, &[&q[0], &q[1]]).unwrap()
+    }
+
+    /// Walks end in cells, where scalings near 1 leave much of the function: its chord is not left out.
+    #[test]
+    fn a_straight_line_and_a_parabola_are_their_own_values() {
+        let mut state = 5_u64;
+        let mut place = |from: f64, to: f64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            from + (state >> 16) as f64 / 2_f64.powi(48) * (to - from)
+        };
+        // a bound of the range is as high as the line over 1 - max|alpha|
+        for (alpha, height) in [(0.5, 1.0), (0.99, 1.0), (-0.999, 0.125)] {
+            for xs in [[0, 1, 3], [0, 7, 8], [-5, 7, 8]] {
+                let line = xs.map(|x| Knot::new(Wide::from_num(x), Wide::from_num(x as f64 / 16.0 * height)));
+                let scalings = [alpha, 0.9].map(Scaling::from_num);
+                let f = Fif::<2, 1>::interpolating(&line, &scalings).unwrap();
+                let wider = Fif::<2, 2>::interpolating(&line, &scalings).unwrap();
+                let bound = f.error_bound().to_num::<f64>();
+                assert!(bound < 1e-4, "{alpha} {xs:?}: {bound}");
+                for _ in 0..200 {
+                    let x = place(xs[0] as f64, xs[2] as f64);
+                    let y = f.at(Wide::from_num(x));
+                    let off = y.to_num::<f64>() - x / 16.0 * height;
+                    assert!(off.abs() <= bound, "{alpha} {xs:?} at {x}: {off} of {bound}");
+                    assert_eq!(wider.at(Wide::from_num(x)), y);
+                }
+            }
+        }
+        // up to 9/4, and a bound of its range that is twenty times as high
+        for alpha in [0.5, 0.95, -0.95] {
+            let f = parabola([alpha, 0.9]);
+            // what scalings of 31 bits make of the polynomials, over 1 - max|alpha|
+            let bound = f.error_bound().to_num::<f64>() + 2e-9 / (1.0 - f.max_scaling().to_num::<f64>());
+            assert!(bound < 1e-3, "{alpha}: {bound}");
+            for _ in 0..200 {
+                let x = place(0.0, 3.0);
+                let off = f.at(Wide::from_num(x)).to_num::<f64>() - x * x / 4.0;
+                assert!(off.abs() <= bound, "{alpha} at {x}: {off} of {bound}");
+            }
         }
     }
 }

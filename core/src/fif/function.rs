@@ -219,7 +219,8 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let _ = images.push(Image::of(map));
             let _ = starts.push((map.start >> 32) as u32);
         }
-        let Bounds { first, last, range, levels } = Bounds::of(&images)?;
+        let curved = maps.iter().any(|map| map.q.degree() > 1);
+        let Bounds { first, last, range, levels } = Bounds::of(&images, curved)?;
         Ok(Self { maps, starts, x0, width, per_width, first, last, range, levels })
     }
 

@@ -14,6 +14,7 @@
 mod bounds;
 mod calculus;
 mod chaos;
+mod compiled;
 mod compose;
 mod dyadic;
 mod error;
@@ -27,6 +28,7 @@ mod surface;
 mod value;
 
 pub use chaos::ChaosGame;
+pub use compiled::Compiled;
 pub use compose::Composite;
 pub use dyadic::Dyadic;
 pub use function::{Fif, Knot};

@@ -36,3 +36,26 @@ pub(crate) fn in_range(what: &'static str, index: Option<usize>, y: Wide) -> Res
         Ok(())
     }
 }
+
+/// As many fractional bits as a word has room for above numbers up to `largest`, 20 to 30.
+#[inline(never)]
+pub(super) fn fraction_for(largest: u64) -> u32 {
+    let integer_bits = (64 - largest.leading_zeros()).saturating_sub(FRACTION_Q55);
+    31_u32.saturating_sub(integer_bits).clamp(20, 30)
+}
+
+/// The nearest word with so many fractional bits, saturated.
+#[inline(never)]
+pub(super) fn word(value: i64, fraction: u32) -> i32 {
+    round_shift(value, FRACTION_Q55 - fraction).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+}
+
+/// As [`crate::num::real_from`], without its 64 bits.
+#[inline(always)]
+pub(super) fn real(word: i32, fraction: u32) -> Real {
+    Real::from_bits(match fraction.checked_sub(24) {
+        Some(0) => word,
+        Some(places) => (word >> (places & 31)) + ((word >> ((places - 1) & 31)) & 1),
+        None => word.saturating_mul(1 << ((24 - fraction) & 31)),
+    })
+}

@@ -49,6 +49,8 @@ fn functions() -> Result<(), Error> {
     if let Some(dyadic) = f.dyadic::<16>() {
         bb((dyadic.at(bb(Angle::ZERO)), dyadic.error_bound()));
     }
+    let compiled = bb(f.compiled())?;
+    bb((compiled.at(bb(Angle::ZERO)), compiled.error_bound(), compiled.abscissa_bound()));
     bb(f.graph(bb(10)).last());
     bb(f.chaos_game(rng()).take(bb(10)).last());
     let mut memory = [Cell::ZERO; Pyramid::cells(2, 4)];
