@@ -10,7 +10,8 @@ mod module;
 mod palette;
 mod surface;
 mod system;
-//mod world;
+mod texture;
+mod world;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -81,10 +82,8 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::Mandelbrot(scene) => escape::mandelbrot(scene, &mut module),
         Kind::Julia(scene) => escape::julia(scene, &mut module),
         Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
-        Kind::Texture(_) => {}
-        Kind::World(scene) => {
-            let _ = scene;
-        }
+        Kind::Texture(scene) => texture::slice(scene, &mut module),
+        Kind::World(scene) => world::world(scene, &mut module),
     }
     module
         .finished(&format!("//! {title}.\n//!\n//! Written by `attractor export{} {name}`.\n", flag(gallery)))

@@ -9,7 +9,7 @@ use attractor::fixed::traits::Fixed;
 use attractor::plane::Point2;
 
 /// Where the names come from that a module may use.
-const NAMES: [(&str, &str); 18] = [
+const NAMES: [(&str, &str); 17] = [
     ("attractor", "Error"),
     ("attractor::curve", "Elbow Generator LSystem LineToLine OneVariable Stop TwoVariable"),
     (
@@ -23,15 +23,20 @@ const NAMES: [(&str, &str); 18] = [
     ("attractor::fif", "Fif Knot"),
     ("attractor::ifs", "Affine Ifs"),
     ("attractor::num", "Affine3 Angle Complex Limbs Lumen Near Parameter Real Rgb Scaling Unit Vec3 Wide"),
-    ("attractor::plane", "Field Point2"),
-    ("attractor::trace", "Camera Environment Extent Filter HeightField Light Finish RayCaster Sampling"),
-    ("attractor::trace::material", "Anisotropic Medium Mixture Phong TorranceSparrow"),
+    ("attractor::plane", "Bounds2 Field Point2 Window"),
+    (
+        "attractor::trace",
+        "Camera Environment Extent Filter HeightField Light Finish Panorama RayCaster Sampling Sky Tiles",
+    ),
+    ("attractor::trace::material", "Anisotropic Clear Medium Mixture Phong TorranceSparrow"),
     (
         "attractor::trace::solid",
         "Cube Moved Placed Plane Polygon Polyhedron Sphere Square Superellipsoid TaperedCylinder Torus",
     ),
-    ("attractor::trace::surroundings", ""),
-    ("attractor::trace::texture", "Checker Marble Mottle Noise Spline Turbulence Wood"),
+    (
+        "attractor::trace::texture",
+        "Bumpy Checker Facets Framed Image Lookup Mapped Marble Mottle Noise Relief Rough Slice Spline Texels Turbulence Wood",
+    ),
     ("attractor::trace::world", "Lamp Leaf Object Op World WorldCaster"),
     ("attractor_gallery", "Method Named Pencil Shading"),
     ("attractor::curve", "catalogue"),

@@ -3,33 +3,14 @@
 //! Only what a world has is named, so that no more is linked: its own enums of shapes and materials, or the
 //! one type itself where there is but one.
 
-use attractor::num::{Real, Rgb, Vec3};
+use attractor::num::{Near, Real, Rgb};
 use attractor::trace::Filter;
 use attractor::trace::world::Op;
 
 use super::module::{Module, lit, lits};
 use super::surface::camera;
-use crate::scene::world::{Around, Figure, Colored, Gloss, Light, Matter, Stand, Step, WorldScene};
-
-/// An expression that is evaluated at compile time.
-fn constant(expression: String) -> String {
-    format!("const {{ {expression} }}")
-}
-
-fn vector(v: Vec3) -> String {
-    constant(lits("Vec3", [v.x, v.y, v.z]))
-}
-
-fn color(light: Rgb) -> String {
-    match light {
-        Rgb::BLACK => "Rgb::BLACK".to_owned(),
-        Rgb::WHITE => "Rgb::WHITE".to_owned(),
-        Rgb { r, g, b } => {
-            let [r, g, b] = [r, g, b].map(|part| lit("Lumen", part));
-            constant(format!("Rgb::new({r}, {g}, {b})"))
-        }
-    }
-}
+use super::texture::{self, color, constant, vector};
+use crate::scene::world::{Around, Colored, Figure, Gloss, Light, Matter, Stand, Step, WorldScene};
 
 /// The map of a part.
 fn map(steps: &[Step]) -> String {
@@ -48,6 +29,22 @@ fn map(steps: &[Step]) -> String {
     let mut steps = steps.iter().map(step);
     let first = steps.next().unwrap_or_else(|| "Affine3::IDENTITY".to_owned());
     steps.fold(first, |map, step| format!("{map}.then(&{step})"))
+}
+
+/// A shape as an expression.
+fn shape(figure: &Figure) -> String {
+    let list = |rows: Vec<String>| format!("[{}]", rows.join(", "));
+    match figure {
+        Figure::Polygon { corners, .. } => {
+            let corners = corners.iter().map(|corner| lits("Vec3", [corner.x, corner.y, corner.z])).collect();
+            format!("Polygon::new(&{})?", constant(list(corners)))
+        }
+        Figure::TaperedCylinder { cap, .. } => {
+            format!("TaperedCylinder::new({})?", constant(lit("Real", *cap)))
+        }
+        Figure::Torus(torus) => format!("Torus::new({})?", constant(lit::<Near>("Near", torus.tube()))),
+        other => other.kind().0,
+    }
 }
 
 /// The one type of a list, or an enum of them by a macro of core; and what turns a value of a type into one of
@@ -93,8 +90,8 @@ impl Choice {
 /// Variant and type of a pigment with a highlight.
 fn kind(scene: &WorldScene, matter: &Matter) -> (String, String) {
     let (pigment, pigment_kind) = match matter.pigment {
-        Colored::Color(_) => ("Plain", "Rgb"),
-        Colored::Texture(number) => scene.world.textures[number].kind(),
+        Colored::Color(_) => ("Plain", "Rgb".to_owned()),
+        Colored::Texture(number) => texture::kind(&scene.world.textures[number]),
     };
     let (gloss, gloss_kind) = match matter.gloss {
         Gloss::None => ("", "()"),
@@ -102,26 +99,34 @@ fn kind(scene: &WorldScene, matter: &Matter) -> (String, String) {
         Gloss::TorranceSparrow { .. } => ("Rough", "TorranceSparrow"),
         Gloss::Anisotropic { .. } => ("Grained", "Anisotropic"),
     };
-    let kind = match (pigment_kind, gloss_kind) {
-        ("Rgb", "()") => "Mixture".to_owned(),
-        (pigment, "()") => format!("Mixture<{pigment}>"),
-        (pigment, gloss) => format!("Mixture<{pigment}, {gloss}>"),
+    let (clear, inside) = if matter.medium.is_some() { ("Clear", "Clear") } else { ("", "()") };
+    let kind = match (pigment_kind.as_str(), gloss_kind, inside) {
+        ("Rgb", "()", "()") => "Mixture".to_owned(),
+        (pigment, "()", "()") => format!("Mixture<{pigment}>"),
+        (pigment, gloss, "()") => format!("Mixture<{pigment}, {gloss}>"),
+        (pigment, gloss, inside) => format!("Mixture<{pigment}, {gloss}, {inside}>"),
     };
-    (format!("{pigment}{gloss}"), kind)
+    let (mut name, mut kind) = (format!("{pigment}{gloss}{clear}"), kind);
+    if let Some((number, strength)) = matter.frame {
+        let (grain, grain_kind, _) = texture::grain(&scene.world.textures[number], strength);
+        (name, kind) = (format!("{name}{grain}"), format!("Framed<{kind}, {grain_kind}>"));
+    }
+    if let Some((number, strength)) = matter.bump {
+        let (bump, bump_kind, _) = texture::bump(&scene.world.textures[number], strength);
+        (name, kind) = (format!("{name}{bump}"), format!("Bumpy<{kind}, {bump_kind}>"));
+    }
+    (name, kind)
 }
 
 /// A material as an expression.
 fn mixture(scene: &WorldScene, matter: &Matter) -> String {
     let pigment = match matter.pigment {
         Colored::Color(light) => color(light),
-        Colored::Texture(number) => scene.world.textures[number].code(),
+        Colored::Texture(number) => texture::code(&scene.world.textures[number]),
     };
     let unit = |unit| constant(lit("Unit", unit));
-    let mut code = format!(
-        "Mixture::matt({pigment}).with_parts({}, {})?",
-        unit(matter.ambient),
-        unit(matter.diffuse)
-    );
+    let mut code =
+        format!("Mixture::matt({pigment}).with_parts({}, {})?", unit(matter.ambient), unit(matter.diffuse));
     let model = match matter.gloss {
         Gloss::None => None,
         Gloss::Phong { shininess } => Some(format!("Phong {{ shininess: {shininess} }}")),
@@ -142,9 +147,17 @@ fn mixture(scene: &WorldScene, matter: &Matter) -> String {
         let index = constant(lit("Real", medium.index));
         let (priority, fresnel) = (medium.priority, medium.fresnel);
         code += &format!(
-            ".with_medium(Medium {{ index: {index}, priority: {priority}, fresnel: {fresnel} }}, {})?",
+            ".with_interior(Clear::new(Medium {{ index: {index}, priority: {priority}, fresnel: {fresnel} }}, {})?)",
             color(matter.transmit)
         );
+    }
+    if let Some((number, strength)) = matter.frame {
+        let (_, _, grain) = texture::grain(&scene.world.textures[number], strength);
+        code = format!("Framed {{ material: {code}, grain: {grain} }}");
+    }
+    if let Some((number, strength)) = matter.bump {
+        let (_, _, bump) = texture::bump(&scene.world.textures[number], strength);
+        code = format!("Bumpy {{ material: {code}, bump: {bump} }}");
     }
     code
 }
@@ -187,14 +200,20 @@ pub(super) fn world(scene: &WorldScene, module: &mut Module) {
     let parts = scene.figures.iter().zip(&world.programs.parts).zip(&scene.made_of);
     let leaves: Vec<_> = parts
         .map(|((figure, part), materials)| {
-            let placed = format!("Placed::new({}, &{})?", figure.code(), map(&part.steps));
+            let placed = format!("Placed::new({}, &{})?", shape(figure), map(&part.steps));
             let surface = shapes.value(&figure.kind().0, placed);
             let name = world.things[part.thing].prefix(part.thing);
             let name = super::module::comment(name.trim_end_matches('.'));
             (name, format!("Leaf {{ surface: {surface}, materials: &{materials:?} }}"))
         })
         .collect();
-    list(module, "The shapes, each with the numbers of its materials.", "leaves", "Leaf<'static, Thing>", &leaves);
+    list(
+        module,
+        "The shapes, each with the numbers of its materials.",
+        "leaves",
+        "Leaf<'static, Thing>",
+        &leaves,
+    );
     let lamps: Vec<_> =
         world.lights.iter().enumerate().map(|(i, light)| (format!("light {i}"), lamp(light))).collect();
     list(module, "What shines.", "lamps", "Lamp", &lamps);
@@ -219,13 +238,19 @@ fn objects(scene: &WorldScene, module: &mut Module) {
     let boxes: usize = programs.iter().map(|object| object.ops.len()).sum();
     module.constant("How many boxes the objects borrow.", "BOXES", "usize", boxes);
     let names: Vec<String> = (0..programs.len()).map(|k| format!("one_{k}")).collect();
-    let mut lines = vec!["let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);".to_owned()];
+    let mut lines =
+        vec!["let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);".to_owned()];
     for (k, (name, object)) in names.iter().zip(programs).enumerate() {
         let rest = if k + 1 < programs.len() { "boxes" } else { "_" };
         lines.push(format!("let ({name}, {rest}) = boxes.split_at_mut({});", object.ops.len()));
     }
     lines.push("Ok([".to_owned());
-    lines.extend(names.iter().enumerate().map(|(k, name)| format!("    Object::new(PROGRAMS[{k}], surface, {name})?,")));
+    lines.extend(
+        names
+            .iter()
+            .enumerate()
+            .map(|(k, name)| format!("    Object::new(PROGRAMS[{k}], surface, {name})?,")),
+    );
     lines.push("])".to_owned());
     let body: String = lines.iter().map(|line| format!("    {line}\n")).collect();
     module.item(
@@ -237,6 +262,32 @@ fn objects(scene: &WorldScene, module: &mut Module) {
     );
 }
 
+/// Type and expression of the surroundings.
+fn around(around: &Around) -> (&'static str, String) {
+    match around {
+        Around::Plain(light) => ("Rgb", color(*light)),
+        Around::Sky(sky) => {
+            let [zenith, horizon, nadir] = [sky.zenith, sky.horizon, sky.nadir].map(color);
+            ("Sky", format!("Sky {{ zenith: {zenith}, horizon: {horizon}, nadir: {nadir} }}"))
+        }
+        Around::Tiles(tiles) => {
+            let pair = |[a, b]: [Rgb; 2]| format!("[{}, {}]", color(a), color(b));
+            let code = format!(
+                "Tiles {{ ceiling: {}, floor: {}, horizon: {}, scale: {}, fade: {} }}",
+                pair(tiles.ceiling),
+                pair(tiles.floor),
+                color(tiles.horizon),
+                constant(lit("Real", tiles.scale)),
+                constant(lit("Unit", tiles.fade))
+            );
+            ("Tiles", code)
+        }
+        Around::Image(picture) => {
+            ("Panorama<'static>", format!("Panorama::new({})", texture::picture_code(picture)))
+        }
+    }
+}
+
 /// The caster, and what it asks for.
 fn picture(scene: &WorldScene, module: &mut Module) {
     let world = &scene.world;
@@ -244,7 +295,10 @@ fn picture(scene: &WorldScene, module: &mut Module) {
     let rays = usize::from(world.depth) + 2;
     module.item(
         "The picture of the world.",
-        &format!("pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, {}, {crossings}, {rays}>;\n", world.around.kind()),
+        &format!(
+            "pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, {}, {crossings}, {rays}>;\n",
+            around(&world.around).0
+        ),
     );
     let sampling = match (world.samples, world.seed) {
         (1, _) => "Sampling::Centre".to_owned(),
@@ -259,7 +313,7 @@ fn picture(scene: &WorldScene, module: &mut Module) {
         _ => "Filter::Box".to_owned(),
     };
     let mut lines = vec![
-        format!("let caster = Caster::new(world, {}, camera()?, size)?;", world.around.code()),
+        format!("let caster = Caster::new(world, {}, camera()?, size)?;", around(&world.around).1),
         format!("caster.with_sampling({sampling}, {filter})"),
     ];
     if !sampling.contains("seed }") {

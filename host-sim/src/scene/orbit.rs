@@ -9,7 +9,7 @@ use crate::fail::Fail;
 
 /// Where a camera stands, seen from what it looks at; z is up.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Orbit {
+pub(crate) struct Orbit {
     look_at: [f32; 3],
     distance: f32,
     /// Radians about the vertical, and above the horizon.

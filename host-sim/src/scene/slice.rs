@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::io::Write;
 
 use attractor::draw::Srgb;
-use attractor::num::{Real, Wide};
+use attractor::num::Real;
 use attractor::plane::{Bounds2, Field as _, Point2, Window};
 use attractor::trace::texture::Slice;
 use attractor_gallery::{Watch, draw_field};
@@ -182,6 +182,5 @@ mod tests {
         let aside = Motion::Pan { right: 64, up: 0 };
         assert!(scene.go(size, aside).is_ok() && scene.go(size, aside).is_err());
         assert_eq!(scene.place(), "centre = [64, 0]\nwidth = 64\nheight = 0\n");
-        let _: Wide = scene.width.into();
     }
 }

@@ -38,7 +38,7 @@ pub(crate) enum Figure {
     Polygon { corners: Vec<Vec3>, polygon: Box<Polygon<CORNERS>> },
     Sphere,
     Cube,
-    Polyhedron { planes: Vec<(Vec3<Wide>, Wide)>, half_spaces: Vec<HalfSpace> },
+    Polyhedron(Vec<HalfSpace>),
     TaperedCylinder { cap: Real, shape: TaperedCylinder },
     Torus(Torus),
 }
@@ -84,6 +84,26 @@ impl Figure {
         }
     }
 
+    /// Variant and type, as a module of Rust names them.
+    pub(crate) fn kind(&self) -> (String, String) {
+        let name = match self {
+            Self::Plane => "Plane",
+            Self::Square => "Square",
+            Self::Polygon { .. } => "Polygon",
+            Self::Sphere => "Sphere",
+            Self::Cube => "Cube",
+            Self::Polyhedron(_) => "Polyhedron",
+            Self::TaperedCylinder { .. } => "TaperedCylinder",
+            Self::Torus(_) => "Torus",
+        };
+        let kind = match self {
+            Self::Polygon { .. } => format!("Polygon<{CORNERS}>"),
+            Self::Polyhedron(_) => "Polyhedron<'static>".to_owned(),
+            _ => name.to_owned(),
+        };
+        (name.to_owned(), format!("Placed<{kind}>"))
+    }
+
     /// The shape where these steps put it.
     pub(crate) fn placed(&self, steps: &[Step]) -> Result<Solid<'_>, Error> {
         let map = map(steps)?;
@@ -93,7 +113,7 @@ impl Figure {
             Self::Polygon { polygon, .. } => Solid::Polygon(Placed::new(**polygon, &map)?),
             Self::Sphere => Solid::Sphere(Placed::new(Sphere, &map)?),
             Self::Cube => Solid::Cube(Placed::new(Cube, &map)?),
-            Self::Polyhedron { half_spaces, .. } => {
+            Self::Polyhedron(half_spaces) => {
                 Solid::Polyhedron(Placed::new(Polyhedron::new(half_spaces)?, &map)?)
             }
             Self::TaperedCylinder { shape, .. } => Solid::TaperedCylinder(Placed::new(*shape, &map)?),
@@ -103,7 +123,6 @@ impl Figure {
 }
 
 fn polyhedron(source: &Source, planes: &Spanned<Vec<Spanned<[Num; 4]>>>, key: &str) -> Result<Figure, Fail> {
-    let mut given: Vec<(Vec3<Wide>, Wide)> = Vec::new();
     let mut half_spaces = Vec::new();
     for (i, plane) in planes.get_ref().iter().enumerate() {
         let key = format!("{key}[{i}]");
@@ -112,10 +131,9 @@ fn polyhedron(source: &Source, planes: &Spanned<Vec<Spanned<[Num; 4]>>>, key: &s
         let (normal, distance) = (Vec3::new(number(nx, 0)?, number(ny, 1)?, number(nz, 2)?), number(d, 3)?);
         half_spaces
             .push(HalfSpace::new(normal, distance).map_err(|error| source.fail(plane.span(), &key, error))?);
-        given.push((normal, distance));
     }
     Polyhedron::new(&half_spaces).map_err(|error| source.fail(planes.span(), key, error))?;
-    Ok(Figure::Polyhedron { planes: given, half_spaces })
+    Ok(Figure::Polyhedron(half_spaces))
 }
 
 /// The map of steps, the first one first.

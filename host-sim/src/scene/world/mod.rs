@@ -12,12 +12,13 @@ mod placement;
 mod program;
 mod stuff;
 mod surroundings;
-pub(in crate::scene) mod texture;
+pub(crate) mod texture;
 mod view;
 
 pub(crate) use figure::Figure;
 pub(crate) use lamp::{Light, Stand};
 pub(crate) use material::{Colored, Gloss, Matter};
+pub(crate) use picture::Picture;
 pub(crate) use placement::Step;
 pub(crate) use surroundings::Around;
 pub(crate) use view::WorldScene;

@@ -16,7 +16,7 @@ use crate::source::{Num, Source};
 /// A table `[[object]]`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Thing {
+pub(crate) struct Thing {
     pub(super) name: Option<Spanned<String>>,
     pub(super) shape: Spanned<Form>,
     pub(super) scale: Option<Spanned<Scale>>,
@@ -73,11 +73,6 @@ impl Form {
             Self::Difference => ("difference", &["of"]),
         }
     }
-
-    /// Whether it is made of other objects.
-    pub(super) fn is_compound(self) -> bool {
-        matches!(self, Self::Union | Self::Intersection | Self::Difference)
-    }
 }
 
 /// A name, or one for each face.
@@ -121,7 +116,7 @@ pub(super) fn each(names: &Spanned<Names>) -> Vec<Spanned<String>> {
 
 impl Thing {
     /// What messages call it, with a dot at the end.
-    pub(super) fn prefix(&self, index: usize) -> String {
+    pub(crate) fn prefix(&self, index: usize) -> String {
         match &self.name {
             Some(name) => format!("{}.", name.get_ref()),
             None => format!("object[{index}]."),
