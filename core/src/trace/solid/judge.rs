@@ -69,7 +69,7 @@ pub(super) fn rays(seed: u64) -> impl Iterator<Item = NearRay> {
             _ => ((word() >> 32) as i32 >> 3) + ((word() >> 32) as i32 >> 4),
         });
         // begin before or behind it, mostly near
-        let back = if word() % 8 == 0 { 0 } else { (word() >> 32) as i32 >> (3 + word() % 2) };
+        let back = if word().is_multiple_of(8) { 0 } else { (word() >> 32) as i32 >> (3 + word() % 2) };
         let origin = [0, 1, 2].map(|k: usize| {
             place[k].wrapping_sub(((i64::from(direction[k]) * i64::from(back)) >> 28) as i32)
         });
