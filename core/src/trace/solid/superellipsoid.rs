@@ -309,7 +309,7 @@ impl Shape for Superellipsoid {
             return -Wide::ONE;
         }
         // N^m
-        let power = power_of_two(i64::from(norm) * i64::from(self.upright.exponent) >> 24);
+        let power = power_of_two((i64::from(norm) * i64::from(self.upright.exponent)) >> 24);
         Wide::from_bits(power.saturating_sub(Wide::ONE.to_bits()))
     }
 
@@ -574,7 +574,10 @@ mod tests {
         let (mut counts, mut unsure, mut inside, mut worst) = ([0; 17], 0, 0, 0.0_f64);
         for (shape, ray, exact) in rays(kind, seed).take(count) {
             let found = crossings(&shape, &ray, Near::MIN);
-            assert!(found.is_sorted_by_key(|c| c.s) && found.len() % 2 == 0, "{shape:?} {ray:?} {found:?}");
+            assert!(
+                found.is_sorted_by_key(|c| c.s) && found.len().is_multiple_of(2),
+                "{shape:?} {ray:?} {found:?}"
+            );
             assert!(found.iter().enumerate().all(|(k, c)| c.enters == (k % 2 == 0)), "{found:?}");
             assert!(found.len() <= shape.most_crossings() as usize);
             let Some(truth) = exact.crossings() else {
