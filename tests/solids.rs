@@ -54,7 +54,7 @@ fn a_gyroid_ball_is_met_where_its_function_changes_sign() {
             ControlFlow::Continue(())
         });
         let at = |t: f64| exact([-2.0 + t * d[0] - 1.0, 0.5 + t * d[1], 1.0 + t * d[2]]);
-        assert!(crossings.len() % 2 == 0 && crossings.len() <= 16);
+        assert!(crossings.len().is_multiple_of(2) && crossings.len() <= 16);
         assert!(crossings.iter().enumerate().all(|(k, c)| c.1 == (k % 2 == 0)));
         for (t, _) in &crossings {
             worst = worst.max(at(*t).abs());

@@ -103,6 +103,7 @@ mod tests {
 
     #[test]
     fn rays_meet_the_cube_where_they_should() {
+        // every crossing that `cross` hands over is judged
         let seen = judged(30_000);
         assert!(seen.judged > 26_000 && seen.met > 20_000, "{seen:?}");
         assert!(seen.faces[..6].iter().all(|n| *n > 2_000), "{seen:?}");

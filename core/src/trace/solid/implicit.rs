@@ -86,11 +86,12 @@ impl<F: Function> Implicit<F> {
             return Err(Error::OutOfRange { what: "steepness", index: None, value, min, max });
         }
         let [low, high] = bounds.map(|v| [v.x, v.y, v.z]);
+        let two = Near::from_bits(2 << 28);
         for (index, (low, high)) in low.into_iter().zip(high).enumerate() {
-            if low < -2 || low > 2 || high > 2 || high < low {
-                let (what, max) = ("box", Wide::from_num(2));
+            if !(-two..=two).contains(&low) || !(low..=two).contains(&high) {
+                let (what, max) = ("box", Wide::from(two));
                 let (value, min) =
-                    if low < -2 || low > 2 { (low.into(), -max) } else { (high.into(), low.into()) };
+                    if !(-two..=two).contains(&low) { (low.into(), -max) } else { (high.into(), low.into()) };
                 return Err(Error::OutOfRange { what, index: Some(index), value, min, max });
             }
         }
@@ -289,7 +290,7 @@ mod tests {
             let (square, half) = (dot(d, d), dot(o, d) / dot(d, d));
             let root = half * half - (dot(o, o) - 1.0) / square;
             let found = crossings(&shape, &ray, Near::MIN);
-            assert!(found.len() % 2 == 0, "{found:?}");
+            assert!(found.len().is_multiple_of(2), "{found:?}");
             // a 1024th of the way through the box, at most 4.4
             if (0.0..0.000_005).contains(&root) || root < 0.0 && root > -1e-6 {
                 unsure += 1;

@@ -209,6 +209,7 @@ mod tests {
 
     #[test]
     fn rays_meet_a_polygon_where_they_should() {
+        // every crossing that `cross` hands over is judged
         let list = pentagon();
         let polygon = Polygon::<5>::new(&corners(&list)).unwrap();
         let (mut tried, mut met, mut worst) = (0, 0, 0.0_f64);

@@ -228,6 +228,7 @@ mod tests {
 
     #[test]
     fn rays_meet_a_polyhedron_where_they_should() {
+        // every crossing that `cross` hands over is judged
         for planes in [&TETRAHEDRON[..], &PYRAMID] {
             let seen = judged(planes, 15_000);
             assert!(seen.judged > 13_000 && seen.met > 4_000, "{seen:?}");

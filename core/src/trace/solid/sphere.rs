@@ -142,6 +142,7 @@ mod tests {
 
     #[test]
     fn rays_meet_the_sphere_where_they_should() {
+        // every crossing that `cross` hands over is judged
         let seen = judged(40_000);
         assert!(seen.judged > 39_000 && seen.met > 25_000, "{seen:?}");
         assert!(seen.off > 2_f64.powi(-27) && seen.off < 2_f64.powi(-24), "{seen:?}");

@@ -94,6 +94,7 @@ mod tests {
 
     #[test]
     fn rays_meet_the_square_where_they_should() {
+        // every crossing that `cross` hands over is judged
         let (tried, met, worst) = judged(30_000);
         assert!(tried > 25_000 && met > 6_000, "{tried} {met}");
         assert!(worst > 2_f64.powi(-28) && worst < 2_f64.powi(-25), "{worst:e}");

@@ -278,6 +278,7 @@ mod tests {
 
     #[test]
     fn rays_meet_the_tapered_cylinder_where_they_should() {
+        // every crossing that `cross` hands over is judged
         for cap in CAPS {
             let seen = judged(Real::from_num(cap).to_num(), 10_000);
             assert!(seen.judged > 9_000 && seen.met > 4_000, "{cap} {seen:?}");

@@ -502,7 +502,10 @@ mod tests {
             let quartic = exact.quartic();
             let derivative = [quartic[1], 2.0 * quartic[2], 0.0, 1.0];
             let found = crossings(&torus, &ray, Near::MIN);
-            assert!(found.is_sorted_by_key(|c| c.s) && found.len() % 2 == 0, "{torus:?} {ray:?} {found:?}");
+            assert!(
+                found.is_sorted_by_key(|c| c.s) && found.len().is_multiple_of(2),
+                "{torus:?} {ray:?} {found:?}"
+            );
             assert!(found.iter().enumerate().all(|(k, c)| c.enters == (k % 2 == 0)), "{found:?}");
             // from the origin on
             let start = exact.distance(exact.origin);
