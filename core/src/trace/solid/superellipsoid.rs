@@ -508,9 +508,13 @@ mod tests {
         /// Whether it meets an edge of a star, in a plane of symmetry, that none of the parts inside holds: one
         /// thinner than any number here.
         fn meets_an_edge(&self, inside: &[f64]) -> bool {
-            let planes = (0..3).map(|k: usize| -self.origin[k] / self.direction[k]);
             let held = |s: f64| inside.chunks(2).any(|part| part[0] < s && s < part[1]);
-            planes.filter(|s| s.is_finite()).any(|s| self.norm(s) < 1.0 + 2_f64.powi(-18) && !held(s))
+            (0..3).any(|k: usize| {
+                let s = -self.origin[k] / self.direction[k];
+                let mut place = self.at(s);
+                place[k] = 0.0;
+                s.is_finite() && norm(place, self.exponents) < 1.0 + 2_f64.powi(-18) && !held(s)
+            })
         }
 
         /// The least `N` of a ray that misses.
