@@ -66,6 +66,7 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "fish-bowl-outside",
     "fish-bowl-inside",
     "chain",
+    "superellipsoids",
     "wood",
     "marble",
     "cloth",

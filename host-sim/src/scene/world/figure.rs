@@ -4,7 +4,8 @@ use attractor::fif::{Cell, Pyramid};
 use attractor::num::{Affine3, Near, Real, Vec3, Wide};
 use attractor::trace::HeightField;
 use attractor::trace::solid::{
-    Cube, HalfSpace, Moved, Placed, Plane, Polygon, Polyhedron, Sphere, Square, TaperedCylinder, Torus,
+    Cube, HalfSpace, Moved, Placed, Plane, Polygon, Polyhedron, Sphere, Square, Superellipsoid,
+    TaperedCylinder, Torus,
 };
 use attractor::{Error, surfaces};
 use attractor_gallery::surface_depth;
@@ -31,6 +32,7 @@ surfaces! {
         Polyhedron(Placed<Polyhedron<'a>>),
         TaperedCylinder(Placed<TaperedCylinder>),
         Torus(Placed<Torus>),
+        Superellipsoid(Placed<Superellipsoid>),
         HeightField(Moved<HeightField<'a>>),
     }
 }
@@ -46,6 +48,7 @@ pub(crate) enum Figure {
     Polyhedron(Vec<HalfSpace>),
     TaperedCylinder { cap: Real, shape: TaperedCylinder },
     Torus(Torus),
+    Superellipsoid { n: Real, m: Real, shape: Superellipsoid },
     HeightField(Box<[Function; 2]>),
 }
 
@@ -89,9 +92,25 @@ impl Figure {
                 let tube: Near = source.fixed(given, &key("tube"))?;
                 Torus::new(tube).map(Self::Torus).map_err(|error| refused(given.span(), "tube", error))
             }
+            (Form::Superellipsoid, ..) => {
+                let missing = || source.fail(thing.shape.span(), &key("shape"), "n and m are missing");
+                let (n, m) = (thing.n.as_ref().ok_or_else(missing)?, thing.m.as_ref().ok_or_else(missing)?);
+                let numbers = [source.fixed(n, &key("n"))?, source.fixed(m, &key("m"))?];
+                let shape = Superellipsoid::new(numbers[0], numbers[1]).map_err(|error| match error {
+                    Error::OutOfRange { what: "m", .. } => refused(m.span(), "m", error),
+                    _ => refused(n.span(), "n", error),
+                })?;
+                Ok(Self::Superellipsoid { n: numbers[0], m: numbers[1], shape })
+            }
             (Form::HeightField, ..) => height_field(source, thing, prefix),
-            _ => Err(source.fail(thing.shape.span(), &key("shape"), "not yet")),
+            // the keys that a shape needs have been looked for, and compounds are none
+            _ => Err(source.fail(thing.shape.span(), &key("shape"), "a part of it is missing")),
         }
+    }
+
+    /// Whether it is made of lent memory.
+    pub(crate) fn borrows(&self) -> bool {
+        matches!(self, Self::Polyhedron(_) | Self::HeightField(_))
     }
 
     /// Memory for what it lends, on a display with so many pixels a side.
@@ -116,6 +135,7 @@ impl Figure {
             Self::Polyhedron(_) => "Polyhedron",
             Self::TaperedCylinder { .. } => "TaperedCylinder",
             Self::Torus(_) => "Torus",
+            Self::Superellipsoid { .. } => "Superellipsoid",
             Self::HeightField(_) => "HeightField",
         };
         let kind = match self {
@@ -145,6 +165,7 @@ impl Figure {
             }
             Self::TaperedCylinder { shape, .. } => Solid::TaperedCylinder(Placed::new(*shape, &map)?),
             Self::Torus(torus) => Solid::Torus(Placed::new(*torus, &map)?),
+            Self::Superellipsoid { shape, .. } => Solid::Superellipsoid(Placed::new(*shape, &map)?),
             Self::HeightField(profiles) => {
                 let ([f, g], [x, y]) = (&**profiles, cells);
                 let depth = depth(profiles, side);
