@@ -59,6 +59,22 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "julia-dendrite",
     "san-marco",
     "rabbit-outline",
+    "lens",
+    "bowl",
+    "rocket",
+    "glass-spheres",
+    "fish-bowl-outside",
+    "fish-bowl-inside",
+    "chain",
+    "superellipsoids",
+    "wood",
+    "marble",
+    "cloth",
+    "orange",
+    "figure-7",
+    "figure-7-jittered",
+    "clouds",
+    "lava",
 ];
 
 /// The text of a built-in scene.

@@ -28,6 +28,17 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
                [grey] palette, lift, cycle, inside: the colours on displays without colour
   julia        c = [\"re\", \"im\"], and as mandelbrot
   julia-set    c = [\"re\", \"im\"], [points], [method = \"cover\" | \"plain\"], [palette]
+  world        [camera] eye, look_at, [up], [field_of_view]; [[light]] towards or at, [color];
+               [[object]] [name], shape = \"plane\" | \"square\" | \"polygon\" (points) | \"sphere\" | \"cube\" | \"polyhedron\" (planes = [[nx, ny, nz, d], ...]) |
+               \"tapered-cylinder\" ([cap]) | \"torus\" (tube) | \"superellipsoid\" (n, m) | \"height-field\" (f, g) |
+               \"union\" | \"intersection\" | \"difference\" (of = [names]);
+               [scale], [rotate = [[x, y, z, degrees], ...]], [translate] or [matrix] of 12 numbers, [material = name or list, one a face];
+               [material.NAME] color or texture, [ambient], [diffuse], [specular], [model = \"phong\" | \"torrance-sparrow\" | \"anisotropic\"],
+               [shininess] | [roughness], [reflectance] | [roughness], [across]; [reflect]; [index], [transmit], [fresnel], [priority];
+               [bump] and [frame] = { texture, strength }; [texture.NAME] as below; [environment] kind = \"plain\" | \"sky\" | \"checkerboard\" | \"image\";
+               [samples = 1], [filter = \"box\" | \"gaussian\"], [seed], [depth = 5], [interpenetration = \"refuse\" | \"priority\"]; colours \"#rrggbb\" or [r, g, b]
+  texture      [texture] kind = \"checker\" | \"noise\" | \"turbulence\" | \"wood\" | \"marble\" | \"facets\" | \"image\", [colors], [knots], [grain], [octaves], [seed], ...;
+               [centre], [width = 4], [height = 0: the third coordinate, time]
 Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
 ";
 

@@ -31,7 +31,12 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
             let reason = "a directory is for --all; one scene goes to standard output";
             return Err(Fail::new(format_args!("--output {}: {reason}", output.display())));
         }
-        let text = source(&scene::load(name)?, args.gallery);
+        let scene = scene::load(name)?;
+        if !is_exported(&scene) {
+            let reason = "a polyhedron or a height field lends memory, and is not exported";
+            return Err(Fail::new(format_args!("{}: {reason}", scene.name)));
+        }
+        let text = source(&scene, args.gallery);
         std::io::stdout().lock().write_all(text.as_bytes())?;
         return Ok(());
     }
@@ -42,7 +47,10 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
     );
     let mut files = Vec::new();
     for (name, _) in builtin::SCENES {
-        files.push((identifier(name), source(&scene::load(name)?, args.gallery)));
+        let scene = scene::load(name)?;
+        if is_exported(&scene) {
+            files.push((identifier(name), source(&scene, args.gallery)));
+        }
     }
     files.sort();
     index.extend(files.iter().map(|(name, _)| format!("pub mod {name};\n")));
@@ -56,6 +64,14 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
         writeln!(out, "{}", path.display())?;
     }
     Ok(())
+}
+
+/// Whether a module can hold it: what borrows memory while it stands in a world does not stand in one yet.
+fn is_exported(scene: &Scene) -> bool {
+    match &scene.kind {
+        Kind::World(scene) => !scene.figures.iter().any(scene::world::Figure::borrows),
+        _ => true,
+    }
 }
 
 /// The name of a built-in scene as that of a module.

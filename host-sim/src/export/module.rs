@@ -109,10 +109,12 @@ impl Module {
             }
         }
         let mut text = head.to_owned() + "\n";
-        for (path, names) in imports {
-            let names: Vec<&str> = names.into_iter().collect();
-            text.push_str(&import(path, &names));
-        }
+        let mut lines: Vec<String> = imports
+            .into_iter()
+            .map(|(path, names)| import(path, &names.into_iter().collect::<Vec<_>>()))
+            .collect();
+        lines.sort();
+        text.extend(lines);
         format!("{text}\n{items}")
     }
 }

@@ -43,6 +43,10 @@ fn shape(figure: &Figure) -> String {
             format!("TaperedCylinder::new({})?", constant(lit("Real", *cap)))
         }
         Figure::Torus(torus) => format!("Torus::new({})?", constant(lit::<Near>("Near", torus.tube()))),
+        Figure::Superellipsoid { n, m, .. } => {
+            let [n, m] = [n, m].map(|exponent| constant(lit("Real", *exponent)));
+            format!("Superellipsoid::new({n}, {m})?")
+        }
         other => other.kind().0,
     }
 }

@@ -11,9 +11,12 @@ mod fif;
 mod paths;
 mod seed;
 mod sets;
+mod worlds;
 
 use attractor::curve::catalogue::LARGEST;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb565};
+
+use seed::SEED;
 
 use crate::exported as of;
 use crate::scene::{COLOUR, MONO, Scene, colour, mono, roomy};
@@ -81,4 +84,9 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(julia_set!("rabbit-outline", rabbit_outline)),
     julia_set!("julia-dendrite", julia_dendrite),
     julia_set!("san-marco", san_marco),
+    both_roomy(world!("bowl", bowl)),
+    both_roomy(world!("rocket", rocket)),
+    both_roomy(world!("orange", orange)),
+    both_roomy(texture!("clouds", clouds)),
+    both_roomy(texture!("lava", lava)),
 ];

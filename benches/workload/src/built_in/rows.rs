@@ -188,3 +188,30 @@ macro_rules! deep {
         ]
     };
 }
+
+macro_rules! world {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| {
+            let (leaves, materials, lamps) =
+                (of::$scene::leaves()?, of::$scene::materials()?, of::$scene::lamps()?);
+            let mut boxes = [attractor::trace::Extent::NOTHING; of::$scene::BOXES];
+            let objects = of::$scene::objects(&leaves, &mut boxes)?;
+            let world =
+                attractor::trace::world::World::new(&leaves, &objects, &materials)?.with_lamps(&lamps);
+            let caster = of::$scene::caster(world, stage.size(), SEED as u32)?;
+            let bytes = size_of_val(&leaves)
+                + size_of_val(&materials)
+                + size_of_val(&lamps)
+                + size_of::<[attractor::trace::Extent; of::$scene::BOXES]>()
+                + size_of_val(&objects)
+                + size_of_val(&caster);
+            worlds::light::<C>(stage, caster, bytes)
+        })
+    };
+}
+
+macro_rules! texture {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| worlds::texture::<C, _>(stage, of::$scene::picture))
+    };
+}

@@ -1,12 +1,17 @@
 //! The shapes of a world: numbers as the file has them, and core's surfaces that are made of them.
 
+use attractor::fif::{Cell, Pyramid};
 use attractor::num::{Affine3, Near, Real, Vec3, Wide};
+use attractor::trace::HeightField;
 use attractor::trace::solid::{
-    Cube, HalfSpace, Placed, Plane, Polygon, Polyhedron, Sphere, Square, TaperedCylinder, Torus,
+    Cube, HalfSpace, Moved, Placed, Plane, Polygon, Polyhedron, Sphere, Square, Superellipsoid,
+    TaperedCylinder, Torus,
 };
 use attractor::{Error, surfaces};
+use attractor_gallery::surface_depth;
 use toml::Spanned;
 
+use super::super::function::{Description, Function};
 use super::object::{Form, Thing};
 use super::placement::Step;
 use crate::fail::Fail;
@@ -27,6 +32,8 @@ surfaces! {
         Polyhedron(Placed<Polyhedron<'a>>),
         TaperedCylinder(Placed<TaperedCylinder>),
         Torus(Placed<Torus>),
+        Superellipsoid(Placed<Superellipsoid>),
+        HeightField(Moved<HeightField<'a>>),
     }
 }
 
@@ -41,7 +48,12 @@ pub(crate) enum Figure {
     Polyhedron(Vec<HalfSpace>),
     TaperedCylinder { cap: Real, shape: TaperedCylinder },
     Torus(Torus),
+    Superellipsoid { n: Real, m: Real, shape: Superellipsoid },
+    HeightField(Box<[Function; 2]>),
 }
+
+/// Memory for the pyramids of a height field.
+pub(crate) type Cells = [Vec<Cell>; 2];
 
 impl Figure {
     /// The shape of a table that is no compound.
@@ -80,7 +92,35 @@ impl Figure {
                 let tube: Near = source.fixed(given, &key("tube"))?;
                 Torus::new(tube).map(Self::Torus).map_err(|error| refused(given.span(), "tube", error))
             }
-            _ => Err(source.fail(thing.shape.span(), &key("shape"), "not yet")),
+            (Form::Superellipsoid, ..) => {
+                let missing = || source.fail(thing.shape.span(), &key("shape"), "n and m are missing");
+                let (n, m) = (thing.n.as_ref().ok_or_else(missing)?, thing.m.as_ref().ok_or_else(missing)?);
+                let numbers = [source.fixed(n, &key("n"))?, source.fixed(m, &key("m"))?];
+                let shape = Superellipsoid::new(numbers[0], numbers[1]).map_err(|error| match error {
+                    Error::OutOfRange { what: "m", .. } => refused(m.span(), "m", error),
+                    _ => refused(n.span(), "n", error),
+                })?;
+                Ok(Self::Superellipsoid { n: numbers[0], m: numbers[1], shape })
+            }
+            (Form::HeightField, ..) => height_field(source, thing, prefix),
+            // the keys that a shape needs have been looked for, and compounds are none
+            _ => Err(source.fail(thing.shape.span(), &key("shape"), "a part of it is missing")),
+        }
+    }
+
+    /// Whether it is made of lent memory.
+    pub(crate) fn borrows(&self) -> bool {
+        matches!(self, Self::Polyhedron(_) | Self::HeightField(_))
+    }
+
+    /// Memory for what it lends, on a display with so many pixels a side.
+    pub(crate) fn cells(&self, side: u32) -> Cells {
+        match self {
+            Self::HeightField(profiles) => {
+                let depth = depth(profiles, side);
+                [0, 1].map(|k: usize| vec![Cell::ZERO; Pyramid::cells(profiles[k].fixed.maps(), depth)])
+            }
+            _ => [Vec::new(), Vec::new()],
         }
     }
 
@@ -95,6 +135,8 @@ impl Figure {
             Self::Polyhedron(_) => "Polyhedron",
             Self::TaperedCylinder { .. } => "TaperedCylinder",
             Self::Torus(_) => "Torus",
+            Self::Superellipsoid { .. } => "Superellipsoid",
+            Self::HeightField(_) => "HeightField",
         };
         let kind = match self {
             Self::Polygon { .. } => format!("Polygon<{CORNERS}>"),
@@ -104,8 +146,13 @@ impl Figure {
         (name.to_owned(), format!("Placed<{kind}>"))
     }
 
-    /// The shape where these steps put it.
-    pub(crate) fn placed(&self, steps: &[Step]) -> Result<Solid<'_>, Error> {
+    /// The shape where these steps put it, in memory that [`Figure::cells`] gave for as many pixels a side.
+    pub(crate) fn placed<'a>(
+        &'a self,
+        steps: &[Step],
+        cells: &'a mut Cells,
+        side: u32,
+    ) -> Result<Solid<'a>, Error> {
         let map = map(steps)?;
         Ok(match self {
             Self::Plane => Solid::Plane(Placed::new(Plane, &map)?),
@@ -118,6 +165,13 @@ impl Figure {
             }
             Self::TaperedCylinder { shape, .. } => Solid::TaperedCylinder(Placed::new(*shape, &map)?),
             Self::Torus(torus) => Solid::Torus(Placed::new(*torus, &map)?),
+            Self::Superellipsoid { shape, .. } => Solid::Superellipsoid(Placed::new(*shape, &map)?),
+            Self::HeightField(profiles) => {
+                let ([f, g], [x, y]) = (&**profiles, cells);
+                let depth = depth(profiles, side);
+                let (x, y) = (Pyramid::new(&f.fixed, depth, x)?, Pyramid::new(&g.fixed, depth, y)?);
+                Solid::HeightField(Moved::new(HeightField::new(&x, &y)?, &map)?)
+            }
         })
     }
 }
@@ -134,6 +188,30 @@ fn polyhedron(source: &Source, planes: &Spanned<Vec<Spanned<[Num; 4]>>>, key: &s
     }
     Polyhedron::new(&half_spaces).map_err(|error| source.fail(planes.span(), key, error))?;
     Ok(Figure::Polyhedron(half_spaces))
+}
+
+/// How deep the pyramids of both profiles are.
+fn depth(profiles: &[Function; 2], side: u32) -> u32 {
+    let [f, g] = profiles;
+    surface_depth([f.fixed.maps(), g.fixed.maps()], None, side)
+}
+
+fn height_field(source: &Source, thing: &Thing, prefix: &str) -> Result<Figure, Fail> {
+    let (Some(f), Some(g)) = (&thing.f, &thing.g) else {
+        return Err(source.fail(thing.shape.span(), &format!("{prefix}shape"), "f and g are missing"));
+    };
+    for (name, given) in [("f", f), ("g", g)] {
+        let knots = &given.get_ref().knots;
+        if knots.get_ref().len() == 2 {
+            let reason =
+                "a surface is cut into ever smaller parts: it takes two maps at least, that is three knots";
+            return Err(source.fail(knots.span(), &format!("{prefix}{name}.knots"), reason));
+        }
+    }
+    let profile = |given: &Spanned<Description>, name: &str| {
+        given.get_ref().compile(source, &format!("{prefix}{name}."))
+    };
+    Ok(Figure::HeightField(Box::new([profile(f, "f")?, profile(g, "g")?])))
 }
 
 /// The map of steps, the first one first.

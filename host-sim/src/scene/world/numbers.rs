@@ -18,6 +18,9 @@ use crate::fail::Fail;
 use crate::lines::Lines;
 use crate::number::exact;
 
+/// Height fields are as fine as for so many pixels.
+const SIDE: u32 = 1024;
+
 const RAY: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
 /// What is no ray of a world.
@@ -100,13 +103,21 @@ fn changes(ops: &[Op], surfaces: &[Solid<'_>], ray: &Ray) -> Vec<Change> {
 /// Every crossing of every object by the rays of a file.
 pub(super) fn crossings(scene: &WorldScene, file: &Path, out: &mut dyn Write) -> Result<(), Fail> {
     let rays = Lines::of("--rays", file, RAY).read(file, check)?;
-    let surfaces = scene.surfaces()?;
+    scene.with_surfaces(SIDE, |surfaces| listed(scene, &rays, &surfaces, out))
+}
+
+fn listed(
+    scene: &WorldScene,
+    rays: &[[Real; 6]],
+    surfaces: &[Solid<'_>],
+    out: &mut dyn Write,
+) -> Result<(), Fail> {
     writeln!(out, "ray,crossing,t,object,face,enters,x,y,z,nx,ny,nz,u,v")?;
-    for (number, given) in rays.into_iter().enumerate() {
-        let ray = ray(given);
+    for (number, given) in rays.iter().enumerate() {
+        let ray = ray(*given);
         let mut all = Vec::new();
         for (object, program) in scene.world.programs.objects.iter().enumerate() {
-            all.extend(changes(&program.ops, &surfaces, &ray).into_iter().map(|change| (change, object)));
+            all.extend(changes(&program.ops, surfaces, &ray).into_iter().map(|change| (change, object)));
         }
         all.sort_by(|(a, _), (b, _)| a.crossing.t.cmp(&b.crossing.t).then(Ordering::Equal));
         for (count, (Change { crossing, leaf, enters }, object)) in all.iter().enumerate() {
@@ -140,8 +151,18 @@ pub(super) fn along(scene: &WorldScene, text: &str, points: u32, out: &mut dyn W
     let [given] = rays.as_slice() else {
         return Err(Fail::new(format_args!("--along: {} lines, one ray is asked for", rays.len())));
     };
-    let (ray, surfaces) = (ray(*given), scene.surfaces()?);
-    let (from, to) = span(&surfaces, &ray);
+    let ray = ray(*given);
+    scene.with_surfaces(SIDE, |surfaces| curve(scene, &ray, &surfaces, points, out))
+}
+
+fn curve(
+    scene: &WorldScene,
+    ray: &Ray,
+    surfaces: &[Solid<'_>],
+    points: u32,
+    out: &mut dyn Write,
+) -> Result<(), Fail> {
+    let (from, to) = span(surfaces, ray);
     let mut head = csv::Writer::from_writer(Vec::new());
     let names = (0..scene.world.programs.objects.len()).map(|object| scene.name(object));
     let written = head.write_record(std::iter::once("t".to_owned()).chain(names));

@@ -14,7 +14,7 @@ use embedded_graphics::geometry::Size;
 use super::super::motion::Motion;
 use super::super::orbit::Orbit;
 use super::super::request::{Question, Request};
-use super::figure::{Figure, Solid};
+use super::figure::{Cells, Figure, Solid};
 use super::file::{DEEPEST, Description, Policy};
 use super::material::Matter;
 use super::numbers;
@@ -55,7 +55,7 @@ impl WorldScene {
             let thing = &world.things[part.thing];
             let prefix = thing.prefix(part.thing);
             let figure = Figure::load(source, thing, &prefix)?;
-            figure.placed(&part.steps).map_err(|error| {
+            figure.placed(&part.steps, &mut figure.cells(1), 1).map_err(|error| {
                 let span = thing.placement().span(&prefix, &error);
                 let (span, key) = span.unwrap_or_else(|| (thing.shape.span(), format!("{prefix}shape")));
                 source.fail(span, &key, error)
@@ -68,32 +68,35 @@ impl WorldScene {
         Ok(scene)
     }
 
-    /// Builds the world and lends it.
+    /// Builds the world for a display with so many pixels a side, and lends it.
     pub(crate) fn with_world<T>(
         &self,
+        side: u32,
         use_it: impl FnOnce(World<'_, Solid<'_>, Stuff<'_>>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
         let fail = |error: attractor::Error| self.file.fail_all("object", error);
-        let surfaces = self.surfaces()?.into_iter().zip(&self.made_of);
-        let leaves: Vec<_> = surfaces.map(|(surface, materials)| Leaf { surface, materials }).collect();
-        let mut boxes: Vec<Vec<Extent>> = Vec::new();
-        for object in &self.world.programs.objects {
-            boxes.push(vec![Extent::NOTHING; Object::extents(object.ops.len())]);
-        }
-        let mut objects = Vec::new();
-        for (object, memory) in self.world.programs.objects.iter().zip(&mut boxes) {
-            let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);
-            objects.push(Object::new(&object.ops, surface, memory).map_err(|error| {
-                let thing = &self.world.things[object.thing];
-                let of = thing.of.as_ref().map_or(thing.shape.span(), toml::Spanned::span);
-                self.file.fail(of, &format!("{}of", thing.prefix(object.thing)), error)
-            })?);
-        }
-        let materials = self.world.materials.iter().map(|matter| stuff(matter, &self.world.textures));
-        let materials: Vec<Stuff<'_>> = materials.collect::<Result<_, _>>().map_err(fail)?;
-        let lamps = self.world.lights.iter().map(|light| light.lamp());
-        let lamps = lamps.collect::<Result<Vec<_>, _>>().map_err(fail)?;
-        use_it(World::new(&leaves, &objects, &materials).map_err(fail)?.with_lamps(&lamps))
+        self.with_surfaces(side, |surfaces| {
+            let leaves = surfaces.into_iter().zip(&self.made_of);
+            let leaves: Vec<_> = leaves.map(|(surface, materials)| Leaf { surface, materials }).collect();
+            let mut boxes: Vec<Vec<Extent>> = Vec::new();
+            for object in &self.world.programs.objects {
+                boxes.push(vec![Extent::NOTHING; Object::extents(object.ops.len())]);
+            }
+            let mut objects = Vec::new();
+            for (object, memory) in self.world.programs.objects.iter().zip(&mut boxes) {
+                let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);
+                objects.push(Object::new(&object.ops, surface, memory).map_err(|error| {
+                    let thing = &self.world.things[object.thing];
+                    let of = thing.of.as_ref().map_or(thing.shape.span(), toml::Spanned::span);
+                    self.file.fail(of, &format!("{}of", thing.prefix(object.thing)), error)
+                })?);
+            }
+            let materials = self.world.materials.iter().map(|matter| stuff(matter, &self.world.textures));
+            let materials: Vec<Stuff<'_>> = materials.collect::<Result<_, _>>().map_err(fail)?;
+            let lamps = self.world.lights.iter().map(|light| light.lamp());
+            let lamps = lamps.collect::<Result<Vec<_>, _>>().map_err(fail)?;
+            use_it(World::new(&leaves, &objects, &materials).map_err(fail)?.with_lamps(&lamps))
+        })
     }
 
     /// The picture on a display of this size.
@@ -107,7 +110,8 @@ impl WorldScene {
             1 => Sampling::Centre,
             n => Sampling::Jittered { n, seed },
         };
-        self.with_world(|world| {
+        let side = request.size.width.max(request.size.height);
+        self.with_world(side, |world| {
             let caster = Caster::new(world, self.outside()?, self.world.camera, request.size)
                 .and_then(|caster| caster.with_sampling(sampling, self.world.filter))
                 .and_then(|caster| caster.with_depth(self.world.depth))
@@ -121,9 +125,9 @@ impl WorldScene {
     fn check(&self) -> Result<(), Fail> {
         let priorities = self.world.materials.iter().filter_map(|matter| matter.medium);
         if self.world.policy == Policy::Priority || priorities.count() == 0 {
-            return self.with_world(|_| Ok(()));
+            return self.with_world(1, |_| Ok(()));
         }
-        let shared = self.with_world(|world| {
+        let shared = self.with_world(PROBES.width, |world| {
             let caster = Caster::new(world, self.outside()?, self.world.camera, PROBES)
                 .map_err(|error| self.world.eye.fail(error))?;
             Ok(caster.interpenetration())
@@ -200,7 +204,7 @@ impl WorldScene {
 
     /// How often a ray may cross the world.
     pub(crate) fn most_crossings(&self) -> u32 {
-        self.surfaces().map_or(0, |all| all.iter().map(Surface::most_crossings).sum())
+        self.with_surfaces(1, |all| Ok(all.iter().map(Surface::most_crossings).sum())).unwrap_or(0)
     }
 
     /// What messages and tables call an object: its name, or its number.
@@ -209,11 +213,19 @@ impl WorldScene {
         self.world.things[thing].prefix(thing).trim_end_matches('.').to_owned()
     }
 
-    /// The surfaces of all parts.
-    pub(crate) fn surfaces(&self) -> Result<Vec<Solid<'_>>, Fail> {
-        let parts = self.figures.iter().zip(&self.world.programs.parts);
-        let placed = parts.map(|(figure, part)| figure.placed(&part.steps));
-        placed.collect::<Result<_, _>>().map_err(|error| self.file.fail_all("object", error))
+    /// Lends the surfaces of all parts, for a display with so many pixels a side.
+    pub(crate) fn with_surfaces<T>(
+        &self,
+        side: u32,
+        use_them: impl FnOnce(Vec<Solid<'_>>) -> Result<T, Fail>,
+    ) -> Result<T, Fail> {
+        let mut cells: Vec<Cells> = self.figures.iter().map(|figure| figure.cells(side)).collect();
+        let mut surfaces = Vec::new();
+        for ((figure, part), cells) in self.figures.iter().zip(&self.world.programs.parts).zip(&mut cells) {
+            let placed = figure.placed(&part.steps, cells, side);
+            surfaces.push(placed.map_err(|error| self.file.fail_all("object", error))?);
+        }
+        use_them(surfaces)
     }
 
     /// The light of every pixel.

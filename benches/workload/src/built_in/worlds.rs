@@ -1,0 +1,30 @@
+//! Ray-traced worlds, and solid textures cut by a plane.
+
+use attractor::Error;
+use attractor::draw::{Ink, Srgb};
+use attractor::plane::{Field, LinearRgb};
+use attractor_gallery::draw_field;
+
+use crate::sink::{Colour, Failure, Stage};
+
+/// A field of light; `bytes` is what it and all that it borrows takes.
+pub(super) fn light<C: Colour + Ink>(
+    stage: &mut Stage<'_>,
+    field: impl Field<Value = LinearRgb>,
+    bytes: usize,
+) -> Result<(), Failure> {
+    stage.draw::<C>(bytes, |sink| {
+        draw_field(&field, Srgb, sink, &mut |_, _, _| true);
+        Ok(())
+    })
+}
+
+/// A texture as a field.
+pub(super) fn texture<C: Colour + Ink, F: Field<Value = LinearRgb>>(
+    stage: &mut Stage<'_>,
+    picture: fn(embedded_graphics::geometry::Size) -> Result<F, Error>,
+) -> Result<(), Failure> {
+    let field = picture(stage.size())?;
+    let bytes = size_of_val(&field);
+    light::<C>(stage, field, bytes)
+}
