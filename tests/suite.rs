@@ -10,6 +10,7 @@ mod julia_sets;
 mod l_systems;
 mod laws;
 mod pictures;
+mod pictures_of_worlds;
 mod promises;
 mod robust;
 mod solids;
