@@ -135,7 +135,7 @@ struct Scene {
 
 /// Zenith, horizon and nadir.
 const SKY: [Vector; 3] = [[0.25, 0.5, 1.0], [0.875, 0.875, 0.75], [0.25, 0.125, 0.0625]];
-const SIDE: u32 = 96;
+const SIDE: u32 = 240;
 
 fn real(v: f64) -> Real {
     Real::from_num(v)
@@ -693,6 +693,78 @@ fn scaled_differently_along_each_axis() {
             look_at: [0.0, 0.0, 0.6],
             degrees: 38.0,
             seen: vec![300, 300, 300, 150, 1000],
+        },
+        OPAQUE,
+    );
+}
+
+/// A ring of glass, near and far, small and large: no ray sees the surface that it leaves. The floor under it
+/// is named before the glass and after it, and touches what stands on it.
+#[test]
+fn a_ring_of_glass_and_a_block_that_stands_on_the_floor() {
+    for (name, order) in [("glass on the floor, named first", [0, 1, 2]), ("named last", [2, 1, 0])] {
+        assert_same(
+            &Scene {
+                name,
+                parts: vec![
+                    Part(
+                        Kind::Cube,
+                        &[Scale([0.5, 0.5, 0.375]), Turn([0.0, 0.0, 1.0], 28.0), Move([-0.8, 0.0, 0.375])],
+                        &[0],
+                    ),
+                    Part(Kind::Torus(0.3), &[Turn([1.0, 0.2, 0.0], 50.0), Move([0.8, 0.3, 1.0])], &[0]),
+                    Part(Kind::Plane, &[], &[1]),
+                ],
+                programs: order.map(|leaf| vec![Op::Leaf(leaf)]).to_vec(),
+                materials: vec![glass(1.5, 0), matt(RED)],
+                lights: vec![sun(0.875)],
+                eye: [0.2, -4.5, 2.8],
+                look_at: [0.0, 0.0, 0.4],
+                degrees: 40.0,
+                seen: vec![500, 500, 1000],
+            },
+            CLEAR,
+        );
+    }
+}
+
+/// Faces in one plane: one colour all over, that of the last named, and no speckle.
+#[test]
+fn faces_in_one_plane() {
+    use Op::{Difference, Intersection, Leaf, Union};
+    const TURN: Step = Turn([0.3, 1.0, 0.2], 20.0);
+    assert_same(
+        &Scene {
+            name: "faces in one plane",
+            parts: vec![
+                Part(Kind::Cube, &[Scale([0.5, 0.6, 0.5]), TURN, Move([-1.2, 0.0, 0.9])], &[0]),
+                Part(
+                    Kind::Cube,
+                    &[Scale([0.4, 0.3, 0.5]), Move([0.2, 0.1, 0.0]), TURN, Move([-1.2, 0.0, 0.9])],
+                    &[1],
+                ),
+                Part(Kind::Cube, &[Scale([0.6, 0.6, 0.5]), TURN, Move([0.5, 0.0, 0.9])], &[2]),
+                Part(
+                    Kind::Cube,
+                    &[Scale([0.4, 0.6, 0.5]), Move([0.3, 0.0, 0.0]), TURN, Move([0.5, 0.0, 0.9])],
+                    &[3],
+                ),
+                Part(Kind::Cylinder(1.0), &[Scale([0.5, 0.5, 0.6]), Move([1.9, 0.0, 0.0])], &[0]),
+                Part(Kind::Cylinder(1.0), &[Scale([0.25, 0.25, 0.3]), Move([1.9, 0.0, 0.3])], &[1]),
+                Part(Kind::Cube, &[Scale([3.0, 3.0, 0.25]), Move([0.0, 0.0, -0.25])], &[4]),
+            ],
+            programs: vec![
+                vec![Leaf(0), Leaf(1), Union],
+                vec![Leaf(2), Leaf(3), Intersection],
+                vec![Leaf(4), Leaf(5), Difference],
+                vec![Leaf(6)],
+            ],
+            materials: vec![matt(RED), matt(GREEN), matt(BLUE), matt(WHITE), matt(SAND)],
+            lights: vec![sun(0.875)],
+            eye: [0.5, -4.5, 3.5],
+            look_at: [0.3, 0.0, 0.4],
+            degrees: 42.0,
+            seen: vec![200, 200, 0, 300, 100, 50, 1000],
         },
         OPAQUE,
     );

@@ -120,6 +120,10 @@ pub struct SurfacePoint {
     pub width: Real,
 }
 
+/// Parameters that differ by no more are the same to within what they are known to: `2^-19`, 24 fractional
+/// bits.
+pub(super) const SAME: i32 = 1 << 5;
+
 /// A thing of a world.
 pub trait Surface {
     /// A box of the world that holds it.
@@ -142,7 +146,10 @@ pub trait Surface {
     fn error(&self) -> Real;
 
     /// Hands over the crossings with `t >= 0` in the order of `t`, until `found` breaks off. `cone` is how
-    /// wide the ray is at `t` = 1: details that are smaller need not be told apart.
+    /// wide the ray is at `t` = 1: details that are smaller need not be told apart. Where a ray starts on one
+    /// surface that touches another, rounding may put the other's crossing behind it: what is less than
+    /// `2^-19` behind should be handed over, with a `t` of 0. A crossing into what a ray is in already does
+    /// nothing.
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>);
 
     /// The inside-outside function at a place of the world: above 0 outside, 0 on the surface, below 0

@@ -11,7 +11,7 @@
 use core::num::NonZeroU32;
 
 use super::super::ray::Ray;
-use super::super::surface::Extent;
+use super::super::surface::{Extent, SAME};
 use super::shape::NearRay;
 use crate::Error;
 use crate::num::formats::{Q24, Q28, Q29, Q30, Q54, Q58, UQ16};
@@ -47,7 +47,7 @@ pub(super) struct Approach {
     pub(super) start: i64,
     /// `k`.
     pub(super) places: i32,
-    /// The `s` at `t` = 0.
+    /// The `s` at `t` = 0, or a little less: `t` is known to within `SAME`.
     pub(super) from: Near,
 }
 
@@ -245,11 +245,13 @@ impl Site {
             Vec3::new(Near::ZERO, Near::ZERO, place(2)?)
         };
         let [dx, dy, dz] = direction.map(Near::from_bits);
+        let places = self.exponent + shift - 30;
+        let begin = shifted(-i64::from(n), shift - 5);
         Some(Approach {
             near: NearRay { origin, direction: Vec3::new(dx, dy, dz) },
             start: i64::from(n) << (21 - self.exponent),
-            places: self.exponent + shift - 30,
-            from: Near::from_bits(shifted(-i64::from(n), shift - 5)),
+            places,
+            from: Near::from_bits(begin.saturating_sub(shifted(SAME.into(), 4 + places))),
         })
     }
 

@@ -11,8 +11,7 @@ use core::ops::ControlFlow;
 use heapless::Vec;
 
 use super::super::ray::Ray;
-use super::super::surface::{Crossing, Extent, Surface, SurfacePoint};
-use super::events::SAME;
+use super::super::surface::{Crossing, Extent, SAME, Surface, SurfacePoint};
 use crate::num::{Real, Unit, Vec3, Wide};
 
 /// What is in one of two surfaces or in both.

@@ -6,11 +6,7 @@
 
 use heapless::Vec;
 
-use super::super::surface::Crossing;
-
-/// Parameters that differ by no more are the same to within what they are known to: `2^-19`, 24 fractional
-/// bits.
-pub(super) const SAME: i32 = 1 << 5;
+use super::super::surface::{Crossing, SAME};
 
 /// A ray crosses a leaf.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,6 +72,14 @@ impl<const N: usize> Events<N> {
         let count = rest.iter().take_while(|event| event.t() <= end).count();
         rest.get(..count).unwrap_or(&[])
     }
+
+    /// The events of an object from the one at `start` on that have the parameter of its first.
+    #[inline]
+    pub(super) fn of(&self, object: u8, start: usize) -> impl Iterator<Item = &Event> + Clone {
+        let own = self.0.get(start..).unwrap_or(&[]).iter().filter(move |event| event.object == object);
+        let end = own.clone().next().map_or(0, |first| first.t().saturating_add(SAME));
+        own.take_while(move |event| event.t() <= end)
+    }
 }
 
 #[cfg(test)]
@@ -97,6 +101,14 @@ mod tests {
         let leaves = |start| events.together(start).iter().map(|e| e.leaf).collect::<std::vec::Vec<_>>();
         assert_eq!((leaves(0), leaves(1), leaves(3)), (std::vec![3], std::vec![1, 4], std::vec![5]));
         assert_eq!((leaves(4), leaves(6)), (std::vec![0, 2], std::vec![]));
+        // another object's in between is none of them
+        events.insert(Event { object: 1, ..event(110, 6) });
+        let of = |object, start| events.of(object, start).map(|e| e.leaf).collect::<std::vec::Vec<_>>();
+        assert_eq!(
+            (of(0, 1), of(1, 1), of(1, 0), of(0, 3)),
+            (std::vec![1, 4], std::vec![6], std::vec![6], std::vec![4, 5])
+        );
+        assert_eq!((of(2, 0), of(0, 9)), (std::vec![], std::vec![]));
         events.cut(100);
         assert_eq!(events.together(0).len() + events.together(1).len(), 2);
         for k in 0..20 {

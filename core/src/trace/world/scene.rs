@@ -8,8 +8,8 @@ use core::ops::ControlFlow;
 
 use super::super::material::{Material, Medium};
 use super::super::ray::Ray;
-use super::super::surface::Surface;
-use super::events::{Event, Events, SAME};
+use super::super::surface::{SAME, Surface};
+use super::events::{Event, Events};
 use super::lamp::Lamp;
 use super::object::{LEAVES, Object};
 use crate::Error;
@@ -257,34 +257,35 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
         untried
     }
 
-    /// The first change of an object, from the event at `start` with these states on, and the event behind it.
+    /// The first seen change of an object, from the event at `start` with these states on, and the event from
+    /// which to go on.
+    ///
+    /// Of several objects that change at one parameter each is met in turn, in the order of naming: with the
+    /// states behind the hit the same events tell of the next, as an event that has taken effect changes
+    /// nothing any more.
     fn change<const E: usize>(&self, events: &Events<E>, start: usize, states: u64) -> Option<(Met, usize)> {
         let (mut at, mut before) = (start, states);
         loop {
             let group = events.together(at);
-            let behind = group.iter().fold(before, |states, event| event.behind(states));
-            let changed = |event: &&Event| {
-                let object = self.objects.get(usize::from(event.object));
-                object.is_some_and(|object| object.is_inside(before) != object.is_inside(behind))
-            };
-            if let Some(first) = group.iter().filter(changed).map(|event| event.object).min() {
-                let object = self.objects.get(usize::from(first))?;
-                let (mut last, mut states) = (None, before);
-                for event in group {
-                    let next = event.behind(states);
-                    if event.object == first && object.is_inside(states) != object.is_inside(next) {
-                        last = Some(*event);
-                    }
-                    states = next;
-                }
-                let met = Met { event: last?, before, behind, unfollowed: 0 };
-                if self.is_seen(&met) {
-                    return Some((met, at + group.len()));
-                }
-            } else if group.is_empty() {
+            if group.is_empty() {
                 return None;
             }
-            (at, before) = (at + group.len(), behind);
+            let mut from = 0;
+            while let Some(number) = group.iter().map(|event| event.object).filter(|o| *o >= from).min() {
+                let behind = events.of(number, at).fold(before, |states, event| event.behind(states));
+                let object = self.objects.get(usize::from(number))?;
+                if object.is_inside(before) != object.is_inside(behind) {
+                    let changed = |leaf: &u8| (before ^ behind) >> (leaf & 63) & 1 > 0;
+                    let last = object.leaves().filter(changed).last()?;
+                    let event = events.of(number, at).filter(|event| event.leaf == last).last();
+                    let met = Met { event: *event?, before, behind, unfollowed: 0 };
+                    if self.is_seen(&met) {
+                        return Some((met, at));
+                    }
+                }
+                (before, from) = (behind, number.saturating_add(1));
+            }
+            at += group.len();
         }
     }
 
@@ -306,8 +307,8 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
             unfollowed |= self.cross(number, cast, limit, &mut events, &mut states);
             first = self.change(&events, 0, states).map(|(met, _)| met);
             if let Some(met) = &first {
-                // what comes later changes nothing before
-                limit = met.event.t().saturating_add(SAME);
+                // what comes later changes nothing before: not what is at its parameter, nor what is at theirs
+                limit = met.event.t().saturating_add(2 * SAME);
                 events.cut(limit);
             }
         }
