@@ -302,7 +302,7 @@ impl Scene {
     }
 
     /// The linear light of each pixel.
-    fn core(&self) -> Vec<Vector> {
+    fn core(&self, side: u32) -> Vec<Vector> {
         let planes: Vec<Vec<HalfSpace>> = self.parts.iter().map(|part| half_spaces(part.0)).collect();
         let leaves: Vec<Leaf<'_, Solid<'_>>> = self
             .parts
@@ -333,9 +333,9 @@ impl Scene {
         let camera = Camera::new(vector(self.eye), vector(self.look_at), up, real(self.degrees)).unwrap();
         let world = World::new(&leaves, &objects, &materials).unwrap().with_lamps(&lamps);
         let sky = Sky { zenith, horizon, nadir };
-        let caster = WorldCaster::<_, _, _>::new(world, sky, camera, Size::new(SIDE, SIDE)).unwrap();
-        (0..SIDE)
-            .flat_map(|y| caster.row(y, 0..SIDE))
+        let caster = WorldCaster::<_, _, _>::new(world, sky, camera, Size::new(side, side)).unwrap();
+        (0..side)
+            .flat_map(|y| caster.row(y, 0..side))
             .map(|p| [p.r, p.g, p.b].map(|c| f64::from(c) / 65535.0))
             .collect()
     }
@@ -349,9 +349,9 @@ fn level(linear: f64) -> f64 {
 }
 
 /// PSNR in dB, the share of the pixels within 2 levels of 255, and how many pixels show each leaf.
-fn compared(scene: &Scene) -> (f64, f64, Vec<usize>) {
-    let (world, core) = (scene.exact(), scene.core());
-    let side = SIDE as usize;
+fn compared(scene: &Scene, side: u32) -> (f64, f64, Vec<usize>) {
+    let (world, core) = (scene.exact(), scene.core(side));
+    let side = side as usize;
     let expected = world.picture(side, side, &[(0.0, 0.0, 1.0)]).unwrap();
     let mut seen = vec![0; scene.parts.len()];
     let (mut square, mut near) = (0.0, 0);
@@ -375,7 +375,7 @@ const OPAQUE: (f64, f64) = (45.0, 0.999);
 const CLEAR: (f64, f64) = (40.0, 0.995);
 
 fn assert_same(scene: &Scene, (psnr, share): (f64, f64)) {
-    let (got, near, seen) = compared(scene);
+    let (got, near, seen) = compared(scene, SIDE);
     println!("{:32} {got:.1} dB, {:.3} % within 2 levels, {seen:?}", scene.name, 100.0 * near);
     assert!(seen.len() == scene.seen.len(), "{}", scene.name);
     assert!(seen.iter().zip(&scene.seen).all(|(seen, least)| seen >= least), "{}: {seen:?}", scene.name);
@@ -698,8 +698,8 @@ fn scaled_differently_along_each_axis() {
     );
 }
 
-/// A ring of glass, near and far, small and large: no ray sees the surface that it leaves. The floor under it
-/// is named before the glass and after it, and touches what stands on it.
+/// The floor is named before the glass and after it, and touches what stands on it: where the glass ends and
+/// the floor begins, both are met.
 #[test]
 fn a_ring_of_glass_and_a_block_that_stands_on_the_floor() {
     for (name, order) in [("glass on the floor, named first", [0, 1, 2]), ("named last", [2, 1, 0])] {
@@ -765,6 +765,75 @@ fn faces_in_one_plane() {
             look_at: [0.3, 0.0, 0.4],
             degrees: 42.0,
             seen: vec![200, 200, 0, 300, 100, 50, 1000],
+        },
+        OPAQUE,
+    );
+}
+
+/// No ray sees the surface that it left, however small or large the ring is, and wherever it stands.
+#[test]
+fn a_ring_of_glass_at_any_size_and_distance() {
+    let mut compared_pictures = 0;
+    for size in [1.0 / 32.0, 0.25, 1.0, 8.0] {
+        for (centre, far) in [([0.0; 3], 1.0), ([20.0, -20.0, 11.0], 1.0), ([-30.0, 25.0, -20.0], 5.0)] {
+            // not farther than the world's end
+            let far = if size > 1.0 { 1.0 } else { far };
+            let steps = vec![Scale([size; 3]), Turn([1.0, 0.2, 0.0], 50.0), Move(centre)];
+            let eye = [2.5, -2.0, 1.5];
+            let scene = Scene {
+                name: "ring",
+                parts: vec![Part(Kind::Torus(0.4), steps.leak(), &[0])],
+                programs: single(0..1),
+                materials: vec![glass(1.5, 0)],
+                lights: vec![],
+                eye: [0, 1, 2].map(|k| centre[k] + far * size * eye[k]),
+                look_at: centre,
+                degrees: 45.0 / far,
+                seen: vec![800],
+            };
+            let (psnr, near, seen) = compared(&scene, 64);
+            println!("ring of {size} at {centre:?}: {psnr:.1} dB, {:.3} %, {seen:?}", 100.0 * near);
+            assert!(seen[0] >= 800 && psnr >= CLEAR.0 && near >= CLEAR.1, "{size} {centre:?}: {psnr} {near}");
+            compared_pictures += 1;
+        }
+    }
+    assert_eq!(compared_pictures, 12);
+}
+
+/// What is left of a ring from which a box was taken, and what a ring and a box share: no phantoms in mirrors.
+#[test]
+fn a_ring_that_is_cut_and_mirrors() {
+    use Op::{Difference, Intersection, Leaf};
+    const TURN: Step = Turn([1.0, 0.3, 0.0], 40.0);
+    assert_same(
+        &Scene {
+            name: "a ring that is cut",
+            parts: vec![
+                Part(Kind::Torus(0.4), &[TURN, Move([-1.0, 0.0, 1.2])], &[0]),
+                Part(Kind::Cube, &[Move([0.9, -0.4, 0.0]), TURN, Move([-1.0, 0.0, 1.2])], &[1]),
+                Part(Kind::Torus(0.3), &[TURN, Move([1.4, 0.0, 1.2])], &[0]),
+                Part(
+                    Kind::Cube,
+                    &[Scale([0.6, 2.0, 2.0]), Move([0.2, 0.0, 0.0]), TURN, Move([1.4, 0.0, 1.2])],
+                    &[1],
+                ),
+                Part(Kind::Plane, &[], &[2]),
+            ],
+            programs: vec![
+                vec![Leaf(0), Leaf(1), Difference],
+                vec![Leaf(2), Leaf(3), Intersection],
+                vec![Leaf(4)],
+            ],
+            materials: vec![
+                Material { reflect: [0.75, 0.75, 0.5], ..shiny(SAND, [0.25; 3], Shine::Phong(40)) },
+                Material { reflect: [0.5; 3], ..matt(BLUE) },
+                matt(GREEN),
+            ],
+            lights: vec![sun(0.75)],
+            eye: [0.2, -4.5, 2.6],
+            look_at: [0.1, 0.0, 0.9],
+            degrees: 46.0,
+            seen: vec![2000, 100, 1000, 100, 5000],
         },
         OPAQUE,
     );

@@ -4,6 +4,7 @@ mod bad_input;
 mod curves;
 mod curves_at_the_edge;
 mod deep_zoom;
+mod faults;
 mod ifs;
 mod imports;
 mod julia_sets;
