@@ -1,24 +1,39 @@
-//! What goes wrong in other ray tracers, and the tests that it does not here.
+//! What goes wrong in other ray tracers, and the tests that it does not here: fault, colon, tests.
 //!
-//! | fault | tests |
-//! | --- | --- |
-//! | 1. a ray sees the surface that it left | `a_ring_of_glass_at_any_size_and_distance`, `no_ray_meets_the_surface_that_it_left` |
-//! | 2. pinholes of a torus, a wrong parity inside | `the_surface_has_no_pinholes`, `from_inside_a_torus_the_crossings_are_odd` |
-//! | 3. a compound forgets crossings of a torus, phantoms in mirrors | `a_compound_uses_all_four_crossings_of_a_torus`, `a_ring_that_is_cut_and_mirrors` |
-//! | 4. rays along or across the axis of a cylinder, from inside, pointing away | `rays_along_and_across_the_axis_meet_the_tapered_cylinder` |
-//! | 5. the other nappe of a cone | `rays_along_and_across_the_axis_meet_the_tapered_cylinder`, `rays_meet_the_tapered_cylinder_where_they_should` |
-//! | 6. rims and seams | `entries_and_exits_alternate_at_rims_and_corners` |
-//! | 7. faces that coincide | `faces_that_coincide_leave_no_trace`, `faces_in_one_plane`, `a_ring_of_glass_and_a_block_that_stands_on_the_floor` |
-//! | 8. acne, and thin things that are skipped | `no_ray_meets_the_surface_that_it_left`, `things_a_hair_apart_are_told_apart` |
-//! | 9. total reflection that is black | `a_white_furnace_is_white_for_every_material` |
-//! | 10. glass in water, overlaps, an eye inside glass | `media_follow_their_priorities`, `a_ball_of_glass_in_water`, `an_eye_inside_glass` |
-//! | 11. noise with seams, runs and dead gradients | `noise_is_zero_at_every_lattice_point_and_has_its_gradient_there`, `noise_goes_on_smoothly_over_cells_and_over_the_ends_of_the_format`, `noise_never_stands_still_for_long` |
-//! | 12. speckle of a checker on a plane at an integer | `a_checker_has_no_speckle_on_a_plane_at_an_integer`, `cubes_take_turns_and_planes_between_them_have_one_colour` |
-//! | 13. a seam of `u` that is seen | `frames_go_on_over_the_seam_of_a_sphere`, `a_wobbly_log_has_no_seam` |
-//! | 14. shadows through glass | `shadows_follow_the_rule_for_glass`, `a_ball_of_glass_in_water` |
-//! | 15. other bits on other machines | `noises_of_other_seeds_have_nothing_to_do_with_each_other` |
-//! | 16. bumps without `P_u`, normals and tangents under uneven scales | `a_constant_slope_leans_against_the_way_up_and_less_where_tangents_are_long`, `normals_and_tangents_follow_their_rules_under_any_map`, `scaled_differently_along_each_axis` |
-//! | 17. a hit on the wrong side, a wrap count that is not whole | `no_ray_meets_the_surface_that_it_left`, `a_whole_number_of_images_closes_round_a_shape` |
+//! 1. a ray sees the surface that it left: `a_ring_of_glass_at_any_size_and_distance`,
+//!    `no_ray_meets_the_surface_that_it_left`;
+//! 2. pinholes of a torus, a wrong parity inside: `the_surface_has_no_pinholes`,
+//!    `from_inside_a_torus_the_crossings_are_odd`;
+//! 3. a compound forgets crossings of a torus, phantoms in mirrors:
+//!    `a_compound_uses_all_four_crossings_of_a_torus`, `a_ring_that_is_cut_and_mirrors`;
+//! 4. rays along or across the axis of a cylinder, from inside, pointing away:
+//!    `rays_along_and_across_the_axis_meet_the_tapered_cylinder`;
+//! 5. the other nappe of a cone: `rays_along_and_across_the_axis_meet_the_tapered_cylinder`,
+//!    `rays_meet_the_tapered_cylinder_where_they_should`;
+//! 6. rims and seams: `entries_and_exits_alternate_at_rims_and_corners`;
+//! 7. faces that coincide: `faces_that_coincide_leave_no_trace`, `faces_in_one_plane`,
+//!    `a_ring_of_glass_and_a_block_that_stands_on_the_floor`;
+//! 8. acne, and thin things that are skipped: `no_ray_meets_the_surface_that_it_left`,
+//!    `things_a_hair_apart_are_told_apart`;
+//! 9. total reflection that is black: `a_white_furnace_is_white_for_every_material`;
+//! 10. glass in water, overlaps, an eye inside glass: `media_follow_their_priorities`,
+//!     `a_ball_of_glass_in_water`, `an_eye_inside_glass`;
+//! 11. noise with seams, runs and dead gradients:
+//!     `noise_is_zero_at_every_lattice_point_and_has_its_gradient_there`,
+//!     `noise_goes_on_smoothly_over_cells_and_over_the_ends_of_the_format`,
+//!     `noise_never_stands_still_for_long`;
+//! 12. speckle of a checker on a plane at an integer:
+//!     `a_checker_has_no_speckle_on_a_plane_at_an_integer`,
+//!     `cubes_take_turns_and_planes_between_them_have_one_colour`;
+//! 13. a seam of `u` that is seen: `frames_go_on_over_the_seam_of_a_sphere`,
+//!     `a_wobbly_log_has_no_seam`;
+//! 14. shadows through glass: `shadows_follow_the_rule_for_glass`, `a_ball_of_glass_in_water`;
+//! 15. other bits on other machines: `noises_of_other_seeds_have_nothing_to_do_with_each_other`;
+//! 16. bumps without `P_u`, normals and tangents under uneven scales:
+//!     `a_constant_slope_leans_against_the_way_up_and_less_where_tangents_are_long`,
+//!     `normals_and_tangents_follow_their_rules_under_any_map`, `scaled_differently_along_each_axis`;
+//! 17. a hit on the wrong side, a wrap count that is not whole:
+//!     `no_ray_meets_the_surface_that_it_left`, `a_whole_number_of_images_closes_round_a_shape`.
 
 use core::ops::ControlFlow;
 
@@ -109,8 +124,8 @@ fn from_inside_a_torus_the_crossings_are_odd() {
     assert!(counts[1] > 8000 && counts[3] > 500, "{counts:?}");
 }
 
-/// A ray in the plane of a torus enters it twice. What of it is cut off is not met, what is left is, be it the
-/// last crossing of all; as a type and as data.
+/// A ray in the plane of a torus enters it twice. What of it is cut off is not met, what is left is, be it
+/// the last crossing of all; as a type and as data.
 #[test]
 fn a_compound_uses_all_four_crossings_of_a_torus() {
     surfaces! {
@@ -201,8 +216,7 @@ fn entries_and_exits_alternate_at_rims_and_corners() {
         .map(|k| std::array::from_fn(|axis| if axis == k / 2 { 1.0 - 2.0 * (k % 2) as f64 } else { 0.0 }))
         .collect();
     let maps = [Affine3::scale(vector([1.0; 3])), askew()];
-    let mut tried = 0;
-    let mut met = 0;
+    let (mut tried, mut met) = (0, 0);
     let mut number = numbers(11);
     for map in &maps {
         let mut along = |name: &str, surface: &dyn Fn(&Ray) -> Vec<Crossing>, targets: &[Vector]| {
@@ -216,11 +230,13 @@ fn entries_and_exits_alternate_at_rims_and_corners() {
                         3 => [1.0, -1.0, 0.0],
                         _ => [number(), number(), number()],
                     };
-                    let from = map.at(vector([0, 1, 2].map(|c| target[c] - 2.0 * way[c])));
+                    // from well outside
+                    let way = way.map(|c| 4.0 * c / dot(way, way).sqrt());
+                    let from = map.at(vector([0, 1, 2].map(|c| target[c] - way[c])));
                     let to = map.at(vector(*target));
                     let bits = |k: u32| Real::from_bits((k.wrapping_mul(2_654_435_761) >> 30) as i32 - 1);
                     let to = Vec3::new(to.x + bits(k), to.y + bits(k + 7), to.z + bits(k + 19));
-                    let half = |a: Real, b: Real| Real::from_bits((b - a).to_bits() / 2);
+                    let half = |a: Real, b: Real| Real::from_bits((b - a).to_bits() / 4);
                     let d = Vec3::new(half(from.x, to.x), half(from.y, to.y), half(from.z, to.z));
                     let found = surface(&Ray::new(from, d));
                     let fair = found.len() % 2 == 0

@@ -800,7 +800,8 @@ fn a_ring_of_glass_at_any_size_and_distance() {
     assert_eq!(compared_pictures, 12);
 }
 
-/// What is left of a ring from which a box was taken, and what a ring and a box share: no phantoms in mirrors.
+/// What is left of a ring from which a box was taken, and what a ring and a box share: no phantoms in
+/// mirrors.
 #[test]
 fn a_ring_that_is_cut_and_mirrors() {
     use Op::{Difference, Intersection, Leaf};
