@@ -257,11 +257,8 @@ fn entries_and_exits_alternate_at_rims_and_corners() {
         let cube = Placed::new(Cube, map).unwrap();
         along("cube", &|ray| crossings(&cube, ray), &corners);
         let octahedron = Placed::new(Polyhedron::new(&planes).unwrap(), map).unwrap();
-        along(
-            "octahedron",
-            &|ray| crossings(&octahedron, ray),
-            &tips.iter().map(|t| t.map(|c| c * 3_f64.sqrt())).collect::<Vec<_>>(),
-        );
+        let far: Vec<Vector> = tips.iter().map(|t| t.map(|c| c * 3_f64.sqrt())).collect();
+        along("octahedron", &|ray| crossings(&octahedron, ray), &far);
         let torus = Placed::new(Torus::new(Near::from_num(0.25)).unwrap(), map).unwrap();
         along("torus", &|ray| crossings(&torus, ray), &rings);
         let sphere = Placed::new(Sphere, map).unwrap();
