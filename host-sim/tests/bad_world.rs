@@ -194,3 +194,68 @@ fn what_a_world_is_asked_for_is_complete_and_of_numbers() {
     assert_snapshot!(said);
     assert!(bad(directory.path(), &["dimension", "scene.toml"]).contains("a world"));
 }
+
+#[test]
+fn shapes_that_are_none_are_refused() {
+    let shape = |text: &str| WORLD.replacen("shape = \"plane\"", text, 1);
+    let mut said = Said::default();
+    let mut change = |good: &str, from: &str, to: &[&str]| {
+        let good = shape(good);
+        to.iter().for_each(|to| said.change(&good, from, to));
+    };
+    change("shape = \"torus\"\ntube = 0.5", "0.5", &["0", "1", "-1"]);
+    change("shape = \"superellipsoid\"\nn = 2\nm = 3", "m = 3", &["m = 0.1", "m = 21"]);
+    change("shape = \"superellipsoid\"\nn = 2\nm = 3", "\nm = 3", &[""]);
+    change("shape = \"tapered-cylinder\"\ncap = 0.5", "0.5", &["-0.5", "1.5"]);
+    let square = "shape = \"polygon\"\npoints = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]";
+    change(square, "[1, 1, 0]", &["[1, 1, 0.1]", "[0.2, 0.2, 0]", "[3, 1, 0]"]);
+    change(square, ", [1, 1, 0], [0, 1, 0]", &[""]);
+    let corner =
+        "shape = \"polyhedron\"\nplanes = [[-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 0], [1, 1, 1, 1]]";
+    change(corner, "[1, 1, 1, 1]", &["[1, 1, 1, -1]", "[-1, 0, 0, 1]", "[0, 0, 0, 1]"]);
+    change(corner, ", [1, 1, 1, 1]", &[""]);
+    let field = "shape = \"height-field\"\nf = { knots = [[0, 0], [1, 1], [2, 0]], vertical_scaling = [0.5, 0.5] }\ng = { knots = [[0, 0], [1, 1], [2, 0]], vertical_scaling = [0.5, 0.5] }";
+    change(field, "[0.5, 0.5]", &["[0.5, 1.5]", "[0.5]"]);
+    change(field, "[[0, 0], [1, 1], [2, 0]]", &["[[0, 0], [1, 1]]"]);
+    let open = WORLD.replace("name = \"left\"\nshape = \"sphere\"", "name = \"left\"\nshape = \"square\"");
+    said.change(&open, "samples = 1", "samples = 2");
+    assert_snapshot!(said);
+}
+
+#[test]
+fn textures_that_cannot_be_are_refused() {
+    let with =
+        |texture: &str| WORLD.replace("color = \"#c02020\"", "texture = \"t\"") + "[texture.t]\n" + texture;
+    let mut said = Said::default();
+    let mut change = |good: &str, from: &str, to: &str| said.change(&with(good), from, to);
+    change("kind = \"checker\"\n", "\"checker\"", "\"tartan\"");
+    change("kind = \"checker\"\ncolors = [\"#ffffff\", \"#000000\"]\n", ", \"#000000\"]", "]");
+    change("kind = \"checker\"\n", "kind = \"checker\"", "octaves = 3\nkind = \"checker\"");
+    change("kind = \"turbulence\"\noctaves = 4\n", "octaves = 4", "octaves = 17");
+    change(
+        "kind = \"marble\"\ncolors = [\"#ffffff\", \"#000000\"]\nknots = [-1, 1]\n",
+        "knots = [-1, 1]",
+        "knots = [1, -1]",
+    );
+    change(
+        "kind = \"marble\"\ncolors = [\"#ffffff\", \"#000000\"]\nknots = [-1, 1]\n",
+        "knots = [-1, 1]",
+        "knots = [-1]",
+    );
+    change("kind = \"marble\"\nknots = [-1, 1]\n", "knots = [-1, 1]", "knots = [-2, 1]");
+    change("kind = \"wood\"\nsoft = 1\n", "soft = 1", "soft = 2");
+    change("kind = \"wood\"\n", "kind = \"wood\"", "kind = \"image\"");
+    change("kind = \"wood\"\n", "kind = \"wood\"", "kind = \"image\"\nimage = \"missing.png\"");
+    change("kind = \"wood\"\n", "kind = \"wood\"", "kind = \"image\"\nimage = \"scene.toml\"");
+    for relief in ["bump", "frame"] {
+        let bumpy = WORLD.to_owned() + "[texture.t]\nkind = \"marble\"\n";
+        said.change(
+            &bumpy,
+            "shininess = 40",
+            &format!("shininess = 40\n{relief} = {{ texture = \"t\", strength = 0.1 }}"),
+        );
+    }
+    said.scene(b"kind = \"texture\"\nwidth = 0\n[texture]\nkind = \"noise\"\n");
+    said.scene(b"kind = \"texture\"\ncentre = [127, 0]\n[texture]\nkind = \"noise\"\n");
+    assert_snapshot!(said);
+}

@@ -223,3 +223,67 @@ fn a_julia_scene_without_a_width_shows_the_whole_set_on_every_display() {
         }
     }
 }
+
+/// The text's two rays, which meet the bowl at their first crossing and at their fifth; and the parabola of a
+/// sphere, the quartic of a torus.
+#[test]
+fn a_world_is_sampled_by_rays_along_a_ray_and_pixel_by_pixel() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |file: &str, text: &str| std::fs::write(directory.path().join(file), text).unwrap();
+    at("bowl.toml", include_str!("../scenes/bowl.toml"));
+    at("rays.csv", "ox,oy,oz,dx,dy,dz\n0,-3,0.7,0,1,0\n-0.3,0,4,0.2,0,-1\n");
+    let text = good(directory.path(), &["sample", "bowl.toml", "--rays", "rays.csv"]);
+    let mut lines = text.lines();
+    let head = "ray,crossing,t,object,face,enters,x,y,z,nx,ny,nz,u,v,t_reference";
+    assert_eq!(lines.next(), Some(head));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let number = |row: &[&str], column: usize| row[column].parse::<f64>().unwrap();
+    let first = |ray: &str| {
+        let row = rows.iter().find(|row| row[0] == ray && row[3] == "bowl" && row[5] == "1");
+        row.unwrap_or_else(|| panic!("{text}"))
+    };
+    // from outside: S1 itself, 0.285 below its middle
+    let outside = 3.0 - (1.0_f64 - 0.285 * 0.285).sqrt();
+    assert!((number(first("0"), 2) - outside).abs() < 1e-6, "{text}");
+    // through the opening: S2 from inside, whose normal is turned round
+    let inside = first("1");
+    let [x, y, z] = [6, 7, 8].map(|column| number(inside, column));
+    let from_middle = (x * x + y * y + (z - 0.985).powi(2)).sqrt();
+    assert!((from_middle - 0.88).abs() < 1e-6 && number(inside, 11) > 0.0, "{text}");
+    let mut compared = 0;
+    for row in &rows {
+        assert!((number(row, 2) - number(row, 14)).abs() < 1e-6, "{row:?}");
+        compared += 1;
+    }
+    assert!(compared >= 7, "{text}");
+
+    at(
+        "two.toml",
+        "kind = \"world\"\n[camera]\neye = [0, -6, 2]\nlook_at = [0, 0, 0]\n[[object]]\nname = \"ball\"\nshape = \"sphere\"\n[[object]]\nname = \"ring\"\nshape = \"torus\"\ntube = 0.25\n",
+    );
+    let text =
+        good(directory.path(), &["sample", "two.toml", "--along", "-3,0.5,0.1,1,0,0", "--points", "41"]);
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("t,ball,ring"));
+    for line in lines {
+        let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let x = row[0] - 3.0;
+        assert!((row[1] - (x * x + 0.25 + 0.01 - 1.0)).abs() < 1e-5, "{line}");
+        // whatever multiple of it: its sign is that of the torus
+        let ring = ((x * x + 0.25_f64).sqrt() - 1.0).powi(2) + 0.01 - 0.0625;
+        assert!(row[2] * ring > 0.0 || ring.abs() < 1e-4, "{line}: {ring}");
+    }
+    assert_eq!(text.lines().count(), 42);
+
+    at("places.csv", "0.25,0.5,0.75\n-3,2,1\n");
+    at("noise.toml", "kind = \"texture\"\n[texture]\nkind = \"noise\"\n");
+    let text = good(directory.path(), &["sample", "noise.toml", "--at", "places.csv"]);
+    // black to white from -1 to 1; noise is 0 at whole numbers
+    assert!(
+        text.starts_with("place,texture,x,y,z,r,g,b\n0,,0.25,0.5,0.75,")
+            && text.ends_with("-3,2,1,0.5,0.5,0.5\n"),
+        "{text}"
+    );
+    let text = good(directory.path(), &["sample", "two.toml", "--pixels", "--size", "5x3"]);
+    assert!(text.starts_with("i,j,r,g,b\n0,0,") && text.lines().count() == 16, "{text}");
+}

@@ -145,11 +145,25 @@ fn import(path: &str, names: &[&str]) -> String {
     format!("use {path}::{{\n{}\n}};\n", lines.join("\n"))
 }
 
-/// The words of what is code, neither comment nor string.
+/// The words of what is code, neither comment nor string, and not a part of what stands before them.
 fn words(text: &str) -> BTreeSet<&str> {
     let lines = text.lines().filter(|line| !line.starts_with("///"));
     let code = lines.flat_map(|line| line.split('"').step_by(2));
-    code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_')).collect()
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut all = BTreeSet::new();
+    for code in code {
+        let mut rest = code;
+        while let Some(start) = rest.find(is_word) {
+            let (before, from) = rest.split_at(start);
+            let end = from.find(|c| !is_word(c)).unwrap_or(from.len());
+            let (word, after) = from.split_at(end);
+            if !before.ends_with("::") {
+                all.insert(word);
+            }
+            rest = after;
+        }
+    }
+    all
 }
 
 /// A variant with named fields: on one line if there is room under a constant's name, else one a line.

@@ -6,7 +6,6 @@ use attractor::Error;
 use attractor::draw::{Gradient, gradients};
 use attractor::fif::{Fif, Knot};
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
-use attractor::trace::material::Phong;
 use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, Light, RayCaster, Sampling};
 use attractor_gallery::Named;
 use embedded_graphics::geometry::Size;

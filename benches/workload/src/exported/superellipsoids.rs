@@ -185,7 +185,7 @@ pub fn objects<'a>(
 pub const EYE: Vec3 = Vec3::lit("-5.2", "-11.5", "9.2");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::lit("0", "0", "0.25");
+pub const LOOK_AT: Vec3 = Vec3::lit("0.5", "0", "0.25");
 
 /// Which way is up.
 pub const UP: Vec3 = Vec3::lit("0", "0", "1");

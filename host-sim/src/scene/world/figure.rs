@@ -45,7 +45,7 @@ pub(crate) enum Figure {
     Polygon { corners: Vec<Vec3>, polygon: Box<Polygon<CORNERS>> },
     Sphere,
     Cube,
-    Polyhedron(Vec<HalfSpace>),
+    Polyhedron { planes: Vec<[f64; 4]>, half_spaces: Vec<HalfSpace> },
     TaperedCylinder { cap: Real, shape: TaperedCylinder },
     Torus(Torus),
     Superellipsoid { n: Real, m: Real, shape: Superellipsoid },
@@ -110,7 +110,15 @@ impl Figure {
 
     /// Whether it is made of lent memory.
     pub(crate) fn borrows(&self) -> bool {
-        matches!(self, Self::Polyhedron(_) | Self::HeightField(_))
+        matches!(self, Self::Polyhedron { .. } | Self::HeightField(_))
+    }
+
+    /// How deep its pyramids are, 0 for what has none.
+    pub(super) fn depth(&self, side: u32) -> u32 {
+        match self {
+            Self::HeightField(profiles) => depth(profiles, side),
+            _ => 0,
+        }
     }
 
     /// Memory for what it lends, on a display with so many pixels a side.
@@ -132,7 +140,7 @@ impl Figure {
             Self::Polygon { .. } => "Polygon",
             Self::Sphere => "Sphere",
             Self::Cube => "Cube",
-            Self::Polyhedron(_) => "Polyhedron",
+            Self::Polyhedron { .. } => "Polyhedron",
             Self::TaperedCylinder { .. } => "TaperedCylinder",
             Self::Torus(_) => "Torus",
             Self::Superellipsoid { .. } => "Superellipsoid",
@@ -140,7 +148,7 @@ impl Figure {
         };
         let kind = match self {
             Self::Polygon { .. } => format!("Polygon<{CORNERS}>"),
-            Self::Polyhedron(_) => "Polyhedron<'static>".to_owned(),
+            Self::Polyhedron { .. } => "Polyhedron<'static>".to_owned(),
             _ => name.to_owned(),
         };
         (name.to_owned(), format!("Placed<{kind}>"))
@@ -160,7 +168,7 @@ impl Figure {
             Self::Polygon { polygon, .. } => Solid::Polygon(Placed::new(**polygon, &map)?),
             Self::Sphere => Solid::Sphere(Placed::new(Sphere, &map)?),
             Self::Cube => Solid::Cube(Placed::new(Cube, &map)?),
-            Self::Polyhedron(half_spaces) => {
+            Self::Polyhedron { half_spaces, .. } => {
                 Solid::Polyhedron(Placed::new(Polyhedron::new(half_spaces)?, &map)?)
             }
             Self::TaperedCylinder { shape, .. } => Solid::TaperedCylinder(Placed::new(*shape, &map)?),
@@ -177,17 +185,18 @@ impl Figure {
 }
 
 fn polyhedron(source: &Source, planes: &Spanned<Vec<Spanned<[Num; 4]>>>, key: &str) -> Result<Figure, Fail> {
-    let mut half_spaces = Vec::new();
+    let (mut numbers, mut half_spaces) = (Vec::new(), Vec::new());
     for (i, plane) in planes.get_ref().iter().enumerate() {
         let key = format!("{key}[{i}]");
         let [nx, ny, nz, d] = plane.get_ref();
         let number = |number: &Num, k: usize| source.fixed::<Wide>(number, &format!("{key}[{k}]"));
         let (normal, distance) = (Vec3::new(number(nx, 0)?, number(ny, 1)?, number(nz, 2)?), number(d, 3)?);
+        numbers.push([normal.x, normal.y, normal.z, distance].map(Wide::to_num));
         half_spaces
             .push(HalfSpace::new(normal, distance).map_err(|error| source.fail(plane.span(), &key, error))?);
     }
     Polyhedron::new(&half_spaces).map_err(|error| source.fail(planes.span(), key, error))?;
-    Ok(Figure::Polyhedron(half_spaces))
+    Ok(Figure::Polyhedron { planes: numbers, half_spaces })
 }
 
 /// How deep the pyramids of both profiles are.

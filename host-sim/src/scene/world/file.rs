@@ -13,6 +13,7 @@ use super::lamp::{Light, Shining};
 use super::material::{Made, Matter, within};
 use super::object::Thing;
 use super::program::{Programs, programs};
+use super::stuff::{raised, turned};
 use super::surroundings::{Around, Table};
 use super::texture::{Pattern, Woven};
 use crate::fail::Fail;
@@ -95,6 +96,11 @@ impl Description {
         let numbers = file.texture.keys().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
         let textures = file.texture.iter().map(|(name, given)| Pattern::load(source, name, given));
         let materials = file.material.iter().map(|(name, given)| Matter::load(source, name, given, &numbers));
+        let textures: Vec<Pattern> = textures.collect::<Result<_, _>>()?;
+        let materials: Vec<Matter> = materials.collect::<Result<_, _>>()?;
+        for matter in &materials {
+            reliefs(source, matter, &textures)?;
+        }
         Ok(Self {
             camera,
             standpoint,
@@ -102,8 +108,8 @@ impl Description {
             orbit,
             lights: lights.collect::<Result<_, _>>()?,
             programs: programs(source, &file.object)?,
-            materials: materials.collect::<Result<_, _>>()?,
-            textures: textures.collect::<Result<_, _>>()?,
+            materials,
+            textures,
             texture_names: file.texture.keys().cloned().collect(),
             around: Around::load(source, file.environment.as_ref())?,
             samples: small(source, "samples", file.samples.as_ref(), (1, 8), 1)?,
@@ -114,6 +120,22 @@ impl Description {
             things: file.object,
         })
     }
+}
+
+/// Complains about bumps and grains of textures that have none.
+fn reliefs(source: &Source, matter: &Matter, textures: &[Pattern]) -> Result<(), Fail> {
+    let refused = |name: &str, reason: &str| {
+        Err(source.fail_all(&format!("material.{}.{name}.texture", matter.name), reason))
+    };
+    let bump = matter.bump.and_then(|(number, strength)| Some(raised(textures.get(number)?, strength)));
+    if let Some(Ok(None)) = bump {
+        return refused("bump", "bumps come from noise, turbulence, facets or an image");
+    }
+    let frame = matter.frame.and_then(|(number, strength)| Some(turned(textures.get(number)?, strength)));
+    if let Some(Ok(None)) = frame {
+        return refused("frame", "a grain comes from a checker, noise, turbulence or an image");
+    }
+    Ok(())
 }
 
 /// A whole number from a small range.

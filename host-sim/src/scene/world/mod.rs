@@ -10,6 +10,7 @@ mod object;
 mod picture;
 mod placement;
 mod program;
+mod reference;
 mod stuff;
 mod surroundings;
 pub(crate) mod texture;

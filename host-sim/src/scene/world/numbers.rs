@@ -12,6 +12,7 @@ use attractor::trace::world::Op;
 use attractor::trace::{Chart, Crossing, Extent, Ray, Surface as _, SurfacePoint};
 
 use super::figure::Solid;
+use super::reference::Exact;
 use super::texture::Pattern;
 use super::view::WorldScene;
 use crate::fail::Fail;
@@ -112,7 +113,8 @@ fn listed(
     surfaces: &[Solid<'_>],
     out: &mut dyn Write,
 ) -> Result<(), Fail> {
-    writeln!(out, "ray,crossing,t,object,face,enters,x,y,z,nx,ny,nz,u,v")?;
+    writeln!(out, "ray,crossing,t,object,face,enters,x,y,z,nx,ny,nz,u,v,t_reference")?;
+    let exact_shapes: Vec<Exact> = scene.exact(SIDE);
     for (number, given) in rays.iter().enumerate() {
         let ray = ray(*given);
         let mut all = Vec::new();
@@ -128,6 +130,8 @@ fn listed(
             let numbers = [point.position.x, point.position.y, point.position.z].map(exact);
             let normal = [point.normal.x, point.normal.y, point.normal.z].map(|c| exact(c * sign));
             let chart = [point.chart.u, point.chart.v].map(exact);
+            let reference = exact_shapes.get(*leaf).map(|shape| nearest(shape, given, crossing));
+            let reference = [reference.flatten().map(|t| format!("{t:?}")).unwrap_or_default()];
             let head = [
                 number.to_string(),
                 count.to_string(),
@@ -136,12 +140,25 @@ fn listed(
                 crossing.face.to_string(),
                 u8::from(*enters).to_string(),
             ];
-            let written = row.write_record(head.iter().chain(&numbers).chain(&normal).chain(&chart));
+            let written =
+                row.write_record(head.iter().chain(&numbers).chain(&normal).chain(&chart).chain(&reference));
             let bytes = written.ok().and_then(|()| row.into_inner().ok()).unwrap_or_default();
             out.write_all(&bytes)?;
         }
     }
     Ok(())
+}
+
+/// The reference's crossing of the same face in the same direction that is nearest to one of core's, if it has
+/// any.
+fn nearest(shape: &Exact, given: &[Real; 6], crossing: &Crossing) -> Option<f64> {
+    let [ox, oy, oz, dx, dy, dz] = given.map(Real::to_num::<f64>);
+    let t = crossing.t.to_num::<f64>();
+    let all = shape.crossings([ox, oy, oz], [dx, dy, dz]);
+    let same = all
+        .into_iter()
+        .filter(|(_, enters, face)| *enters == crossing.enters && *face == usize::from(crossing.face));
+    same.map(|(reference, ..)| reference).min_by(|a, b| (a - t).abs().total_cmp(&(b - t).abs()))
 }
 
 /// The inside-outside function of every object at places of a ray, from before the first thing with a limit to

@@ -19,6 +19,7 @@ use super::file::{DEEPEST, Description, Policy};
 use super::material::Matter;
 use super::numbers;
 use super::object::each;
+use super::reference::Exact;
 use super::stuff::{Stuff, stuff};
 use super::surroundings::Outside;
 use crate::color::Depth;
@@ -211,6 +212,12 @@ impl WorldScene {
     pub(crate) fn name(&self, object: usize) -> String {
         let thing = self.world.programs.objects.get(object).map_or(0, |object| object.thing);
         self.world.things[thing].prefix(thing).trim_end_matches('.').to_owned()
+    }
+
+    /// The shapes of all parts as the reference has them.
+    pub(super) fn exact(&self, side: u32) -> Vec<Exact> {
+        let parts = self.figures.iter().zip(&self.world.programs.parts);
+        parts.map(|(figure, part)| Exact::new(figure, &part.steps, figure.depth(side))).collect()
     }
 
     /// Lends the surfaces of all parts, for a display with so many pixels a side.
