@@ -7,7 +7,7 @@ use std::string::String;
 use std::vec::Vec;
 
 /// Why a type is neither written nor read.
-const NOT_SERDE: [(&str, &[&str]); 4] = [
+const NOT_SERDE: [(&str, &[&str]); 5] = [
     (
         "made from values that are written, by a constructor that keeps only what it computes from them",
         &[
@@ -21,6 +21,46 @@ const NOT_SERDE: [(&str, &[&str]); 4] = [
             "Ray",
             "Generator",
             "JuliaCover",
+            "Affine3",
+            "HalfSpace",
+            "Torus",
+            "Polygon",
+            "TaperedCylinder",
+            "Superellipsoid",
+            "Lamp",
+            "Anisotropic",
+            "TorranceSparrow",
+            "Highlight",
+            "Clear",
+            "Mixture",
+            "Spline",
+        ],
+    ),
+    (
+        "things, materials and textures of a world: made of what is written, or of functions",
+        &[
+            "Placed",
+            "Moved",
+            "Implicit",
+            "Union",
+            "Intersection",
+            "Difference",
+            "Sky",
+            "Tiles",
+            "Mapped",
+            "Marble",
+            "Mottle",
+            "Texels",
+            "Lookup",
+            "Beyond",
+            "Turbulence",
+            "Checker",
+            "Bumpy",
+            "Rough",
+            "Facets",
+            "Slice",
+            "Wood",
+            "Framed",
         ],
     ),
     ("the same, with a seed", &["Elbow", "LineToLine", "OneVariable", "TwoVariable"]),
@@ -29,12 +69,33 @@ const NOT_SERDE: [(&str, &[&str]); 4] = [
 ];
 
 /// Why a type is not logged.
-const NOT_DEFMT: [(&str, &[&str]); 3] = [
+const NOT_DEFMT: [(&str, &[&str]); 4] = [
     (
         "as large as a program, or made of what is logged",
         &["Dyadic", "Compiled", "Composite", "Factor", "JuliaCover"],
     ),
     ("a step on the way to a value", &["Ending", "OrbitPoint"]),
+    (
+        "things, materials and textures of a world: made of what is logged, or of functions",
+        &[
+            "Placed",
+            "Moved",
+            "Polygon",
+            "Implicit",
+            "Union",
+            "Intersection",
+            "Difference",
+            "Mixture",
+            "Mapped",
+            "Marble",
+            "Mottle",
+            "Checker",
+            "Bumpy",
+            "Slice",
+            "Spline",
+            "Framed",
+        ],
+    ),
     ("walks along something else, or a function", &["BackwardIteration", "Walk", "FromFn"]),
 ];
 

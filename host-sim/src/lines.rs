@@ -55,7 +55,12 @@ impl<const N: usize> Lines<N> {
             if row.iter().all(str::is_empty) || row.iter().eq(self.titles) {
                 continue;
             }
-            let line = row.position().map_or(0, csv::Position::line);
+            // a row begins behind the last one: with the empty lines that it skips
+            let (skipped, rest) = text
+                .split_at_checked(row.position().map_or(0, |at| at.byte() as usize))
+                .unwrap_or((text, ""));
+            let empty = rest.len() - rest.trim_start_matches(['\r', '\n']).len();
+            let line = 1 + skipped.matches('\n').count() + rest[..empty].matches('\n').count();
             let place =
                 |key: &str, value: &str| format!("{}:{line}: {key} = {}", self.name, shortened(value));
             if row.len() != N {

@@ -12,6 +12,7 @@ use crate::num::{Real, Unit, Vec3, Wide};
 
 /// Where a ray crosses a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crossing {
     /// The ray's parameter, 0 or more.
     pub t: Real,
@@ -25,6 +26,7 @@ pub struct Crossing {
 
 /// A box along the axes of the world, both ends along x, y and z; whole space where nothing limits it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extent {
     /// The least coordinates.
     pub low: Vec3,
@@ -92,6 +94,7 @@ impl Extent {
 
 /// Texture coordinates of a point and how it moves with them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chart {
     /// First coordinate, mostly in `[0, 1]`.
     pub u: Real,
@@ -105,6 +108,7 @@ pub struct Chart {
 
 /// All that shading knows of a point of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SurfacePoint {
     /// Where it is, in the world.
     pub position: Vec3,

@@ -20,6 +20,13 @@ fn random(i: usize, k: usize) -> i32 {
 fn rays_at_a_torus() -> [NearRay; COUNT] {
     core::array::from_fn(|i| {
         let (sin, cos) = sin_cos(Angle::from_bits(mixed(i) as u32));
+        if i % 4 == 0 {
+            // near the plane of the ring and through its middle: four crossings
+            let flat = |v: Near| v >> 4;
+            let NearRay { origin, direction } = ray(3 * i, [0; 3]);
+            let level = |v: Vec3<Near>| Vec3::new(v.x, v.y, flat(v.z));
+            return NearRay { origin: level(origin), direction: level(direction) };
+        }
         let place = [cos.to_bits() >> 2, sin.to_bits() >> 2, 0];
         ray(i, [0, 1, 2].map(|k: usize| place[k] + random(i, k) / 9))
     })

@@ -5,6 +5,7 @@ use crate::num::{Real, Rgb, Unit, Vec3};
 
 /// Light that reaches a point: from where, and how much is left of it after what stands between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Lit {
     /// The unit vector towards the light.
     pub towards: Vec3<Unit>,
@@ -14,6 +15,7 @@ pub struct Lit {
 
 /// What is inside a transparent thing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Medium {
     /// Index of refraction: the speed of light in the vacuum over that in the medium, 0.1 to 10.
     pub index: Real,
@@ -25,6 +27,7 @@ pub struct Medium {
 
 /// What leaves a point towards the eye, and what more is to be asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Response {
     /// Ambient, diffuse and specular light.
     pub light: Rgb,

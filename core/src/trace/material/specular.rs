@@ -5,6 +5,7 @@ use crate::num::{Lumen, Unit, Vec3, unit};
 
 /// From where a point is looked at: unit vectors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct View {
     /// The normal that light sees, against the ray.
     pub normal: Vec3<Unit>,

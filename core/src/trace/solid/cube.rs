@@ -14,6 +14,7 @@ use crate::num::{Near, Real, Vec3, Wide};
 
 /// The generic cube.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cube;
 
 impl Shape for Cube {

@@ -9,6 +9,7 @@ use crate::num::{Near, Real, Vec3, Wide, product, reciprocal_of};
 
 /// The generic half-space: all that is not above the plane `z = 0`. Texture coordinates are `u = x`, `v = y`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plane;
 
 impl Shape for Plane {

@@ -16,6 +16,7 @@ use crate::num::{Near, Real, Vec3, Wide};
 ///
 /// The origin is within ±4, the greatest component of the direction in `[1, 2)` in magnitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NearRay {
     /// A place on the ray near the shape.
     pub origin: Vec3<Near>,
@@ -25,6 +26,7 @@ pub struct NearRay {
 
 /// Where a ray crosses a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NearCrossing {
     /// The ray's parameter, of either sign.
     pub s: Near,

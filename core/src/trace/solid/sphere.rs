@@ -18,6 +18,7 @@ use crate::num::{Angle, Near, Real, Unit, Vec3, Wide, atan2, product, reciprocal
 
 /// The generic sphere: radius 1, round the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sphere;
 
 impl Shape for Sphere {

@@ -10,6 +10,7 @@ use crate::num::{Near, Real, Vec3, Wide, product};
 
 /// The generic square.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Square;
 
 impl Shape for Square {
