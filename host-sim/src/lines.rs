@@ -55,12 +55,7 @@ impl<const N: usize> Lines<N> {
             if row.iter().all(str::is_empty) || row.iter().eq(self.titles) {
                 continue;
             }
-            // a row begins behind the last one: with the empty lines that it skips
-            let (skipped, rest) = text
-                .split_at_checked(row.position().map_or(0, |at| at.byte() as usize))
-                .unwrap_or((text, ""));
-            let empty = rest.len() - rest.trim_start_matches(['\r', '\n']).len();
-            let line = 1 + skipped.matches('\n').count() + rest[..empty].matches('\n').count();
+            let line = line_of(text, row.position());
             let place =
                 |key: &str, value: &str| format!("{}:{line}: {key} = {}", self.name, shortened(value));
             if row.len() != N {
@@ -88,6 +83,15 @@ impl<const N: usize> Lines<N> {
         }
         Ok(all)
     }
+}
+
+/// The line on which a row stands, from 1. Its position is where the row before ended: line ends and empty
+/// lines follow.
+pub(crate) fn line_of(text: &str, position: Option<&csv::Position>) -> usize {
+    let before = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
+    let bytes = text.as_bytes();
+    let empty = bytes.iter().skip(before).take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
+    1 + bytes.iter().take(before + empty).filter(|byte| **byte == b'\n').count()
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::fail::{Fail, shortened};
+use crate::lines::line_of;
 use crate::number;
 use crate::source::{Num, Source};
 
@@ -82,15 +83,6 @@ impl Table {
         }
         Ok(points)
     }
-}
-
-/// The line on which a row stands, from 1. Its position is where the row before ended: line ends and empty
-/// lines follow.
-fn line_of(text: &str, position: Option<&csv::Position>) -> usize {
-    let before = position.and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or(0);
-    let bytes = text.as_bytes();
-    let empty = bytes.iter().skip(before).take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
-    1 + bytes.iter().take(before + empty).filter(|byte| **byte == b'\n').count()
 }
 
 /// The vertical scaling of each map by least squares.

@@ -298,7 +298,7 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.sample(request, out),
             Kind::Julia(scene) => scene.sample(request, out),
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
-            Kind::World(scene) => scene.sample(request, question, points, &mut stdout().lock()),
+            Kind::World(scene) => world::sample(scene, request, question, points, &mut stdout().lock()),
             Kind::Texture(scene) => scene.sample(request, question, &mut stdout().lock()),
         }
     }

@@ -15,8 +15,9 @@ use toml::Spanned;
 
 use super::motion::Motion;
 use super::request::{Question, Request};
-use super::world::numbers::{light, values};
+
 use super::world::texture::{Pattern, Pigment, Woven};
+use super::world::values::{light, values};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::source::{Num, Place, Source};

@@ -1,19 +1,18 @@
 //! What a world has at a ray: crossings of its objects, and their inside-outside functions.
 
-use std::cmp::Ordering;
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 
 use attractor::num::{Real, Unit, Vec3, Wide};
-use attractor::plane::LinearRgb;
-use attractor::trace::texture::Texture as _;
+use attractor::plane::Field as _;
 use attractor::trace::world::Op;
-use attractor::trace::{Chart, Crossing, Extent, Ray, Surface as _, SurfacePoint};
+use attractor::trace::{Crossing, Extent, Ray, Surface as _};
 
+use super::super::request::{Question, Request};
 use super::figure::Solid;
 use super::reference::Exact;
-use super::texture::Pattern;
+use super::values::{light, values};
 use super::view::WorldScene;
 use crate::fail::Fail;
 use crate::lines::Lines;
@@ -88,7 +87,7 @@ fn changes(ops: &[Op], surfaces: &[Solid<'_>], ray: &Ray) -> Vec<Change> {
             ControlFlow::Continue(())
         });
     }
-    all.sort_by(|(a, _), (b, _)| a.t.cmp(&b.t));
+    all.sort_by_key(|(crossing, _)| crossing.t);
     let mut changes = Vec::new();
     for (crossing, leaf) in all {
         let before = is_inside(ops, |leaf| inside[leaf]);
@@ -102,7 +101,7 @@ fn changes(ops: &[Op], surfaces: &[Solid<'_>], ray: &Ray) -> Vec<Change> {
 }
 
 /// Every crossing of every object by the rays of a file.
-pub(super) fn crossings(scene: &WorldScene, file: &Path, out: &mut dyn Write) -> Result<(), Fail> {
+fn crossings(scene: &WorldScene, file: &Path, out: &mut dyn Write) -> Result<(), Fail> {
     let rays = Lines::of("--rays", file, RAY).read(file, check)?;
     scene.with_surfaces(SIDE, |surfaces| listed(scene, &rays, &surfaces, out))
 }
@@ -121,7 +120,7 @@ fn listed(
         for (object, program) in scene.world.programs.objects.iter().enumerate() {
             all.extend(changes(&program.ops, surfaces, &ray).into_iter().map(|change| (change, object)));
         }
-        all.sort_by(|(a, _), (b, _)| a.crossing.t.cmp(&b.crossing.t).then(Ordering::Equal));
+        all.sort_by_key(|(change, _)| change.crossing.t);
         for (count, (Change { crossing, leaf, enters }, object)) in all.iter().enumerate() {
             let point = surfaces[*leaf].point(&ray, Unit::ZERO, crossing, true);
             // the outward normal of the object: a part that was taken away is turned inside out
@@ -163,7 +162,7 @@ fn nearest(shape: &Exact, given: &[Real; 6], crossing: &Crossing) -> Option<f64>
 
 /// The inside-outside function of every object at places of a ray, from before the first thing with a limit to
 /// behind the last.
-pub(super) fn along(scene: &WorldScene, text: &str, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
+fn along(scene: &WorldScene, text: &str, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
     let rays = Lines::given("--along", RAY).parse(text, check)?;
     let [given] = rays.as_slice() else {
         return Err(Fail::new(format_args!("--along: {} lines, one ray is asked for", rays.len())));
@@ -232,31 +231,38 @@ fn span(surfaces: &[Solid<'_>], ray: &Ray) -> (f64, f64) {
     ((from - more).max(0.0), (to + more).min(127.0))
 }
 
-/// The parts of a light as CSV cells: exact numbers of 65535ths.
-pub(in crate::scene) fn light(light: LinearRgb) -> String {
-    let [r, g, b] = [light.r, light.g, light.b].map(|part| f64::from(part) / 65535.0);
-    format!("{r:?},{g:?},{b:?}")
-}
-
-/// The textures at the places of a file, each taken in the coordinates of the shape that it colours.
-pub(in crate::scene) fn values(
-    textures: &[(&str, &Pattern)],
-    file: &Path,
+/// What is asked for.
+pub(crate) fn sample(
+    scene: &WorldScene,
+    request: &Request,
+    question: Question<'_>,
+    points: u32,
     out: &mut dyn Write,
 ) -> Result<(), Fail> {
-    let places = Lines::of("--at", file, ["x", "y", "z"]).read(file, |_: [Real; 3]| Ok(()))?;
-    writeln!(out, "place,texture,x,y,z,r,g,b")?;
-    for (number, [x, y, z]) in places.into_iter().enumerate() {
-        let place = Vec3::new(x, y, z);
-        let normal = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
-        let chart = Chart { u: x, v: y, along_u: Vec3::X, along_v: Vec3::Y };
-        let point = SurfacePoint { position: place, place, normal, chart, face: 0, width: Real::ZERO };
-        for (name, pattern) in textures {
-            let color = pattern.pigment().map_err(Fail::new)?.at(&point);
-            let [r, g, b] = [color.r, color.g, color.b].map(exact);
-            let [x, y, z] = [x, y, z].map(exact);
-            writeln!(out, "{number},{name},{x},{y},{z},{r},{g},{b}")?;
+    match question {
+        Question::Usual | Question::Pixels => pixels(scene, request, out),
+        Question::Rays(file) => crossings(scene, file, out),
+        Question::Along(ray) => along(scene, ray, points, out),
+        Question::Places(file) => {
+            let names = scene.world.texture_names.iter().map(String::as_str);
+            let textures: Vec<_> = names.zip(&scene.world.textures).collect();
+            if textures.is_empty() {
+                return Err(Fail::new(format_args!("--at {}: the world has no texture", file.display())));
+            }
+            values(&textures, file, out)
         }
     }
-    Ok(())
+}
+
+/// The light of every pixel.
+fn pixels(scene: &WorldScene, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+    scene.with_caster(request, |caster| {
+        writeln!(out, "i,j,r,g,b")?;
+        for j in 0..request.size.height {
+            for (i, value) in caster.row(j, 0..request.size.width).enumerate() {
+                writeln!(out, "{i},{j},{}", light(value))?;
+            }
+        }
+        Ok(())
+    })
 }

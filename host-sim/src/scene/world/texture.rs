@@ -21,7 +21,7 @@ use crate::source::{Num, Source};
 /// A table `[texture.NAME]`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct Woven {
+pub(crate) struct Woven {
     kind: Spanned<Weave>,
     colors: Option<Spanned<Vec<Spanned<Color>>>>,
     knots: Option<Spanned<Vec<Num>>>,
@@ -168,7 +168,7 @@ impl Pattern {
         })
     }
 
-    pub(in crate::scene) fn load(source: &Source, name: &str, given: &Spanned<Woven>) -> Result<Self, Fail> {
+    pub(crate) fn load(source: &Source, name: &str, given: &Spanned<Woven>) -> Result<Self, Fail> {
         let span = given.span();
         let given = given.get_ref();
         let reader = Reader { source, name, given };

@@ -1,10 +1,8 @@
 //! A world ready to be drawn.
 
 use std::convert::Infallible;
-use std::io::Write;
 
 use attractor::draw::Srgb;
-use attractor::plane::Field as _;
 use attractor::trace::world::{Leaf, Object, World, WorldCaster};
 use attractor::trace::{Extent, Sampling, Surface};
 use attractor_gallery::{Watch, draw_field};
@@ -13,11 +11,10 @@ use embedded_graphics::geometry::Size;
 
 use super::super::motion::Motion;
 use super::super::orbit::Orbit;
-use super::super::request::{Question, Request};
+use super::super::request::Request;
 use super::figure::{Cells, Figure, Solid};
 use super::file::{DEEPEST, Description, Policy};
 use super::material::Matter;
-use super::numbers;
 use super::object::each;
 use super::reference::Exact;
 use super::stuff::{Stuff, stuff};
@@ -49,7 +46,7 @@ pub(crate) struct WorldScene {
 }
 
 impl WorldScene {
-    pub(in crate::scene) fn load(source: &Source) -> Result<Self, Fail> {
+    pub(crate) fn load(source: &Source) -> Result<Self, Fail> {
         let mut world = Description::load(source)?;
         let (mut figures, mut made_of) = (Vec::new(), Vec::new());
         for part in &world.programs.parts {
@@ -144,7 +141,7 @@ impl WorldScene {
     }
 
     /// Moves the camera round what it looks at; the message says why not.
-    pub(in crate::scene) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+    pub(crate) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
         let Some(orbit) = &self.world.orbit else {
             return Err(Fail::new("the camera moves about only where z is up"));
         };
@@ -155,16 +152,11 @@ impl WorldScene {
     }
 
     /// Where the viewer stands, as lines of a scene file.
-    pub(in crate::scene) fn place(&self) -> Option<String> {
+    pub(crate) fn place(&self) -> Option<String> {
         self.world.orbit.as_ref().map(Orbit::place)
     }
 
-    pub(in crate::scene) fn draw<D>(
-        &self,
-        request: &Request,
-        target: &mut D,
-        watch: Watch<'_, D>,
-    ) -> Result<(), Fail>
+    pub(crate) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
     where
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
@@ -173,29 +165,6 @@ impl WorldScene {
             draw_field(caster, Srgb, target, watch);
             Ok(())
         })
-    }
-
-    /// What is asked for.
-    pub(in crate::scene) fn sample(
-        &self,
-        request: &Request,
-        question: Question<'_>,
-        points: u32,
-        out: &mut dyn Write,
-    ) -> Result<(), Fail> {
-        match question {
-            Question::Usual | Question::Pixels => self.pixels(request, out),
-            Question::Rays(file) => numbers::crossings(self, file, out),
-            Question::Along(ray) => numbers::along(self, ray, points, out),
-            Question::Places(file) => {
-                let names = self.world.texture_names.iter().map(String::as_str);
-                let textures: Vec<_> = names.zip(&self.world.textures).collect();
-                if textures.is_empty() {
-                    return Err(Fail::new(format_args!("--at {}: the world has no texture", file.display())));
-                }
-                numbers::values(&textures, file, out)
-            }
-        }
     }
 
     /// What is seen where nothing is met.
@@ -233,19 +202,6 @@ impl WorldScene {
             surfaces.push(placed.map_err(|error| self.file.fail_all("object", error))?);
         }
         use_them(surfaces)
-    }
-
-    /// The light of every pixel.
-    fn pixels(&self, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
-        self.with_caster(request, |caster| {
-            writeln!(out, "i,j,r,g,b")?;
-            for j in 0..request.size.height {
-                for (i, light) in caster.row(j, 0..request.size.width).enumerate() {
-                    writeln!(out, "{i},{j},{}", numbers::light(light))?;
-                }
-            }
-            Ok(())
-        })
     }
 }
 
