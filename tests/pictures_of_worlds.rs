@@ -702,6 +702,8 @@ fn scaled_differently_along_each_axis() {
 /// the floor begins, both are met.
 #[test]
 fn a_ring_of_glass_and_a_block_that_stands_on_the_floor() {
+    // so that a place on the floor is rounded to either side of it
+    const TILT: Step = Turn([1.0, 0.3, 0.2], 7.0);
     for (name, order) in [("glass on the floor, named first", [0, 1, 2]), ("named last", [2, 1, 0])] {
         assert_same(
             &Scene {
@@ -709,11 +711,16 @@ fn a_ring_of_glass_and_a_block_that_stands_on_the_floor() {
                 parts: vec![
                     Part(
                         Kind::Cube,
-                        &[Scale([0.5, 0.5, 0.375]), Turn([0.0, 0.0, 1.0], 28.0), Move([-0.8, 0.0, 0.375])],
+                        &[
+                            Scale([0.5, 0.5, 0.375]),
+                            Turn([0.0, 0.0, 1.0], 28.0),
+                            Move([-0.8, 0.0, 0.375]),
+                            TILT,
+                        ],
                         &[0],
                     ),
-                    Part(Kind::Torus(0.3), &[Turn([1.0, 0.2, 0.0], 50.0), Move([0.8, 0.3, 1.0])], &[0]),
-                    Part(Kind::Plane, &[], &[1]),
+                    Part(Kind::Torus(0.3), &[Turn([1.0, 0.2, 0.0], 50.0), Move([0.8, 0.3, 1.0]), TILT], &[0]),
+                    Part(Kind::Plane, &[TILT], &[1]),
                 ],
                 programs: order.map(|leaf| vec![Op::Leaf(leaf)]).to_vec(),
                 materials: vec![glass(1.5, 0), matt(RED)],
