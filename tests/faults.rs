@@ -110,7 +110,7 @@ fn from_inside_a_torus_the_crossings_are_odd() {
         let torus = Placed::new(Torus::new(Near::from_num(tube)).unwrap(), &map).unwrap();
         for _ in 0..2000 {
             // a place inside the tube, in its own coordinates, well away from the surface
-            let (turn, round, part) = (number() * 3.14, number() * 3.14, number().abs() * 0.98 * tube);
+            let (turn, round, part) = (number() * 3.0, number() * 3.0, number().abs() * 0.98 * tube);
             let out = 1.0 + part * round.cos();
             let place = vector([out * turn.cos(), out * turn.sin(), part * round.sin()]);
             let ray = Ray::new(map.at(place), vector([number(), number(), number()]));
@@ -239,7 +239,7 @@ fn entries_and_exits_alternate_at_rims_and_corners() {
                     let half = |a: Real, b: Real| Real::from_bits((b - a).to_bits() / 4);
                     let d = Vec3::new(half(from.x, to.x), half(from.y, to.y), half(from.z, to.z));
                     let found = surface(&Ray::new(from, d));
-                    let fair = found.len() % 2 == 0
+                    let fair = found.len().is_multiple_of(2)
                         && found.iter().enumerate().all(|(k, crossing)| crossing.enters == (k % 2 == 0))
                         && found.windows(2).all(|pair| pair[0].t <= pair[1].t);
                     assert!(fair, "{name} {target:?} {k}: {found:?}");

@@ -15,7 +15,7 @@
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
 //! | [curve] | curves by refinement: Koch, Hilbert and their relatives; random curves: elbows, Carpenter's subdivision |
 //! | [escape] | dwell of the Mandelbrot set and of filled Julia sets, backward iteration, deep zoom |
-//! | [trace] | a scanline ray caster for height fields |
+//! | [trace] | a scanline ray caster: height fields, and worlds of shapes, materials, textures and lamps |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!
 //! Imports point downwards in this table's order: a kernel returns values and knows no colour.

@@ -18,6 +18,9 @@ use embedded_graphics::geometry::Size;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
+/// What is handed the crossings.
+type Found<'a> = &'a mut dyn FnMut(attractor::trace::Crossing);
+
 use super::{fuzz, inside, real, unit, vector, word};
 
 fn lumen() -> impl Strategy<Value = Lumen> {
@@ -310,7 +313,7 @@ fn ready_made_materials() {
 fn any_shape(shape: impl Shape + Copy, map: &Affine3, ray: &Ray, cone: Unit, place: Vec3) -> bool {
     let Ok(placed) = Placed::new(shape, map) else { return false };
     let mut before = Real::ZERO;
-    let met = |surface: &dyn Fn(&mut dyn FnMut(attractor::trace::Crossing)), before: &mut Real| {
+    let met = |surface: &dyn Fn(Found<'_>), before: &mut Real| {
         surface(&mut |crossing| {
             assert!(crossing.t >= *before && crossing.face < 32);
             *before = crossing.t;

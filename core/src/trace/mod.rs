@@ -1,12 +1,17 @@
-//! A scanline ray caster for height fields: one row of a picture at a time, front to back through two
-//! pyramids of cells.
+//! Rays: height fields in grey, and worlds of shapes, materials and textures in colour, a row at a time.
 //!
 #![doc = include_str!("../../docs/trace.md")]
 //!
-//! What a pixel shows is defined in CONTRIBUTING.md ("The picture of a height field, defined"); the f64
-//! reference implements the same page.
+//! A [`RayCaster`] shows the height field of two fractal functions, front to back through two pyramids of
+//! cells. A [`world::WorldCaster`] shows what a ray can meet, a [`Surface`]: [shapes](solid) under affine
+//! maps, height fields among them, alone or in [compounds](world::Object), of [materials](material) that
+//! mirror and bend light, with [textures](texture), among [lamps](world::Lamp).
 //!
-//! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", 2000, section 4.
+//! What a pixel shows is defined in CONTRIBUTING.md ("The picture of a height field, defined", "The picture of
+//! a world, defined"); the f64 reference implements the same pages.
+//!
+//! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", 2000, sections 4 to 6; the course unit V,
+//! sections 5.7 to 5.10.
 
 mod boxes;
 mod camera;
