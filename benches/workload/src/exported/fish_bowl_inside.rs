@@ -165,16 +165,16 @@ pub fn objects<'a>(
 }
 
 /// Where the camera stands.
-pub const EYE: Vec3 = Vec3::lit("0.62", "-0.72", "1");
+pub const EYE: Vec3 = Vec3::lit("0.7", "-0.85", "1.05");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::lit("-0.25", "0.45", "1.34");
+pub const LOOK_AT: Vec3 = Vec3::lit("-0.2", "0.3", "1.3");
 
 /// Which way is up.
 pub const UP: Vec3 = Vec3::lit("0", "0", "1");
 
 /// Vertical, in degrees.
-pub const FIELD_OF_VIEW: Real = Real::lit("74");
+pub const FIELD_OF_VIEW: Real = Real::lit("36");
 
 /// The camera.
 ///
