@@ -87,21 +87,21 @@ pub fn leaves() -> Result<[Leaf<'static, Thing>; 16], Error> {
         // level
         Leaf { surface: Thing::Plane(Placed::new(Plane, &Affine3::translate(const { Vec3::lit("0", "0", "0.55") }).then(&Affine3::translate(const { Vec3::lit("0", "0", "1.3") })))?), materials: &[7] },
         // body
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.42", "0.16", "0.24") }).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.1", "-0.15", "1.35") })))?), materials: &[2] },
+        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.42", "0.16", "0.24") }).then(&Affine3::scale(const { Vec3::lit("0.42", "0.42", "0.42") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.22", "0.2", "1.48") })))?), materials: &[2] },
         // tail
-        Leaf { surface: Thing::TaperedCylinder(Placed::new(TaperedCylinder::new(const { Real::lit("0.25") })?, &Affine3::scale(const { Vec3::lit("0.26", "0.06", "0.36") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.25") })?).then(&Affine3::translate(const { Vec3::lit("-0.72", "0", "0") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.1", "-0.15", "1.35") })))?), materials: &[2] },
+        Leaf { surface: Thing::TaperedCylinder(Placed::new(TaperedCylinder::new(const { Real::lit("0.25") })?, &Affine3::scale(const { Vec3::lit("0.26", "0.06", "0.36") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.25") })?).then(&Affine3::translate(const { Vec3::lit("-0.72", "0", "0") })).then(&Affine3::scale(const { Vec3::lit("0.42", "0.42", "0.42") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.22", "0.2", "1.48") })))?), materials: &[2] },
         // fin
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.2", "0.04", "0.16") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.0694444445") })?).then(&Affine3::translate(const { Vec3::lit("-0.05", "0", "0.2") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.1", "-0.15", "1.35") })))?), materials: &[2] },
+        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.2", "0.04", "0.16") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.0694444445") })?).then(&Affine3::translate(const { Vec3::lit("-0.05", "0", "0.2") })).then(&Affine3::scale(const { Vec3::lit("0.42", "0.42", "0.42") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.22", "0.2", "1.48") })))?), materials: &[2] },
         // eyeball
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.055", "0.055", "0.055") }).then(&Affine3::translate(const { Vec3::lit("0.3", "-0.1", "0.05") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.1", "-0.15", "1.35") })))?), materials: &[0] },
+        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.055", "0.055", "0.055") }).then(&Affine3::translate(const { Vec3::lit("0.3", "-0.1", "0.05") })).then(&Affine3::scale(const { Vec3::lit("0.42", "0.42", "0.42") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.05") })?).then(&Affine3::translate(const { Vec3::lit("-0.22", "0.2", "1.48") })))?), materials: &[0] },
         // body
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.42", "0.16", "0.24") }).then(&Affine3::scale(const { Vec3::lit("0.62", "0.62", "0.62") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.9222222222") })?).then(&Affine3::translate(const { Vec3::lit("0.25", "0.45", "0.95") })))?), materials: &[3] },
+        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.42", "0.16", "0.24") }).then(&Affine3::scale(const { Vec3::lit("0.34", "0.34", "0.34") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.0277777778") })?).then(&Affine3::translate(const { Vec3::lit("0.12", "0.3", "1.12") })))?), materials: &[3] },
         // tail
-        Leaf { surface: Thing::TaperedCylinder(Placed::new(TaperedCylinder::new(const { Real::lit("0.25") })?, &Affine3::scale(const { Vec3::lit("0.26", "0.06", "0.36") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.25") })?).then(&Affine3::translate(const { Vec3::lit("-0.72", "0", "0") })).then(&Affine3::scale(const { Vec3::lit("0.62", "0.62", "0.62") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.9222222222") })?).then(&Affine3::translate(const { Vec3::lit("0.25", "0.45", "0.95") })))?), materials: &[3] },
+        Leaf { surface: Thing::TaperedCylinder(Placed::new(TaperedCylinder::new(const { Real::lit("0.25") })?, &Affine3::scale(const { Vec3::lit("0.26", "0.06", "0.36") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.25") })?).then(&Affine3::translate(const { Vec3::lit("-0.72", "0", "0") })).then(&Affine3::scale(const { Vec3::lit("0.34", "0.34", "0.34") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.0277777778") })?).then(&Affine3::translate(const { Vec3::lit("0.12", "0.3", "1.12") })))?), materials: &[3] },
         // fin
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.2", "0.04", "0.16") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.0694444445") })?).then(&Affine3::translate(const { Vec3::lit("-0.05", "0", "0.2") })).then(&Affine3::scale(const { Vec3::lit("0.62", "0.62", "0.62") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.9222222222") })?).then(&Affine3::translate(const { Vec3::lit("0.25", "0.45", "0.95") })))?), materials: &[3] },
+        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.2", "0.04", "0.16") }).then(&Affine3::rotate(const { Vec3::lit("0", "1", "0") }, const { Angle::lit("0.0694444445") })?).then(&Affine3::translate(const { Vec3::lit("-0.05", "0", "0.2") })).then(&Affine3::scale(const { Vec3::lit("0.34", "0.34", "0.34") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.0277777778") })?).then(&Affine3::translate(const { Vec3::lit("0.12", "0.3", "1.12") })))?), materials: &[3] },
         // eyeball
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.055", "0.055", "0.055") }).then(&Affine3::translate(const { Vec3::lit("0.3", "-0.1", "0.05") })).then(&Affine3::scale(const { Vec3::lit("0.62", "0.62", "0.62") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.9222222222") })?).then(&Affine3::translate(const { Vec3::lit("0.25", "0.45", "0.95") })))?), materials: &[0] },
+        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.055", "0.055", "0.055") }).then(&Affine3::translate(const { Vec3::lit("0.3", "-0.1", "0.05") })).then(&Affine3::scale(const { Vec3::lit("0.34", "0.34", "0.34") })).then(&Affine3::rotate(const { Vec3::lit("0", "0", "1") }, const { Angle::lit("0.0277777778") })?).then(&Affine3::translate(const { Vec3::lit("0.12", "0.3", "1.12") })))?), materials: &[0] },
         // pebble
         Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::scale(const { Vec3::lit("0.3", "0.26", "0.16") }).then(&Affine3::translate(const { Vec3::lit("-0.35", "0.2", "0.25") })))?), materials: &[5] },
         // flat pebble
@@ -165,16 +165,16 @@ pub fn objects<'a>(
 }
 
 /// Where the camera stands.
-pub const EYE: Vec3 = Vec3::lit("0.62", "-0.72", "1");
+pub const EYE: Vec3 = Vec3::lit("0.7", "-0.85", "1.05");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::lit("-0.25", "0.45", "1.34");
+pub const LOOK_AT: Vec3 = Vec3::lit("-0.2", "0.3", "1.3");
 
 /// Which way is up.
 pub const UP: Vec3 = Vec3::lit("0", "0", "1");
 
 /// Vertical, in degrees.
-pub const FIELD_OF_VIEW: Real = Real::lit("74");
+pub const FIELD_OF_VIEW: Real = Real::lit("36");
 
 /// The camera.
 ///

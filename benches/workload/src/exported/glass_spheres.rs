@@ -141,7 +141,7 @@ pub const LOOK_AT: Vec3 = Vec3::lit("0", "0.4", "0.75");
 pub const UP: Vec3 = Vec3::lit("0", "0", "1");
 
 /// Vertical, in degrees.
-pub const FIELD_OF_VIEW: Real = Real::lit("38");
+pub const FIELD_OF_VIEW: Real = Real::lit("36");
 
 /// The camera.
 ///

@@ -191,7 +191,7 @@ pub const LOOK_AT: Vec3 = Vec3::lit("0.5", "0", "0.25");
 pub const UP: Vec3 = Vec3::lit("0", "0", "1");
 
 /// Vertical, in degrees.
-pub const FIELD_OF_VIEW: Real = Real::lit("37");
+pub const FIELD_OF_VIEW: Real = Real::lit("36");
 
 /// The camera.
 ///
