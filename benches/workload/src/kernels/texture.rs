@@ -122,11 +122,11 @@ mod tests {
 
     #[test]
     fn noise_in_floating_point_is_that_of_fixed_point() {
-        for i in 0..COUNT {
-            let [x, y, z] = PLACES[i].map(Lattice::from_bits);
+        for (i, place) in PLACES.iter().enumerate() {
+            let [x, y, z] = place.map(Lattice::from_bits);
             let exact = Noise::PERLIN.at(Vec3::new(x, y, z)).to_num::<f64>();
-            assert!((noise(places::<f64>(65_536.0)[i]) - exact).abs() < 1e-7, "{:?}", PLACES[i]);
-            assert!((f64::from(noise(places::<f32>(65_536.0)[i])) - exact).abs() < 1e-4, "{:?}", PLACES[i]);
+            assert!((noise(places::<f64>(65_536.0)[i]) - exact).abs() < 1e-7, "{place:?}");
+            assert!((f64::from(noise(places::<f32>(65_536.0)[i])) - exact).abs() < 1e-4, "{place:?}");
         }
         let octaves = Turbulence::new(Noise::PERLIN, Real::ONE, OCTAVES).unwrap();
         let [x, y, z] = PLACES[7].map(Real::from_bits);
