@@ -466,6 +466,10 @@ fn media_follow_their_priorities() {
     assert_eq!(found.objects, [0, 1]);
     let place = floats(found.place);
     assert!(ball.value(found.place) < 0.01 && other.value(found.place) < 0.01, "{place:?}");
+    // a ball wholly inside another, named first or last
+    for inner in [vec![ball, water], vec![water, ball]] {
+        assert!(shared([1, 1], inner.clone()).is_some() && shared([0, 1], inner).is_none());
+    }
     assert_eq!(shared([1, 2], vec![ball, other]), None);
     assert_eq!(shared([1, 1], vec![ball, Thing::Ball([3.0, 0.0, 0.0], 0.5)]), None);
 }

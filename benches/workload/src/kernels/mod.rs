@@ -165,8 +165,8 @@ const TABLE: &[Kernel] = &[
     roomy(beside("tapered cylinder", "ray, both crossings and faces", shapes::tapered, shapes::tapered_float::<f32>, shapes::tapered_float::<f64>)),
     roomy(beside("approach", "ray brought near; floats: mapped", shapes::reached, shapes::reached_float::<f32>, shapes::reached_float::<f64>)),
     roomy(beside("passing by", "ray, of which most pass; floats: mapped", shapes::passing, shapes::passing_float::<f32>, shapes::passing_float::<f64>)),
-    alone("torus", "ray, all crossings", solid::torus),
-    alone("superellipsoid", "ray, first crossing", solid::superellipsoid),
-    alone("star", "ray, first crossing; exponents below 1", solid::star),
+    roomy(alone("torus", "ray, all crossings", solid::torus)),
+    roomy(alone("superellipsoid", "ray, first crossing", solid::superellipsoid)),
+    roomy(alone("star", "ray, first crossing; exponents below 1", solid::star)),
     roomy(beside("mirror picture", "pixel; floats: the paper's way", picture::core, picture::paper::<f32>, picture::paper::<f64>)),
 ];

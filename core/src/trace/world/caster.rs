@@ -99,7 +99,13 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
         }
         for y in 0..self.size.height {
             for x in 0..self.size.width {
-                self.pixel(x, y, self.screen.direction(x, y), &mut |shared| {
+                let direction = self.screen.direction(x, y);
+                // what lies wholly inside another is not seen: it is looked for along the ray itself
+                let overlap = self.world.overlap::<EVENTS>(&self.cast(direction.map(narrow)));
+                if overlap.is_some() {
+                    return overlap;
+                }
+                self.pixel(x, y, direction, &mut |shared| {
                     found.get_or_insert(shared);
                 });
                 if found.is_some() {
@@ -110,16 +116,18 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
         None
     }
 
+    /// The camera's ray in a direction, 28 fractional bits.
+    #[inline]
+    fn cast(&self, direction: [i32; 3]) -> Cast {
+        let eye = [self.camera.eye.x, self.camera.eye.y, self.camera.eye.z].map(|c| c.to_bits());
+        let (ray, cone, states) = (Ray::from_bits(eye, direction), self.cone, self.states);
+        Cast { ray, cone, states, departed: None }
+    }
+
     /// The light of one ray, cut off at white.
     #[inline]
     fn sample(&self, direction: [i32; 3], shared: &mut impl FnMut(Interpenetration)) -> Rgb {
-        let eye = [self.camera.eye.x, self.camera.eye.y, self.camera.eye.z].map(|c| c.to_bits());
-        let cast = Cast {
-            ray: Ray::from_bits(eye, direction),
-            cone: self.cone,
-            states: self.states,
-            departed: None,
-        };
+        let cast = self.cast(direction);
         let light = self.world.light::<EVENTS, RAYS>(cast, self.depth, &self.surroundings, shared);
         Rgb::new(light.r.min(Lumen::ONE), light.g.min(Lumen::ONE), light.b.min(Lumen::ONE))
     }

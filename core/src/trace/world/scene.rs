@@ -325,6 +325,27 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
         (with(met.before), with(met.behind))
     }
 
+    /// The first place along a ray that two transparent objects of equal priority share, and which they are;
+    /// whether anything opaque stands before it or not.
+    pub(super) fn overlap<const E: usize>(&self, cast: &Cast) -> Option<Interpenetration> {
+        let (mut events, mut states, mut at) = (Events::<E>::new(), cast.states, 0);
+        for number in 0..self.objects.len() as u8 {
+            if self.medium(number).is_some() {
+                self.cross(number, cast, i32::MAX, &mut events, &mut states);
+            }
+        }
+        loop {
+            let group = events.together(at);
+            let first = group.first()?;
+            states = group.iter().fold(states, |states, event| event.behind(states));
+            if let (Some((other, _)), Some(one)) = self.within(states) {
+                let place = cast.ray.at(first.crossing.t);
+                return Some(Interpenetration { objects: [one, other], place });
+            }
+            at += group.len();
+        }
+    }
+
     /// How much light comes along a ray from beyond `limit`: what the things on the way let pass.
     #[inline(never)]
     pub(super) fn passed<const E: usize>(&self, cast: &Cast, limit: i32) -> Rgb {
