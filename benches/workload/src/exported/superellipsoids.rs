@@ -182,10 +182,10 @@ pub fn objects<'a>(
 }
 
 /// Where the camera stands.
-pub const EYE: Vec3 = Vec3::lit("-5.2", "-11.5", "9.2");
+pub const EYE: Vec3 = Vec3::lit("-6.4", "-14.2", "11.4");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::lit("0.5", "0", "0.25");
+pub const LOOK_AT: Vec3 = Vec3::lit("0.3", "0.2", "0.25");
 
 /// Which way is up.
 pub const UP: Vec3 = Vec3::lit("0", "0", "1");

@@ -60,17 +60,16 @@ impl Shape for Sphere {
         let [cos, sin] = out.map(Unit::to_bits);
         // 24 fractional bits
         let radius = ((product(x, cos) + product(y, sin)) >> 30) as i32;
-        let pi = |v: i64| Real::from_bits(((v * i64::from(PI)) >> 29) as i32);
+        let pi = |v: i32| Real::from_bits((product(v, PI) >> 29) as i32);
+        // in this order: the other way round, the compiler (LLVM 22.1.2) made 0 of it on RV32IMAC
+        let up = (product(z, -PI) >> 29) as i32;
+        let level = |c: i32| Real::from_bits((product(up, c) >> 30) as i32);
         Chart {
             u: turns(atan2(y, x)),
             // from a quarter of a turn down to a quarter up, twice
             v: Real::from_bits((atan2(z, radius).to_bits() as i32 >> 7) + (1 << 23)),
-            along_u: Vec3::new(pi(-2 * i64::from(y)), pi(2 * i64::from(x)), Real::ZERO),
-            along_v: Vec3::new(
-                pi(-(product(z, cos) >> 30)),
-                pi(-(product(z, sin) >> 30)),
-                pi(i64::from(radius)),
-            ),
+            along_u: Vec3::new(pi(y.saturating_mul(-2)), pi(x.saturating_mul(2)), Real::ZERO),
+            along_v: Vec3::new(level(cos), level(sin), pi(radius)),
         }
     }
 }
