@@ -154,7 +154,7 @@ impl OneVariable {
     /// [`super::dimension_of_ratio`].
     ///
     /// Result: the offset with `mean of sqrt(1 + 4 o^2 R^2) = ratio`. Error: of that ratio below `2^-22`
-    /// (`an_offset_gives_the_ratio_asked_for`). Cost: some 12 thousand square roots, 891 thousand Cortex-M4
+    /// (`an_offset_gives_the_ratio_asked_for`). Cost: some 12 thousand square roots, 854 thousand Cortex-M4
     /// instructions (kernel `offset of a ratio`).
     ///
     /// # Errors

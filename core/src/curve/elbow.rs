@@ -54,7 +54,7 @@ impl Elbow {
     /// 1.04, 1.53, 2.06, 2.61 and 3.10 for 1, 1.5, 2, 2.5 and 3 (`curves.rs`: `a_spectrum_falls_as_asked`,
     /// within 0.15). With 0.01 both coordinates together are as close, but `y(t)` alone is steeper by 0.2 at
     /// 1 and 1.5, where the curve begins almost straight and ends rough in all directions. At 1 a few long
-    /// segments dominate single curves: only the mean over seeds is that smooth. Cost: 12.7 thousand
+    /// segments dominate single curves: only the mean over seeds is that smooth. Cost: 12.2 thousand
     /// Cortex-M4 instructions (kernel `elbow law`). The deviation of a curve that is rough in the same way at
     /// all scales is `sqrt(2^(1 - beta) - 1/4)`: [`Elbow::self_similar`].
     ///

@@ -163,7 +163,7 @@ impl<const M: usize, const D: usize> Dyadic<M, D> {
     /// The value at the place `u` of the domain, a fraction in `[0, 1)`.
     ///
     /// Error: at most [`Dyadic::error_bound`] (`an_error_bound_is_less_than_four_times_the_worst_error`).
-    /// Cost: 7.2 Cortex-M4 instructions (kernel `fif dyadic level`) a level for degree 1; as many levels as
+    /// Cost: 7.8 Cortex-M4 instructions (kernel `fif dyadic level`) a level for degree 1; as many levels as
     /// `u` has digits before its trailing zeros.
     #[inline]
     pub fn at(&self, u: Angle) -> Real {
