@@ -641,7 +641,7 @@ mod tests {
 
     /// `cargo test --release -p attractor --lib a_million_rays_at_superellipsoids -- --ignored --nocapture`
     #[test]
-    #[ignore = "takes two minutes"]
+    #[ignore = "two minutes, and not yet green: one exponent below 1 gives a wrong count in 10^5 rays"]
     fn a_million_rays_at_superellipsoids() {
         try_rays(0, 4, 400_000);
         try_rays(1, 5, 300_000);
