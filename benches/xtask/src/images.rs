@@ -6,6 +6,7 @@ use std::process::Stdio;
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
+use crate::multiplications;
 use crate::targets::Target;
 use crate::toolchain::Toolchain;
 
@@ -23,6 +24,17 @@ impl Images {
     pub(crate) fn path(&self, name: &str) -> Result<&Path> {
         let found = self.all.iter().find(|(image, _)| image == name);
         found.map(|(_, path)| path.as_path()).with_context(|| format!("there is no image {name}"))
+    }
+
+    /// Where the compiler loses products: the functions, see [`multiplications`].
+    pub(crate) fn lost(&self) -> Result<Vec<String>> {
+        let mut lost = Vec::new();
+        for (_, path) in &self.all {
+            lost.extend(multiplications::lost(path)?);
+        }
+        lost.sort();
+        lost.dedup();
+        Ok(lost)
     }
 
     /// The images that prove that nothing panics.

@@ -12,6 +12,7 @@ mod images;
 mod kinds;
 mod lines;
 mod measure;
+mod multiplications;
 mod report;
 mod stack;
 mod targets;

@@ -34,6 +34,14 @@ pub(crate) fn measure(
             target.triple
         ));
     }
+    if target.loses {
+        for function in images.lost()? {
+            measured.problems.push(format!(
+                "rustc {} for {} loses products in {function} (benches/xtask/src/multiplications.rs)",
+                toolchain.release, target.triple
+            ));
+        }
+    }
     for nopanic in images.nopanic() {
         emulator::run(&target.machine, nopanic, &[], &[], here, limit)?;
     }

@@ -25,8 +25,10 @@ pub(crate) struct Target {
     pub(crate) small: bool,
     /// Whether `stack` can bound its images: a Cortex-M0 moves the stack pointer and jumps by registers.
     pub(crate) bounded: bool,
-    /// `-C` options for Debian's compiler; rustup's takes them from benches/cortex-m/.cargo/config.toml.
-    pub(crate) codegen: &'static [&'static str],
+    /// Options of rustc for Debian's compiler; rustup's takes them from benches/cortex-m/.cargo/config.toml.
+    pub(crate) options: &'static [&'static str],
+    /// Whether the compiler is known to lose products, see `multiplications`.
+    pub(crate) loses: bool,
 }
 
 /// TIM2 of this machine ticks once an instruction under `-icount shift=0`.
@@ -45,7 +47,8 @@ pub(crate) const ALL: &[Target] = &[
         counting: None,
         small: false,
         bounded: true,
-        codegen: &["target-cpu=cortex-m4"],
+        options: &["-Ctarget-cpu=cortex-m4"],
+        loses: false,
     },
     Target {
         triple: "thumbv6m-none-eabi",
@@ -58,7 +61,8 @@ pub(crate) const ALL: &[Target] = &[
         counting: Some(NETDUINO),
         small: true,
         bounded: false,
-        codegen: &[],
+        options: &[],
+        loses: false,
     },
     Target {
         triple: "riscv32imac-unknown-none-elf",
@@ -71,7 +75,8 @@ pub(crate) const ALL: &[Target] = &[
         counting: None,
         small: false,
         bounded: false,
-        codegen: &[],
+        options: &["--emit=llvm-ir"],
+        loses: true,
     },
 ];
 

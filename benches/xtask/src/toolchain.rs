@@ -57,8 +57,8 @@ impl Toolchain {
         if let Some(linker) = &self.build_std {
             let options = [format!("linker={}", linker.path.display())];
             let options = options.iter().map(String::as_str).chain(linker.options.iter().copied());
-            let flags: Vec<_> =
-                options.chain(target.codegen.iter().copied()).map(|o| format!("-C{o}")).collect();
+            let mut flags: Vec<_> = options.map(|o| format!("-C{o}")).collect();
+            flags.extend(target.options.iter().map(|option| (*option).to_owned()));
             cargo
                 .arg("-Zbuild-std=core")
                 .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"))

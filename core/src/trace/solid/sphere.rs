@@ -61,7 +61,8 @@ impl Shape for Sphere {
         // 24 fractional bits
         let radius = ((product(x, cos) + product(y, sin)) >> 30) as i32;
         let pi = |v: i32| Real::from_bits((product(v, PI) >> 29) as i32);
-        // in this order: the other way round, the compiler (LLVM 22.1.2) made 0 of it on RV32IMAC
+        // pi first: behind two products by -pi, shifted, LLVM 22.1 loses their upper words on RV32IMAC
+        // (`cargo xtask target` looks for such places)
         let up = (product(z, -PI) >> 29) as i32;
         let level = |c: i32| Real::from_bits((product(up, c) >> 30) as i32);
         Chart {
