@@ -35,7 +35,8 @@ const NAMES: [(&str, &str); 17] = [
     ),
     (
         "attractor::trace::texture",
-        "Bumpy Checker Facets Framed Image Lookup Mapped Marble Mottle Noise Relief Rough Slice Spline Texels Turbulence Wood",
+        "Bumpy Checker Facets Framed Image Lookup Mapped Marble Mottle Noise Pasted Relief Rough Slice Spline \
+         Texels Turbulence Wood",
     ),
     ("attractor::trace::world", "Lamp Leaf Object Op World WorldCaster"),
     ("attractor_gallery", "Method Named Pencil Shading"),

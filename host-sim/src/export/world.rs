@@ -94,7 +94,7 @@ impl Choice {
 /// Variant and type of a pigment with a highlight.
 fn kind(scene: &WorldScene, matter: &Matter) -> (String, String) {
     let (pigment, pigment_kind) = match matter.pigment {
-        Colored::Color(_) => ("Plain", "Rgb".to_owned()),
+        Colored::Color(_) => ("Plain".to_owned(), "Rgb".to_owned()),
         Colored::Texture(number) => texture::kind(&scene.world.textures[number]),
     };
     let (gloss, gloss_kind) = match matter.gloss {

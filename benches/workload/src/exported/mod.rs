@@ -50,6 +50,7 @@ pub mod marble;
 pub mod minkowski;
 pub mod mountain_line;
 pub mod orange;
+pub mod parcel;
 pub mod peano;
 pub mod pentigree;
 pub mod plant;
