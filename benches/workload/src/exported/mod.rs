@@ -29,6 +29,8 @@ pub mod figure_6_ff;
 pub mod figure_6_ff_diffuse;
 pub mod figure_6_gg;
 pub mod figure_6_gg_phong;
+pub mod figure_7;
+pub mod figure_7_jittered;
 pub mod filaments;
 pub mod fish_bowl_inside;
 pub mod fish_bowl_outside;
