@@ -71,6 +71,7 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "marble",
     "cloth",
     "orange",
+    "parcel",
     "figure-7",
     "figure-7-jittered",
     "clouds",

@@ -40,6 +40,7 @@ macro_rules! keys {
   arrows, W A S D    pan; on a surface, walk round it
   + -, wheel         zoom, about the mouse with the wheel; a click looks there
   [ ]                half as many iterations, twice as many
+  I J K L            the first light of a surface or a world up, left, down, right
   R                  the scene as its file says, read again
   Enter              save what is shown as NAME-1.png, and print the lines of a scene file that come back here
   N P, Page keys     next scene, previous scene

@@ -247,6 +247,37 @@ fn textures_that_cannot_be_are_refused() {
     change("kind = \"wood\"\n", "kind = \"wood\"", "kind = \"image\"");
     change("kind = \"wood\"\n", "kind = \"wood\"", "kind = \"image\"\nimage = \"missing.png\"");
     change("kind = \"wood\"\n", "kind = \"wood\"", "kind = \"image\"\nimage = \"scene.toml\"");
+    let pattern = "kind = \"pattern\"\nparent = \"#ffffff\"\ndetail = \"u\"\n\
+                   points = [[0, 0], [1, 0], [0, 1]]\n[texture.u]\nkind = \"wood\"\n";
+    for (from, to) in [
+        ("parent = \"#ffffff\"\n", ""),
+        ("parent = \"#ffffff\"", "parent = \"#fff\""),
+        ("parent = \"#ffffff\"", "parent = [1, 2, 1]"),
+        ("detail = \"u\"", "detail = \"v\""),
+        ("detail = \"u\"", "detail = \"t\""),
+        ("points = [[0, 0], [1, 0], [0, 1]]\n", ""),
+        ("[1, 0], [0, 1]", "[0, 1], [1, 0]"),
+        ("[0, 0], [1, 0], [0, 1]", "[0, 0], [1, 0]"),
+        ("[0, 0], [1, 0], [0, 1]", "[0, 0], [1, 0], [0, 200]"),
+        ("kind = \"wood\"", "kind = \"wood\"\nparent = \"t\""),
+        ("kind = \"wood\"", "kind = \"pattern\"\nparent = \"t\"\ndetail = \"#000000\"\npoints = []"),
+    ] {
+        change(pattern, from, to);
+    }
+    let deep: String = (0..9)
+        .map(|k| {
+            format!(
+                "[texture.t{k}]\nkind = \"pattern\"\nparent = \"t{}\"\n\
+                     detail = \"#ffffff\"\npoints = [[0, 0], [1, 0], [0, 1]]\n",
+                k + 1
+            )
+        })
+        .collect();
+    change(
+        &format!("kind = \"wood\"\n{deep}[texture.t9]\nkind = \"wood\"\n"),
+        "kind = \"wood\"\n[texture.t0]",
+        "kind = \"wood\"\nrings = 2\n[texture.t0]",
+    );
     for relief in ["bump", "frame"] {
         let bumpy = WORLD.to_owned() + "[texture.t]\nkind = \"marble\"\n";
         said.change(

@@ -6,15 +6,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::common::{bad, decode, good};
-use crate::exported::{self, near_seahorses, periods, polynomials, stopped, turtle, two_factors};
+use crate::exported::{self, corner, near_seahorses, periods, polynomials, stopped, turtle, two_factors};
 use attractor::curve::Subdivision;
-use attractor::draw::{Ink, Palette, Picture};
+use attractor::draw::{Ink, Palette, Picture, Srgb};
 use attractor::escape::OrbitPoint;
 use attractor::fif::{Cell, Pyramid};
 use attractor::ifs::catalogue::BARNSLEY_FERN;
 use attractor::num::{Real, Unit, Wide};
 use attractor::plane::{Field, PathElement};
-use attractor::trace::HeightField;
+use attractor::trace::world::World;
+use attractor::trace::{Extent, HeightField};
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::{BinaryColor, Gray8, Rgb565, Rgb888};
 use embedded_graphics::prelude::*;
@@ -131,6 +132,27 @@ fn a_surface_of_two_factors_is_the_picture_of_the_command() {
     let pixels = drawn::<Rgb565, _, _>(&caster, two_factors::PALETTE);
     assert!(pixels.iter().any(|pixel| *pixel != pixels[0]));
     assert!(pixels == dumped("two-factors", "rgb565", size));
+}
+
+#[test]
+fn a_world_that_borrows_is_the_picture_of_the_command() {
+    let size = Size::new(60, 40);
+    let f = corner::profile_0::<{ corner::PROFILE_0_MAPS }, { corner::PROFILE_0_DEGREE }>().unwrap();
+    let g = corner::profile_1::<{ corner::PROFILE_1_MAPS }, { corner::PROFILE_1_DEGREE }>().unwrap();
+    let depth = attractor_gallery::surface_depth([f.maps(), g.maps()], None, 60);
+    let cells = |maps| vec![Cell::ZERO; Pyramid::cells(maps, depth)];
+    let (mut a, mut b) = (cells(f.maps()), cells(g.maps()));
+    let [x, y] = [Pyramid::new(&f, depth, &mut a).unwrap(), Pyramid::new(&g, depth, &mut b).unwrap()];
+    let (fields, half_spaces) = (corner::fields(&[x, y]).unwrap(), corner::half_spaces().unwrap());
+    let leaves = corner::leaves(&half_spaces, &fields).unwrap();
+    let mut boxes = [Extent::NOTHING; corner::BOXES];
+    let objects = corner::objects(&leaves, &mut boxes).unwrap();
+    let (materials, lamps) = (corner::materials().unwrap(), corner::lamps().unwrap());
+    let world = World::new(&leaves, &objects, &materials).unwrap().with_lamps(&lamps);
+    let pixels = drawn::<Rgb565, _, _>(&corner::caster(world, size, 1).unwrap(), Srgb);
+    let colours: BTreeSet<_> = pixels.iter().map(|p| (p.r(), p.g(), p.b())).collect();
+    assert!(colours.len() > 30, "{}", colours.len());
+    assert!(pixels == dumped("corner", "rgb565", size));
 }
 
 #[test]

@@ -74,6 +74,24 @@ xdotool key r
 shows "$shots/dump/figure-6-gg.png" home
 closes
 
+# the light of a world by keys; what Enter prints shows the same
+"$attractor" dump lens -o "$shots/dump/lens.png" >/dev/null
+rm -f "$shots"/lens-*.png
+open lens
+shows "$shots/dump/lens.png" lens
+xdotool key l i
+sleep 1
+xdotool key Return
+i=0
+while [ $i -lt 60 ]; do
+    sleep 0.5
+    i=$((i + 1))
+    grep -q color "$shots/said" && break
+done
+closes
+[ "$(compare -metric AE "$shots/dump/lens.png" "$shots/lens-1.png" null: 2>&1)" != 0 ] || fail "does not move the light"
+grep -q '^I J K L' <(sed 's/^ *//' "$shots/keys") || fail "does not say which keys move the light"
+
 # into the Mandelbrot set by keys and mouse, about a point where it looks the same at every depth: past 32 bits, past 64, past 128
 cat >"$shots/tip.toml" <<'END'
 kind = "mandelbrot"

@@ -20,8 +20,7 @@ const MISSING: &[(&str, &str)] = &[
     ("wood", LONG),
     ("marble", LONG),
     ("cloth", LONG),
-    ("figure-7", "its height field lends memory, which no module does yet"),
-    ("figure-7-jittered", "its height field lends memory, which no module does yet"),
+    ("figure-7-jittered", LONG),
 ];
 /// Up to 16 rays a pixel, and as many again as there are bounces.
 const LONG: &str = "the emulator would take minutes for it";

@@ -31,12 +31,7 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
             let reason = "a directory is for --all; one scene goes to standard output";
             return Err(Fail::new(format_args!("--output {}: {reason}", output.display())));
         }
-        let scene = scene::load(name)?;
-        if !is_exported(&scene) {
-            let reason = "a polyhedron or a height field lends memory, and is not exported";
-            return Err(Fail::new(format_args!("{}: {reason}", scene.name)));
-        }
-        let text = source(&scene, args.gallery);
+        let text = source(&scene::load(name)?, args.gallery);
         std::io::stdout().lock().write_all(text.as_bytes())?;
         return Ok(());
     }
@@ -47,10 +42,7 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
     );
     let mut files = Vec::new();
     for (name, _) in builtin::SCENES {
-        let scene = scene::load(name)?;
-        if is_exported(&scene) {
-            files.push((identifier(name), source(&scene, args.gallery)));
-        }
+        files.push((identifier(name), source(&scene::load(name)?, args.gallery)));
     }
     files.sort();
     index.extend(files.iter().map(|(name, _)| format!("pub mod {name};\n")));
@@ -64,14 +56,6 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
         writeln!(out, "{}", path.display())?;
     }
     Ok(())
-}
-
-/// Whether a module can hold it: what borrows memory while it stands in a world does not stand in one yet.
-fn is_exported(scene: &Scene) -> bool {
-    match &scene.kind {
-        Kind::World(scene) => !scene.figures.iter().any(scene::world::Figure::borrows),
-        _ => true,
-    }
 }
 
 /// The name of a built-in scene as that of a module.

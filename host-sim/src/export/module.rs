@@ -20,7 +20,7 @@ const NAMES: [(&str, &str); 17] = [
         "attractor::escape",
         "DeepMandelbrot DeepView Distance FractionalDwell Interior Julia JuliaSet Mandelbrot OrbitPoint Smooth View",
     ),
-    ("attractor::fif", "Fif Knot"),
+    ("attractor::fif", "Fif Knot Pyramid"),
     ("attractor::ifs", "Affine Ifs"),
     ("attractor::num", "Affine3 Angle Complex Limbs Lumen Near Parameter Real Rgb Scaling Unit Vec3 Wide"),
     ("attractor::plane", "Bounds2 Field Point2 Window"),
@@ -31,11 +31,12 @@ const NAMES: [(&str, &str); 17] = [
     ("attractor::trace::material", "Anisotropic Clear Medium Mixture Phong TorranceSparrow"),
     (
         "attractor::trace::solid",
-        "Cube Moved Placed Plane Polygon Polyhedron Sphere Square Superellipsoid TaperedCylinder Torus",
+        "Cube HalfSpace Moved Placed Plane Polygon Polyhedron Sphere Square Superellipsoid TaperedCylinder Torus",
     ),
     (
         "attractor::trace::texture",
-        "Bumpy Checker Facets Framed Image Lookup Mapped Marble Mottle Noise Relief Rough Slice Spline Texels Turbulence Wood",
+        "Bumpy Checker Facets Framed Image Lookup Mapped Marble Mottle Noise Pasted Relief Rough Slice Spline \
+         Texels Turbulence Wood",
     ),
     ("attractor::trace::world", "Lamp Leaf Object Op World WorldCaster"),
     ("attractor_gallery", "Method Named Pencil Shading"),

@@ -12,7 +12,7 @@ use crate::scene::Standpoint;
 use crate::scene::fif_surface::FifSurface;
 
 /// The longer side of the display for which a depth is stated.
-const SIDE: u32 = 240;
+pub(super) const SIDE: u32 = 240;
 
 pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
     let (f, g) = (&scene.f.function, &scene.g.function);

@@ -44,15 +44,20 @@ fn spline(colors: &[(Unit, Rgb)]) -> String {
 }
 
 /// What a variant of a texture is called, and its type.
-pub(super) fn kind(pattern: &Pattern) -> (&'static str, String) {
-    match pattern {
+pub(super) fn kind(pattern: &Pattern) -> (String, String) {
+    let (name, kind) = match pattern {
+        Pattern::Pasted { parent, detail, .. } => {
+            let [(under, parent), (over, detail)] = [parent, detail].map(|part| kind(part));
+            return (format!("{over}On{under}"), format!("Pasted<'static, {parent}, {detail}>"));
+        }
         Pattern::Checker { .. } => ("Checker", "Checker".to_owned()),
         Pattern::Mottle { colors, .. } => ("Mottle", format!("Mottle<{}>", colors.len())),
         Pattern::Marble { colors, .. } => ("Marble", format!("Marble<{}>", colors.len())),
         Pattern::Wood { .. } => ("Wood", "Wood".to_owned()),
-        Pattern::Facets { .. } => ("Plain", "Rgb".to_owned()),
+        Pattern::Facets { .. } | Pattern::Plain(_) => ("Plain", "Rgb".to_owned()),
         Pattern::Image { .. } => ("Image", "Mapped<Image<'static>>".to_owned()),
-    }
+    };
+    (name.to_owned(), kind)
 }
 
 /// A texture as an expression.
@@ -96,6 +101,13 @@ pub(super) fn code(pattern: &Pattern) -> String {
             )
         }
         Pattern::Facets { .. } => color(Rgb::WHITE),
+        Pattern::Plain(light) => color(*light),
+        Pattern::Pasted { parent, detail, corners } => {
+            let corner = |[u, v]: &[Real; 2]| format!("[{}, {}]", lit("Real", *u), lit("Real", *v));
+            let corners: Vec<String> = corners.iter().map(corner).collect();
+            let corners = constant(format!("[{}]", corners.join(", ")));
+            format!("Pasted::new({}, &{corners}, {})?", code(parent), code(detail))
+        }
         Pattern::Image { lookup, rows, .. } => {
             let row = |row: [Real; 3]| format!("[{}]", row.map(real).join(", "));
             let [u, v] = rows.map(row);

@@ -1,15 +1,19 @@
 //! Worlds: what stands in them, of what it is made, what lights it and how it is seen.
 //!
 //! Only what a world has is named, so that no more is linked: its own enums of shapes and materials, or the
-//! one type itself where there is but one.
+//! one type itself where there is but one. What shapes borrow, half-spaces and the pyramids of height fields,
+//! the firmware lends.
 
-use attractor::num::{Near, Real, Rgb};
+use attractor::fif::Pyramid;
+use attractor::num::{Near, Real, Rgb, Wide};
 use attractor::trace::Filter;
 use attractor::trace::world::Op;
 
+use super::function::function;
 use super::module::{Module, lit, lits};
-use super::surface::camera;
+use super::surface::{SIDE, camera};
 use super::texture::{self, color, constant, vector};
+use crate::scene::function::Function;
 use crate::scene::world::{Around, Colored, Figure, Gloss, Light, Matter, Stand, Step, WorldScene};
 
 /// The map of a part.
@@ -31,7 +35,103 @@ fn map(steps: &[Step]) -> String {
     steps.fold(first, |map, step| format!("{map}.then(&{step})"))
 }
 
-/// A shape as an expression.
+/// What the shapes of a world borrow.
+#[derive(Default)]
+struct Lent<'a> {
+    /// All half-spaces, normals and distances, each with the name of its polyhedron.
+    half_spaces: Vec<(String, [Wide; 4])>,
+    /// Functions of height fields, each once.
+    profiles: Vec<&'a Function>,
+    /// The numbers of those of each height field.
+    fields: Vec<[usize; 2]>,
+    /// How deep their pyramids are on [`SIDE`] pixels.
+    depths: Vec<u32>,
+}
+
+impl<'a> Lent<'a> {
+    fn profile(&mut self, given: &'a Function) -> usize {
+        let known = self.profiles.iter().position(|known| known.parts == given.parts);
+        known.unwrap_or_else(|| {
+            self.profiles.push(given);
+            self.profiles.len() - 1
+        })
+    }
+
+    fn is_empty(&self) -> bool {
+        self.half_spaces.is_empty() && self.fields.is_empty()
+    }
+
+    /// A shape with its map as an expression.
+    fn surface(&mut self, figure: &'a Figure, name: &str, map: &str) -> String {
+        match figure {
+            Figure::Polyhedron { planes, .. } => {
+                let from = self.half_spaces.len();
+                self.half_spaces.extend(planes.iter().map(|plane| (name.to_owned(), *plane)));
+                let to = self.half_spaces.len();
+                format!("Placed::new(Polyhedron::new(&half_spaces[{from}..{to}])?, &{map})?")
+            }
+            Figure::HeightField(profiles) => {
+                let [f, g] = &**profiles;
+                let numbers = [self.profile(f), self.profile(g)];
+                self.fields.push(numbers);
+                self.depths.push(figure.depth(SIDE));
+                format!("Moved::new(fields[{}], &{map})?", self.fields.len() - 1)
+            }
+            other => format!("Placed::new({}, &{map})?", shape(other)),
+        }
+    }
+
+    /// The functions that build it, and the parameters that `leaves` takes.
+    fn write(&self, module: &mut Module) -> String {
+        let mut parameters = Vec::new();
+        if !self.half_spaces.is_empty() {
+            let half_space = |(name, plane): &(String, [Wide; 4])| {
+                let [x, y, z, d] = plane.map(|number| lit("Wide", number));
+                let normal = constant(format!("Vec3::new({x}, {y}, {z})"));
+                (name.clone(), format!("HalfSpace::new({normal}, {})?", constant(d)))
+            };
+            let rows: Vec<_> = self.half_spaces.iter().map(half_space).collect();
+            list(module, "The half-spaces of the polyhedra.", "half_spaces", "HalfSpace", &rows);
+            parameters.push(format!("half_spaces: &'a [HalfSpace; {}]", rows.len()));
+        }
+        for (k, profile) in self.profiles.iter().enumerate() {
+            function(profile, &format!("profile_{k}"), &format!("PROFILE_{k}_"), module);
+        }
+        if !self.fields.is_empty() {
+            let cells: Vec<String> = self
+                .profiles
+                .iter()
+                .enumerate()
+                .map(|(k, profile)| {
+                    let used =
+                        self.fields.iter().zip(&self.depths).filter(|(numbers, _)| numbers.contains(&k));
+                    let depth = used.map(|(_, depth)| *depth).max().unwrap_or_default();
+                    format!(
+                        "{} cells of profile {k}, {depth} deep",
+                        Pyramid::cells(profile.fixed.maps(), depth)
+                    )
+                })
+                .collect();
+            let rows: Vec<String> = self
+                .fields
+                .iter()
+                .map(|[f, g]| format!("HeightField::new(&pyramids[{f}], &pyramids[{g}])?"))
+                .collect();
+            let doc = format!(
+                "The height fields, by a pyramid of each profile:\non {SIDE} pixels a side, {}.\n\n# Errors\nThose of [`HeightField::new`].",
+                cells.join(", ")
+            );
+            let (pyramids, count) = (self.profiles.len(), rows.len());
+            module.item(&doc, &format!(
+                "#[rustfmt::skip]\npub fn fields<'a>(pyramids: &[Pyramid<'a>; {pyramids}]) -> Result<[HeightField<'a>; {count}], Error> {{\n    Ok([{}])\n}}\n",
+                rows.join(", ")));
+            parameters.push(format!("fields: &[HeightField<'a>; {count}]"));
+        }
+        parameters.join(", ")
+    }
+}
+
+/// A shape that borrows nothing as an expression.
 fn shape(figure: &Figure) -> String {
     let list = |rows: Vec<String>| format!("[{}]", rows.join(", "));
     match figure {
@@ -67,9 +167,10 @@ impl Choice {
         Self { name, kinds }
     }
 
-    fn write(&self, doc: &str, of: &str, module: &mut Module) {
+    /// `life` is the lifetime of what is borrowed, in angles.
+    fn write(&self, doc: &str, of: &str, life: &str, module: &mut Module) {
         match self.kinds.as_slice() {
-            [(_, only)] => module.item(doc, &format!("pub type {} = {only};\n", self.name)),
+            [(_, only)] => module.item(doc, &format!("pub type {}{life} = {only};\n", self.name)),
             kinds => {
                 let variants: String = kinds
                     .iter()
@@ -78,7 +179,7 @@ impl Choice {
                 module.item(
                     "",
                     &format!(
-                        "attractor::{of}! {{\n    /// {doc}\n    #[derive(Debug, Clone, Copy)]\n    pub enum {} {{\n{variants}    }}\n}}\n",
+                        "attractor::{of}! {{\n    /// {doc}\n    #[derive(Debug, Clone, Copy)]\n    pub enum {}{life} {{\n{variants}    }}\n}}\n",
                         self.name
                     ),
                 );
@@ -94,7 +195,7 @@ impl Choice {
 /// Variant and type of a pigment with a highlight.
 fn kind(scene: &WorldScene, matter: &Matter) -> (String, String) {
     let (pigment, pigment_kind) = match matter.pigment {
-        Colored::Color(_) => ("Plain", "Rgb".to_owned()),
+        Colored::Color(_) => ("Plain".to_owned(), "Rgb".to_owned()),
         Colored::Texture(number) => texture::kind(&scene.world.textures[number]),
     };
     let (gloss, gloss_kind) = match matter.gloss {
@@ -175,12 +276,17 @@ fn lamp(light: &Light) -> String {
 
 /// A function that makes an array, an element a line, each under its comment.
 fn list(module: &mut Module, doc: &str, name: &str, kind: &str, all: &[(String, String)]) {
+    built(module, doc, &format!("{name}()"), kind, all);
+}
+
+/// The same with a head of its own.
+fn built(module: &mut Module, doc: &str, head: &str, kind: &str, all: &[(String, String)]) {
     let rows: String = all.iter().map(|(note, row)| format!("        // {note}\n        {row},\n")).collect();
     let doc = format!("{doc}\n\n# Errors\nNone: the command has built them.");
     module.item(
         &doc,
         &format!(
-            "#[rustfmt::skip]\npub fn {name}() -> Result<[{kind}; {}], Error> {{\n    Ok([\n{rows}    ])\n}}\n",
+            "#[rustfmt::skip]\npub fn {head} -> Result<[{kind}; {}], Error> {{\n    Ok([\n{rows}    ])\n}}\n",
             all.len()
         ),
     );
@@ -189,9 +295,20 @@ fn list(module: &mut Module, doc: &str, name: &str, kind: &str, all: &[(String, 
 pub(super) fn world(scene: &WorldScene, module: &mut Module) {
     let world = &scene.world;
     let shapes = Choice::new("Thing", scene.figures.iter().map(Figure::kind));
-    shapes.write("What stands in it.", "surfaces", module);
+    let mut lent = Lent::default();
+    let parts = scene.figures.iter().zip(&world.programs.parts).zip(&scene.made_of);
+    let leaves: Vec<_> = parts
+        .map(|((figure, part), materials)| {
+            let name = world.things[part.thing].prefix(part.thing);
+            let name = super::module::comment(name.trim_end_matches('.'));
+            let surface = shapes.value(&figure.kind().0, lent.surface(figure, &name, &map(&part.steps)));
+            (name, format!("Leaf {{ surface: {surface}, materials: &{materials:?} }}"))
+        })
+        .collect();
+    let life = if lent.is_empty() { "" } else { "<'a>" };
+    shapes.write("What stands in it.", "surfaces", life, module);
     let stuffs = Choice::new("Stuff", world.materials.iter().map(|matter| kind(scene, matter)));
-    stuffs.write("What things are made of.", "materials", module);
+    stuffs.write("What things are made of.", "materials", "", module);
     let materials: Vec<_> = world
         .materials
         .iter()
@@ -201,33 +318,23 @@ pub(super) fn world(scene: &WorldScene, module: &mut Module) {
         })
         .collect();
     list(module, "The materials.", "materials", "Stuff", &materials);
-    let parts = scene.figures.iter().zip(&world.programs.parts).zip(&scene.made_of);
-    let leaves: Vec<_> = parts
-        .map(|((figure, part), materials)| {
-            let placed = format!("Placed::new({}, &{})?", shape(figure), map(&part.steps));
-            let surface = shapes.value(&figure.kind().0, placed);
-            let name = world.things[part.thing].prefix(part.thing);
-            let name = super::module::comment(name.trim_end_matches('.'));
-            (name, format!("Leaf {{ surface: {surface}, materials: &{materials:?} }}"))
-        })
-        .collect();
-    list(
-        module,
-        "The shapes, each with the numbers of its materials.",
-        "leaves",
-        "Leaf<'static, Thing>",
-        &leaves,
-    );
+    let parameters = lent.write(module);
+    let doc = "The shapes, each with the numbers of its materials.";
+    if lent.is_empty() {
+        list(module, doc, "leaves", "Leaf<'static, Thing>", &leaves);
+    } else {
+        built(module, doc, &format!("leaves<'a>({parameters})"), "Leaf<'a, Thing<'a>>", &leaves);
+    }
     let lamps: Vec<_> =
         world.lights.iter().enumerate().map(|(i, light)| (format!("light {i}"), lamp(light))).collect();
     list(module, "What shines.", "lamps", "Lamp", &lamps);
-    objects(scene, module);
+    objects(scene, life, module);
     camera(&world.standpoint, module);
-    picture(scene, module);
+    picture(scene, life, module);
 }
 
 /// Programs, and what builds the objects of them.
-fn objects(scene: &WorldScene, module: &mut Module) {
+fn objects(scene: &WorldScene, life: &str, module: &mut Module) {
     let programs = &scene.world.programs.objects;
     let step = |op: &Op| match op {
         Op::Leaf(leaf) => format!("Op::Leaf({leaf})"),
@@ -260,7 +367,8 @@ fn objects(scene: &WorldScene, module: &mut Module) {
     module.item(
         "The objects.\n\n# Errors\nNone: the command has built them.",
         &format!(
-            "#[rustfmt::skip]\npub fn objects<'a>(\n    leaves: &[Leaf<'static, Thing>],\n    boxes: &'a mut [Extent; BOXES],\n) -> Result<[Object<'a>; {}], Error> {{\n{body}}}\n",
+            "#[rustfmt::skip]\npub fn objects<'a>(\n    leaves: &[Leaf<{}>],\n    boxes: &'a mut [Extent; BOXES],\n) -> Result<[Object<'a>; {}], Error> {{\n{body}}}\n",
+            if life.is_empty() { "'static, Thing" } else { "'_, Thing<'_>" },
             programs.len()
         ),
     );
@@ -293,14 +401,14 @@ fn around(around: &Around) -> (&'static str, String) {
 }
 
 /// The caster, and what it asks for.
-fn picture(scene: &WorldScene, module: &mut Module) {
+fn picture(scene: &WorldScene, life: &str, module: &mut Module) {
     let world = &scene.world;
     let crossings = scene.most_crossings();
     let rays = usize::from(world.depth) + 2;
     module.item(
         "The picture of the world.",
         &format!(
-            "pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, {}, {crossings}, {rays}>;\n",
+            "pub type Caster<'a> = WorldCaster<'a, Thing{life}, Stuff, {}, {crossings}, {rays}>;\n",
             around(&world.around).0
         ),
     );
@@ -327,7 +435,7 @@ fn picture(scene: &WorldScene, module: &mut Module) {
     module.item(
         "The picture of the world; the command's seed is 1.\n\n# Errors\nThose of [`WorldCaster::new`].",
         &format!(
-            "#[rustfmt::skip]\npub fn caster<'a>(world: World<'a, Thing, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {{\n{body}}}\n"
+            "#[rustfmt::skip]\npub fn caster<'a>(world: World<'a, Thing{life}, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {{\n{body}}}\n"
         ),
     );
 }

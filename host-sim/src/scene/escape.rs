@@ -107,8 +107,8 @@ impl Escape {
     }
 
     /// Moves about on a display of this size. Each doubling of the scale adds iterations: finer detail needs
-    /// longer orbits. A dwell that
-    /// is a share of ever more iterations would be ever darker: its colours are equalised from then on.
+    /// longer orbits. A dwell that is a share of ever more iterations would be ever darker: its colours are
+    /// equalised from then on.
     ///
     /// The message says why not.
     pub(super) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
@@ -126,7 +126,7 @@ impl Escape {
                     self.max_dwell
                 }
             }
-            Motion::Pan { .. } => self.max_dwell,
+            Motion::Pan { .. } | Motion::Light { .. } => self.max_dwell,
         };
         let sight = self.sight(size)?.after(motion, size).ok_or_else(|| Fail::new(EDGE))?;
         let centre = Complex::new(sight.centre.re.to_wide(), sight.centre.im.to_wide());

@@ -16,7 +16,7 @@ use super::environment::{Around, Board, Sky, Surroundings};
 use super::fif_curve::abscissa;
 use super::function::{DEGREE, Description, Function, MAPS};
 use super::motion::Motion;
-use super::orbit::Orbit;
+use super::orbit::{Orbit, carried};
 use super::request::Request;
 use super::standpoint::{Eye, Standpoint, camera, vector};
 use crate::color::Depth;
@@ -86,6 +86,8 @@ pub(crate) struct FifSurface {
     orbit: Option<Orbit>,
     /// Towards it.
     pub(crate) light: Option<Vec3>,
+    /// Whether it was moved.
+    is_lit_anew: bool,
     pub(crate) material: Finish,
     pub(crate) environment: Environment,
     /// A side.
@@ -129,6 +131,7 @@ impl FifSurface {
             eye: source.place(file.camera.get_ref().eye.span(), "camera.eye"),
             orbit,
             light: light.transpose()?,
+            is_lit_anew: false,
             material: match file.material.unwrap_or(Surfaced::Diffuse) {
                 Surfaced::Diffuse => Finish::DIFFUSE,
                 Surfaced::Phong => Finish::PHONG,
@@ -189,8 +192,18 @@ impl FifSurface {
         Ok(caster)
     }
 
-    /// Moves the camera round what it looks at; the message says why not.
+    /// Moves the camera round what it looks at, or the light; the message says why not.
     pub(super) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        if let Motion::Light { right, up } = motion {
+            if self.material == Finish::Mirror {
+                return Err(Fail::new("a mirror shows its surroundings, no light"));
+            }
+            // that of a caster to which none is given
+            let light = self.light.unwrap_or(Vec3::lit("-1", "-2", "3"));
+            self.light = Some(carried(light, Vec3::default(), [right, up], size));
+            self.is_lit_anew = true;
+            return Ok(());
+        }
         let Some(orbit) = &self.orbit else {
             return Err(Fail::new("the camera moves about only where z is up"));
         };
@@ -202,7 +215,10 @@ impl FifSurface {
 
     /// Where the viewer stands, as lines of a scene file.
     pub(super) fn place(&self) -> Option<String> {
-        self.orbit.as_ref().map(Orbit::place)
+        let light = self.light.filter(|_| self.is_lit_anew);
+        let light = light.map(|Vec3 { x, y, z }| format!("[light]\ndirection = [{x}, {y}, {z}]\n"));
+        let camera = self.orbit.as_ref().map(Orbit::place);
+        (camera.is_some() || light.is_some()).then(|| camera.unwrap_or_default() + &light.unwrap_or_default())
     }
 
     pub(super) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>

@@ -220,7 +220,9 @@ impl Scene {
     /// Moves about on a display of this size; the message says why not.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window moves about"))]
     pub(crate) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        let lit = matches!(self.kind, Kind::FifSurface(_) | Kind::World(_));
         let reason = match &mut self.kind {
+            _ if matches!(motion, Motion::Light { .. }) && !lit => "there is no light to move",
             Kind::Mandelbrot(scene) => return scene.go(size, motion),
             Kind::Julia(scene) => return scene.go(size, motion),
             Kind::FifSurface(scene) => return scene.go(size, motion),

@@ -15,6 +15,8 @@ pub(crate) enum Motion {
     Zoom { about: Option<Point>, closer: bool },
     /// Twice as many iterations, or half as many.
     Iterate { more: bool },
+    /// The light further to the right and up, by as many pixels as a camera that is panned.
+    Light { right: i32, up: i32 },
 }
 
 /// A square-pixel view of the plane: its middle and its width.
@@ -49,7 +51,7 @@ impl<const LIMBS: usize> Sight<LIMBS> {
                     Self { centre: moved(-right, -up, &half_pitch), width: self.width.times_small(2) }
                 }
             }
-            Motion::Iterate { .. } => *self,
+            Motion::Iterate { .. } | Motion::Light { .. } => *self,
         };
         // the formats end at 8: a view that reaches 4 from 0 is wide enough for any of these sets
         let inside = |v: &Limbs<LIMBS>| v.to_wide().unsigned_abs() <= 4;

@@ -49,7 +49,7 @@ impl Orbit {
             }
             Motion::Zoom { closer: true, .. } => orbit.distance /= 1.25,
             Motion::Zoom { closer: false, .. } => orbit.distance *= 1.25,
-            Motion::Iterate { .. } => {}
+            Motion::Iterate { .. } | Motion::Light { .. } => {}
         }
         orbit
     }
@@ -60,11 +60,16 @@ impl Orbit {
             .map_err(Fail::new)
     }
 
-    /// As a table of a scene file.
-    pub(super) fn place(&self) -> String {
+    /// Where that is.
+    fn eye(&self) -> [f32; 3] {
         let [x, y, z] = self.look_at;
         let (level, up) = (self.distance * self.lift.cos(), self.distance * self.lift.sin());
-        let eye = [x + level * self.turn.cos(), y + level * self.turn.sin(), z + up];
+        [x + level * self.turn.cos(), y + level * self.turn.sin(), z + up]
+    }
+
+    /// As a table of a scene file.
+    pub(super) fn place(&self) -> String {
+        let eye = self.eye();
         format!(
             "[camera]\neye = {eye:?}\nlook_at = {:?}\nfield_of_view = {:?}\n",
             self.look_at, self.field_of_view
@@ -72,9 +77,31 @@ impl Orbit {
     }
 }
 
+/// A light at a place, carried round another place as a camera is that is panned as far.
+pub(super) fn carried(light: Vec3, about: Vec3, pan: [i32; 2], size: Size) -> Vec3 {
+    let [right, up] = pan;
+    let orbit = Orbit::new(light, about, Real::ONE).after(Motion::Pan { right, up }, size);
+    let [x, y, z] = orbit.eye().map(Real::saturating_from_num);
+    Vec3::new(x, y, z)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_light_is_carried_round_and_back_at_its_distance() {
+        let (light, about) = (Vec3::lit("3", "-2", "5"), Vec3::lit("1", "0.5", "-1"));
+        let size = Size::new(240, 240);
+        // a quarter of a turn to the right
+        let there = carried(light, about, [240, 0], size);
+        let off =
+            [(there.x, 3.5), (there.y, 2.5), (there.z, 5.0)].map(|(c, exact)| c.to_num::<f64>() - exact);
+        assert!(off.iter().all(|off| off.abs() < 1e-5), "{there:?}");
+        let back = carried(carried(light, about, [-80, -60], size), about, [80, 60], size);
+        let off = [back.x - light.x, back.y - light.y, back.z - light.z];
+        assert!(off.iter().all(|off| off.abs() < Real::lit("0.00001")), "{back:?}");
+    }
 
     #[test]
     fn a_camera_that_does_not_move_stays_where_it_is() {

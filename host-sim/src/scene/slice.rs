@@ -16,7 +16,7 @@ use toml::Spanned;
 use super::motion::Motion;
 use super::request::{Question, Request};
 
-use super::world::texture::{Pattern, Pigment, Woven};
+use super::world::texture::{Pattern, Pigment, Tables, Woven};
 use super::world::values::{light, values};
 use crate::color::Depth;
 use crate::fail::Fail;
@@ -69,7 +69,7 @@ impl SliceScene {
         };
         let centre = file.centre.as_ref();
         let scene = Self {
-            pattern: Pattern::load(source, "", &file.texture)?,
+            pattern: Pattern::load(source, "", &file.texture, &Tables::new())?,
             centre: centre.map_or(Ok([Real::ZERO; 2]), |centre| source.pair(centre.get_ref(), "centre"))?,
             width,
             height: file.height.as_ref().map_or(Ok(Real::ZERO), |number| source.fixed(number, "height"))?,
@@ -121,6 +121,7 @@ impl SliceScene {
                 let step = Real::ONE / 16;
                 self.height = self.height.saturating_add(if more { step } else { -step });
             }
+            Motion::Light { .. } => {}
         }
         let fits =
             self.bounds().is_some() && (Real::ONE >> 10..=Real::from_num(WIDEST)).contains(&self.width);

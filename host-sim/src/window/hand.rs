@@ -41,6 +41,7 @@ impl Hand {
         let step = (self.size.width.min(self.size.height) / 8).max(1) as i32;
         let pan = |right: i32, up: i32| Some(Wish::Go(Motion::Pan { right, up }));
         let zoom = |about: Option<Point>, closer: bool| Some(Wish::Go(Motion::Zoom { about, closer }));
+        let light = |right: i32, up: i32| Some(Wish::Go(Motion::Light { right, up }));
         match event {
             SimulatorEvent::Quit => Some(Wish::Close),
             SimulatorEvent::MouseMove { point } => {
@@ -63,6 +64,10 @@ impl Hand {
                 Keycode::Minus | Keycode::KpMinus => zoom(None, false),
                 Keycode::RightBracket => Some(Wish::Go(Motion::Iterate { more: true })),
                 Keycode::LeftBracket => Some(Wish::Go(Motion::Iterate { more: false })),
+                Keycode::J => light(-step, 0),
+                Keycode::L => light(step, 0),
+                Keycode::I => light(0, step),
+                Keycode::K => light(0, -step),
                 Keycode::R => Some(Wish::Reload),
                 Keycode::Return | Keycode::KpEnter => Some(Wish::Save),
                 Keycode::PageDown | Keycode::N => Some(Wish::Next),

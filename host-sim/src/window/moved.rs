@@ -32,7 +32,7 @@ fn before(p: Point, motion: Motion, size: Size) -> Point {
             };
             Point::new(part(middle(p).x, about.x), part(middle(p).y, about.y))
         }
-        Motion::Iterate { .. } => p,
+        Motion::Iterate { .. } | Motion::Light { .. } => p,
     }
 }
 

@@ -46,7 +46,7 @@ pub(super) const fn cells_of_surface(maps: usize, depth: Option<u32>, size: Size
     Pyramid::cells(maps, depth_of_surface(maps, depth, size))
 }
 
-const fn depth_of_surface(maps: usize, depth: Option<u32>, size: Size) -> u32 {
+pub(super) const fn depth_of_surface(maps: usize, depth: Option<u32>, size: Size) -> u32 {
     let side = if size.width > size.height { size.width } else { size.height };
     surface_depth([maps, maps], depth, side)
 }

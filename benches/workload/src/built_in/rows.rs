@@ -192,22 +192,46 @@ macro_rules! deep {
 macro_rules! world {
     ($name:literal, $scene:ident) => {
         both!($name, |stage, C, S| {
-            let (leaves, materials, lamps) =
-                (of::$scene::leaves()?, of::$scene::materials()?, of::$scene::lamps()?);
-            let mut boxes = [attractor::trace::Extent::NOTHING; of::$scene::BOXES];
-            let objects = of::$scene::objects(&leaves, &mut boxes)?;
-            let world =
-                attractor::trace::world::World::new(&leaves, &objects, &materials)?.with_lamps(&lamps);
-            let caster = of::$scene::caster(world, stage.size(), SEED as u32)?;
-            let bytes = size_of_val(&leaves)
-                + size_of_val(&materials)
-                + size_of_val(&lamps)
-                + size_of::<[attractor::trace::Extent; of::$scene::BOXES]>()
-                + size_of_val(&objects)
-                + size_of_val(&caster);
-            worlds::light::<C>(stage, caster, bytes)
+            let leaves = of::$scene::leaves()?;
+            cast!($scene, stage, C, &leaves, 0)
         })
     };
+}
+
+/// A world with height fields, all of one profile.
+macro_rules! field_world {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| {
+            const MAPS: usize = of::$scene::PROFILE_0_MAPS;
+            const DEPTH: u32 = fif::depth_of_surface(MAPS, None, S);
+            let f = of::$scene::profile_0::<MAPS, { of::$scene::PROFILE_0_DEGREE }>()?;
+            let mut cells = [attractor::fif::Cell::ZERO; fif::cells_of_surface(MAPS, None, S)];
+            let lent = size_of_val(&f) + size_of_val(&cells);
+            let fields = of::$scene::fields(&[attractor::fif::Pyramid::new(&f, DEPTH, &mut cells)?])?;
+            let leaves = of::$scene::leaves(&fields)?;
+            cast!($scene, stage, C, &leaves, lent + size_of_val(&fields))
+        })
+    };
+}
+
+/// The picture of a world with these leaves, which borrow so many bytes.
+macro_rules! cast {
+    ($scene:ident, $stage:ident, $color:ident, $leaves:expr, $lent:expr) => {{
+        let leaves = $leaves;
+        let (materials, lamps) = (of::$scene::materials()?, of::$scene::lamps()?);
+        let mut boxes = [attractor::trace::Extent::NOTHING; of::$scene::BOXES];
+        let objects = of::$scene::objects(leaves, &mut boxes)?;
+        let world = attractor::trace::world::World::new(leaves, &objects, &materials)?.with_lamps(&lamps);
+        let caster = of::$scene::caster(world, $stage.size(), SEED as u32)?;
+        let bytes = $lent
+            + size_of_val(leaves)
+            + size_of_val(&materials)
+            + size_of_val(&lamps)
+            + size_of::<[attractor::trace::Extent; of::$scene::BOXES]>()
+            + size_of_val(&objects)
+            + size_of_val(&caster);
+        worlds::light::<$color>($stage, caster, bytes)
+    }};
 }
 
 macro_rules! texture {

@@ -1,7 +1,7 @@
 //! The superellipsoid: `F = (|x|^n + |y|^n)^(m / n) + |z|^m - 1`.
 //!
-//! It is inside where `N = (F + 1)^(1 / m)` is below 1, and `N` is the norm of a place made of two norms of two
-//! numbers: `N = |rho, z|_m`, `rho = |x, y|_n`, `|a, b|_n = (|a|^n + |b|^n)^(1 / n)`. All is computed in
+//! It is inside where `N = (F + 1)^(1 / m)` is below 1, and `N` is the norm of a place made of two norms of
+//! two numbers: `N = |rho, z|_m`, `rho = |x, y|_n`, `|a, b|_n = (|a|^n + |b|^n)^(1 / n)`. All is computed in
 //! logarithms, by `log |a, b|_n = log a + log(1 + (b / a)^n) / n` for `a >= b`, where nothing overflows.
 //!
 //! Exponents of 1 and more: `N` is convex along a ray, so that Newton's method from where the ray enters the
@@ -12,8 +12,8 @@
 //! its values for the least and the greatest of each. A part where both are above 1, or both below, is done;
 //! any other is halved, front to back, until it is shorter than `2^-20`.
 //!
-//! Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE Computer Graphics and Applications
-//! 1(1), 1981; Duff, "Interval Arithmetic and Recursive Subdivision for Implicit Functions", SIGGRAPH 1992.
+//! Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE Computer Graphics and
+//! Applications 1(1), 1981; Duff, "Interval Arithmetic and Recursive Subdivision for Implicit Functions", SIGGRAPH 1992.
 //!
 //! Formats: `s` and places 28 fractional bits, logarithms and exponents 24, `N` and its derivatives 30.
 
@@ -26,8 +26,8 @@ use crate::Error;
 use crate::num::formats::{Q24, Q28, Q30, UQ24, UQ28};
 use crate::num::{Near, Real, Vec3, Wide, atan2, exp2_minus, log2, product, product_u, reciprocal_of};
 
-/// A superellipsoid with half-axes of 1: sphere (2, 2), cube with rounded edges (above), octahedron (1, 1), star
-/// (below).
+/// A superellipsoid with half-axes of 1: sphere (2, 2), cube with rounded edges (above), octahedron (1, 1),
+/// star (below).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Superellipsoid {
     across: Norm,
@@ -187,12 +187,13 @@ impl Superellipsoid {
         // ends of the parts that are left, nearest last: each is half as long as the one before
         let mut ends = [end; 32];
         let (mut left, mut from, mut outside) = (1_usize, start, self.is_outside(line.at(start)));
-        let mut crossings = 0;
+        // a change that is handed over once the ray is past what is too thin
+        let (mut held, mut crossings) = (None::<Q28>, 0);
         for _ in 0..STEPS {
             let Some(to) = left.checked_sub(1).and_then(|last| ends.get(last)).copied() else { break };
             let places = [line.at(from), line.at(to)];
             let whole = match self.whole(places) {
-                None if to.saturating_sub(from) <= 1 << 8 || left >= ends.len() => self.is_outside(places[1]),
+                None if to.saturating_sub(from) <= THIN || left >= ends.len() => self.is_outside(places[1]),
                 None => {
                     if let Some(place) = ends.get_mut(left) {
                         *place = ((i64::from(from) + i64::from(to)) >> 1) as i32;
@@ -203,26 +204,32 @@ impl Superellipsoid {
                 Some(whole) => whole,
             };
             if whole != outside {
-                crossings += 1;
-                found(NearCrossing { s: Near::from_bits(from), enters: outside, face: 0 })?;
                 outside = whole;
+                held = if held.is_some() { None } else { Some(from) };
+            }
+            if let Some(s) = held.filter(|s| to.saturating_sub(*s) > THIN) {
+                found(NearCrossing { s: Near::from_bits(s), enters: !outside, face: 0 })?;
+                (held, crossings) = (None, crossings + 1);
             }
             (from, left) = (to, left - 1);
             if crossings >= MOST {
                 break;
             }
         }
-        if outside {
-            ControlFlow::Continue(())
-        } else {
-            found(NearCrossing { s: Near::from_bits(end), enters: false, face: 0 })
+        // what is inside to the end leaves there, unless that is too thin; else it has left just before
+        if outside == held.is_some() {
+            let s = Near::from_bits(held.unwrap_or(end));
+            found(NearCrossing { s, enters: false, face: 0 })?;
         }
+        ControlFlow::Continue(())
     }
 }
 
 /// The most crossings of a star that are looked for, an even number; and the most parts.
 const MOST: u32 = 15;
 const STEPS: u32 = 4096;
+/// A part of the ray no wider than `2^-20`, inside a star or between two arms, is rounding or left out.
+const THIN: Q28 = 1 << 8;
 
 /// A ray, in words.
 struct Line {
@@ -275,7 +282,8 @@ impl Shape for Superellipsoid {
         Near::DELTA * 320
     }
 
-    /// What a star has that is thinner than `2^-20` along the ray may be left out.
+    /// What a star has, or what is between two of its arms, may be left out where it is thinner than `2^-18`
+    /// along the ray (`a_million_rays_at_superellipsoids`).
     fn cross(&self, ray: &NearRay, from: Near, found: &mut impl FnMut(NearCrossing) -> ControlFlow<()>) {
         let line = Line {
             origin: [ray.origin.x, ray.origin.y, ray.origin.z].map(Near::to_bits),
@@ -313,8 +321,8 @@ impl Shape for Superellipsoid {
         Wide::from_bits(power.saturating_sub(Wide::ONE.to_bits()))
     }
 
-    /// The gradient of `N`, so scaled that its greatest component is 1. A coordinate of 0 has the component 0: what
-    /// both sides of an edge there have in the middle.
+    /// The gradient of `N`, so scaled that its greatest component is 1. A coordinate of 0 has the component 0:
+    /// what both sides of an edge there have in the middle.
     fn normal(&self, place: Vec3<Near>, _: u8) -> Vec3<Near> {
         let place = [place.x, place.y, place.z].map(Near::to_bits);
         let (norm, rho, [x, y, z]) = self.logarithms(place.map(i32::unsigned_abs), 28);
@@ -336,8 +344,8 @@ impl Shape for Superellipsoid {
         Vec3::new(component(0), component(1), component(2))
     }
 
-    /// `u` is the longitude, `v` the latitude of Barr's parametrisation, from the south pole at 0 to the north
-    /// pole at 1: with `w = 2 pi u`, `e = pi (v - 1 / 2)` and powers that keep the sign,
+    /// `u` is the longitude, `v` the latitude of Barr's parametrisation, from the south pole at 0 to the
+    /// north pole at 1: with `w = 2 pi u`, `e = pi (v - 1 / 2)` and powers that keep the sign,
     /// `P = (cos(e)^(2 / m) cos(w)^(2 / n), cos(e)^(2 / m) sin(w)^(2 / n), sin(e)^(2 / m))`.
     fn chart(&self, place: Vec3<Real>, _: u8) -> Chart {
         let place = [place.x, place.y, place.z].map(Real::to_bits);
@@ -505,31 +513,35 @@ mod tests {
             Some(found)
         }
 
-        /// Whether it meets an edge of a star, in a plane of symmetry, that none of the parts inside holds: one
-        /// thinner than any number here.
-        fn meets_an_edge(&self, inside: &[f64]) -> bool {
-            let held = |s: f64| inside.chunks(2).any(|part| part[0] < s && s < part[1]);
-            (0..3).any(|k: usize| {
-                let s = -self.origin[k] / self.direction[k];
-                let mut place = self.at(s);
-                place[k] = 0.0;
-                s.is_finite() && norm(place, self.exponents) < 1.0 + 2_f64.powi(-18) && !held(s)
-            })
-        }
-
-        /// The least `N` of a ray that misses.
-        fn least(&self) -> f64 {
+        /// Whether the count is not sure: a part inside, or between two of them, is thinner than `2^-18`; or
+        /// `N` comes within `2^-20` of 1 and turns back, in a plane of symmetry too, where a star has edges.
+        fn is_unsure(&self, truth: &[f64]) -> bool {
             let [start, end] = self.span();
             let width = (end - start) / 511.0;
-            let best = (0..512)
-                .map(|k| start + width * f64::from(k))
-                .min_by(|a, b| self.norm(*a).total_cmp(&self.norm(*b)));
-            let (mut a, mut b) = best.map_or((0.0, 0.0), |s| (s - width, s + width));
-            for _ in 0..50 {
-                let (x, y) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
-                if self.norm(x) < self.norm(y) { b = y } else { a = x }
-            }
-            best.map_or(9.0, |s| self.norm(s)).min(self.norm(a))
+            let mut places: Vec<f64> = (0..512).map(|k| start + width * f64::from(k)).collect();
+            let edges = (0..3).map(|k: usize| -self.origin[k] / self.direction[k]);
+            places.extend(edges.filter(|s| (start..end).contains(s)));
+            places.sort_by(f64::total_cmp);
+            let over = |s: f64, sign: f64| sign * (self.norm(s) - 1.0);
+            let turns_at = |part: &[f64], sign: f64| {
+                let [mut a, middle, mut b] = [part[0], part[1], part[2]];
+                let mut least = over(middle, sign);
+                if least > over(a, sign) || least > over(b, sign) {
+                    return false;
+                }
+                for _ in 0..60 {
+                    let (x, y) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+                    if over(x, sign) < over(y, sign) {
+                        b = y
+                    } else {
+                        a = x
+                    }
+                    least = least.min(over(a, sign));
+                }
+                least.abs() < 2_f64.powi(-20)
+            };
+            truth.windows(2).any(|pair| pair[1] - pair[0] < 2_f64.powi(-18))
+                || places.windows(3).any(|part| turns_at(part, 1.0) || turns_at(part, -1.0))
         }
     }
 
@@ -596,14 +608,11 @@ mod tests {
                 unsure += 1;
                 continue;
             };
-            // a thin part, or a near miss
-            let thin = truth.windows(2).any(|pair| pair[1] - pair[0] < 2_f64.powi(-16));
-            let touches = exact.meets_an_edge(&truth);
-            if thin || touches || truth.is_empty() && exact.least() < 1.0 + 2_f64.powi(-18) {
+            if found.len() != truth.len() {
+                assert!(exact.is_unsure(&truth), "{shape:?} {ray:?}: {found:?} {truth:?}");
                 unsure += 1;
                 continue;
             }
-            assert_eq!(found.len(), truth.len(), "{shape:?} {ray:?}: {found:?} {truth:?}");
             counts[found.len()] += 1;
             for (crossing, truth) in found.iter().zip(truth) {
                 let off = (crossing.s.to_num::<f64>() - truth).abs();
@@ -626,7 +635,7 @@ mod tests {
             "{counts:?} {inside}"
         );
         assert!(kind == 0 || counts[4] > count / 50, "{counts:?}");
-        assert!(unsure < count / 10, "{unsure}");
+        assert!(unsure <= if kind == 0 { count / 5_000 } else { count / 80 }, "{unsure}");
         let bound = Superellipsoid::new(Real::ONE, Real::ONE).unwrap().error().to_num::<f64>();
         assert!(worst > bound / 32.0 && worst <= bound, "{worst:e}");
     }
@@ -641,11 +650,27 @@ mod tests {
 
     /// `cargo test --release -p attractor --lib a_million_rays_at_superellipsoids -- --ignored --nocapture`
     #[test]
-    #[ignore = "two minutes, and not yet green: one exponent below 1 gives a wrong count in 10^5 rays"]
+    #[ignore = "half a minute"]
     fn a_million_rays_at_superellipsoids() {
         try_rays(0, 4, 400_000);
         try_rays(1, 5, 300_000);
         try_rays(2, 6, 300_000);
+    }
+
+    /// It leaves at so small an angle that rounding brings it in again, for less than `2^-20`.
+    #[test]
+    fn rounding_makes_no_thin_parts() {
+        let shape = Superellipsoid::new(Real::from_bits(13_307_354), Real::from_bits(84_421_382)).unwrap();
+        let place = |x, y, z| Vec3::new(Near::lit(x), Near::lit(y), Near::lit(z));
+        let ray = NearRay {
+            origin: place("0.596560225", "-0.254346233", "-0.43616343"),
+            direction: place("-0.25045871", "-0.108731464", "-1.249717366"),
+        };
+        let found = crossings(&shape, &ray, Near::MIN);
+        let [enters, leaves] = found.as_slice() else { panic!("{found:?}") };
+        let off = [(enters, 0.072_046_859_184), (leaves, 0.141_957_020_422)]
+            .map(|(crossing, truth)| (crossing.s.to_num::<f64>() - truth).abs());
+        assert!(off.iter().all(|off| *off < 2.5e-6), "{off:?}");
     }
 
     #[test]

@@ -45,7 +45,7 @@ pub(crate) enum Figure {
     Polygon { corners: Vec<Vec3>, polygon: Box<Polygon<CORNERS>> },
     Sphere,
     Cube,
-    Polyhedron { planes: Vec<[f64; 4]>, half_spaces: Vec<HalfSpace> },
+    Polyhedron { planes: Vec<[Wide; 4]>, half_spaces: Vec<HalfSpace> },
     TaperedCylinder { cap: Real, shape: TaperedCylinder },
     Torus(Torus),
     Superellipsoid { n: Real, m: Real, shape: Superellipsoid },
@@ -108,13 +108,8 @@ impl Figure {
         }
     }
 
-    /// Whether it is made of lent memory.
-    pub(crate) fn borrows(&self) -> bool {
-        matches!(self, Self::Polyhedron { .. } | Self::HeightField(_))
-    }
-
     /// How deep its pyramids are, 0 for what has none.
-    pub(super) fn depth(&self, side: u32) -> u32 {
+    pub(crate) fn depth(&self, side: u32) -> u32 {
         match self {
             Self::HeightField(profiles) => depth(profiles, side),
             _ => 0,
@@ -148,7 +143,8 @@ impl Figure {
         };
         let kind = match self {
             Self::Polygon { .. } => format!("Polygon<{CORNERS}>"),
-            Self::Polyhedron { .. } => "Polyhedron<'static>".to_owned(),
+            Self::Polyhedron { .. } => "Polyhedron<'a>".to_owned(),
+            Self::HeightField(_) => return (name.to_owned(), "Moved<HeightField<'a>>".to_owned()),
             _ => name.to_owned(),
         };
         (name.to_owned(), format!("Placed<{kind}>"))
@@ -191,7 +187,7 @@ fn polyhedron(source: &Source, planes: &Spanned<Vec<Spanned<[Num; 4]>>>, key: &s
         let [nx, ny, nz, d] = plane.get_ref();
         let number = |number: &Num, k: usize| source.fixed::<Wide>(number, &format!("{key}[{k}]"));
         let (normal, distance) = (Vec3::new(number(nx, 0)?, number(ny, 1)?, number(nz, 2)?), number(d, 3)?);
-        numbers.push([normal.x, normal.y, normal.z, distance].map(Wide::to_num));
+        numbers.push([normal.x, normal.y, normal.z, distance]);
         half_spaces
             .push(HalfSpace::new(normal, distance).map_err(|error| source.fail(plane.span(), &key, error))?);
     }

@@ -15,7 +15,7 @@ use super::object::Thing;
 use super::program::{Programs, programs};
 use super::stuff::{raised, turned};
 use super::surroundings::{Around, Table};
-use super::texture::{Pattern, Woven};
+use super::texture::{Pattern, Tables};
 use crate::fail::Fail;
 use crate::source::{Num, Place, Source};
 
@@ -37,7 +37,7 @@ struct File {
     #[serde(default)]
     material: BTreeMap<String, Made>,
     #[serde(default)]
-    texture: BTreeMap<String, Spanned<Woven>>,
+    texture: Tables,
     environment: Option<Spanned<Table>>,
     samples: Option<Spanned<i64>>,
     filter: Option<Spanned<Weights>>,
@@ -94,7 +94,8 @@ impl Description {
         let lights = file.light.iter().enumerate();
         let lights = lights.map(|(i, light)| Light::load(source, light, i, standpoint.eye));
         let numbers = file.texture.keys().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
-        let textures = file.texture.iter().map(|(name, given)| Pattern::load(source, name, given));
+        let textures = file.texture.iter();
+        let textures = textures.map(|(name, given)| Pattern::load(source, name, given, &file.texture));
         let materials = file.material.iter().map(|(name, given)| Matter::load(source, name, given, &numbers));
         let textures: Vec<Pattern> = textures.collect::<Result<_, _>>()?;
         let materials: Vec<Matter> = materials.collect::<Result<_, _>>()?;

@@ -3,9 +3,11 @@
 
 use attractor::num::{Rgb, Vec3};
 use attractor::trace::world::Lamp;
+use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::super::orbit::carried;
 use super::super::standpoint::vector;
 use super::color::{Color, light};
 use crate::fail::Fail;
@@ -69,6 +71,24 @@ impl Light {
             source.fail(table.towards.as_ref().map_or(given.span(), Spanned::span), &key("towards"), error)
         })?;
         Ok(light)
+    }
+
+    /// Carries it round a place, or round the world where it is infinitely far away.
+    pub(super) fn carry(&mut self, about: Vec3, pan: [i32; 2], size: Size) {
+        self.stand = match self.stand {
+            Stand::Towards(towards) => Stand::Towards(carried(towards, Vec3::default(), pan, size)),
+            Stand::At(at) => Stand::At(carried(at, about, pan, size)),
+        };
+    }
+
+    /// As a table of a scene file.
+    pub(super) fn place(&self) -> String {
+        let (key, Vec3 { x, y, z }) = match self.stand {
+            Stand::Towards(towards) => ("towards", towards),
+            Stand::At(at) => ("at", at),
+        };
+        let Rgb { r, g, b } = self.color;
+        format!("[[light]]\n{key} = [{x}, {y}, {z}]\ncolor = [{r}, {g}, {b}]\n")
     }
 
     /// As core has it.

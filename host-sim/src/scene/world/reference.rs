@@ -53,7 +53,11 @@ impl Exact {
             Figure::Sphere => Box::new(Sphere),
             Figure::Cube => Box::new(Cube),
             Figure::Polyhedron { planes, .. } => {
-                let half_spaces = planes.iter().map(|[x, y, z, d]| ([*x, *y, *z], *d)).collect();
+                let half_spaces = planes
+                    .iter()
+                    .map(|plane| plane.map(Wide::to_num))
+                    .map(|[x, y, z, d]| ([x, y, z], d))
+                    .collect();
                 Box::new(Polyhedron { half_spaces })
             }
             Figure::TaperedCylinder { cap, .. } => Box::new(TaperedCylinder { cap: cap.to_num() }),

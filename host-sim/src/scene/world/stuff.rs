@@ -16,7 +16,7 @@ type Mixed<'a> = Mixture<Pigment<'a>, Highlight, Option<Clear>>;
 
 materials! {
     /// Of what a thing is made.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug, Clone)]
     pub(crate) enum Stuff<'a> {
         Smooth(Mixed<'a>),
         Bumpy(Bumpy<Mixed<'a>, Raised<'a>>),

@@ -1,12 +1,15 @@
-//! The textures of a world as its file has them: checkers, noise, turbulence, wood and marble.
+//! The textures of a world as its file has them: checkers, noise, turbulence, wood, marble, pictures, and
+//! pattern polygons pasted on any of them.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use attractor::Error;
 use attractor::num::{Real, Rgb, Unit, Wide};
 use attractor::textures;
+use attractor::trace::SurfacePoint;
 use attractor::trace::texture::{
-    Checker, Image, Lookup, Mapped, Marble, Mottle, Noise, Spline, Turbulence, Wood,
+    Checker, Image, Lookup, Mapped, Marble, Mottle, Noise, Pasted, Spline, Texture, Turbulence, Wood,
 };
 use serde::Deserialize;
 use toml::Spanned;
@@ -44,7 +47,13 @@ pub(crate) struct Woven {
     lookup: Option<Spanned<Looked>>,
     u: Option<Spanned<[Num; 3]>>,
     v: Option<Spanned<[Num; 3]>>,
+    parent: Option<Spanned<Color>>,
+    detail: Option<Spanned<Color>>,
+    points: Option<Spanned<Vec<Spanned<[Num; 2]>>>>,
 }
+
+/// The tables `[texture.NAME]` of a file.
+pub(crate) type Tables = BTreeMap<String, Spanned<Woven>>;
 
 /// How an image is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -66,6 +75,7 @@ enum Weave {
     Marble,
     Facets,
     Image,
+    Pattern,
 }
 
 impl Weave {
@@ -84,6 +94,7 @@ impl Weave {
             ),
             Self::Facets => ("facets", &["cells", "seed"]),
             Self::Image => ("image", &["image", "lookup", "u", "v"]),
+            Self::Pattern => ("pattern", &["parent", "detail", "points"]),
             Self::Marble => {
                 ("marble", &["colors", "knots", "grain", "octaves", "seed", "amplitude", "veins"])
             }
@@ -93,10 +104,12 @@ impl Weave {
 
 /// The most colours of a spline.
 const COLORS: usize = 16;
+/// The most patterns on one another.
+const PASTED: usize = 8;
 
 textures! {
     /// What colours a thing.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug, Clone)]
     pub(crate) enum Pigment<'a> {
         Plain(Rgb),
         Checker(Checker),
@@ -104,6 +117,21 @@ textures! {
         Marble(Marble<COLORS>),
         Wood(Wood),
         Image(Mapped<Image<'a>>),
+        Pasted(Inlay<'a>),
+    }
+}
+
+/// A texture with a polygon of another one pasted on it, at any depth.
+#[derive(Debug, Clone)]
+pub(crate) struct Inlay<'a>(Box<Pasted<'a, Pigment<'a>, Pigment<'a>>>);
+
+impl Texture for Inlay<'_> {
+    fn is_charted(&self) -> bool {
+        Texture::is_charted(&*self.0)
+    }
+
+    fn at(&self, point: &SurfacePoint) -> Rgb {
+        self.0.at(point)
     }
 }
 
@@ -124,12 +152,41 @@ impl Grain {
 /// A texture in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Pattern {
-    Checker { colors: [Rgb; 2], frequency: [Real; 3], squares: bool },
-    Mottle { colors: Vec<(Unit, Rgb)>, grain: Grain },
-    Marble { colors: Vec<(Unit, Rgb)>, grain: Grain, amplitude: Real, veins: Real },
-    Wood { wood: Wood, rough: Option<(Grain, Real)> },
-    Facets { cells: [Real; 2], seed: u32 },
-    Image { picture: Picture, lookup: Looked, rows: [[Real; 3]; 2] },
+    Checker {
+        colors: [Rgb; 2],
+        frequency: [Real; 3],
+        squares: bool,
+    },
+    Mottle {
+        colors: Vec<(Unit, Rgb)>,
+        grain: Grain,
+    },
+    Marble {
+        colors: Vec<(Unit, Rgb)>,
+        grain: Grain,
+        amplitude: Real,
+        veins: Real,
+    },
+    Wood {
+        wood: Wood,
+        rough: Option<(Grain, Real)>,
+    },
+    Facets {
+        cells: [Real; 2],
+        seed: u32,
+    },
+    Image {
+        picture: Picture,
+        lookup: Looked,
+        rows: [[Real; 3]; 2],
+    },
+    /// The same everywhere: a part of a pattern.
+    Plain(Rgb),
+    Pasted {
+        parent: Box<Pattern>,
+        detail: Box<Pattern>,
+        corners: Vec<[Real; 2]>,
+    },
 }
 
 impl Pattern {
@@ -165,12 +222,33 @@ impl Pattern {
                 };
                 Pigment::Image(Mapped::new(picture.image()?.with_lookup(lookup), *rows)?)
             }
+            Self::Plain(color) => Pigment::Plain(*color),
+            Self::Pasted { parent, detail, corners } => {
+                let pasted = Pasted::new(parent.pigment()?, corners, detail.pigment()?)?;
+                Pigment::Pasted(Inlay(Box::new(pasted)))
+            }
         })
     }
 
-    pub(crate) fn load(source: &Source, name: &str, given: &Spanned<Woven>) -> Result<Self, Fail> {
-        let span = given.span();
-        let given = given.get_ref();
+    /// The texture of a table; what a pattern is made of stands in `others`.
+    pub(crate) fn load(
+        source: &Source,
+        name: &str,
+        given: &Spanned<Woven>,
+        others: &Tables,
+    ) -> Result<Self, Fail> {
+        Self::within(source, (name, given), others, &[])
+    }
+
+    /// The same, as a part of those patterns.
+    fn within(
+        source: &Source,
+        (name, table): (&str, &Spanned<Woven>),
+        others: &Tables,
+        outer: &[&str],
+    ) -> Result<Self, Fail> {
+        let span = table.span();
+        let given = table.get_ref();
         let reader = Reader { source, name, given };
         reader.check_keys()?;
         let pattern = match given.kind.get_ref() {
@@ -216,6 +294,17 @@ impl Pattern {
                     rows: [row(&given.u, "u", [one, zero, zero])?, row(&given.v, "v", [zero, one, zero])?],
                 }
             }
+            Weave::Pattern => {
+                let outer = [outer, &[name]].concat();
+                let part = |part: &Option<Spanned<Color>>, key: &str| {
+                    reader.part(part, key, others, &outer).map(Box::new)
+                };
+                Self::Pasted {
+                    parent: part(&given.parent, "parent")?,
+                    detail: part(&given.detail, "detail")?,
+                    corners: reader.corners()?,
+                }
+            }
             Weave::Wood => Self::Wood {
                 wood: Wood {
                     colors: reader.two([Rgb::WHITE, Rgb::BLACK])?,
@@ -241,6 +330,9 @@ impl Pattern {
         };
         // the kernel says what it takes
         pattern.pigment().map_err(|error| {
+            if let Some(points) = &given.points {
+                return source.fail(points.span(), &reader.key("points"), error);
+            }
             let colors = given.knots.as_ref().map(Spanned::span).or(given.colors.as_ref().map(Spanned::span));
             match (error, colors) {
                 (Error::OutOfRange { what, .. }, _) if what.starts_with("octaves") => {
@@ -332,6 +424,47 @@ impl Reader<'_> {
         Ok(places.into_iter().zip(colors).collect())
     }
 
+    /// A part of a pattern: a colour, or the texture of a name.
+    fn part(
+        &self,
+        given: &Option<Spanned<Color>>,
+        key: &str,
+        others: &Tables,
+        outer: &[&str],
+    ) -> Result<Pattern, Fail> {
+        let Some(color) = given else {
+            let reason = format!("{key} is missing, a colour or the name of a texture");
+            return Err(self.source.fail(self.given.kind.span(), &self.key("kind"), reason));
+        };
+        let key = self.key(key);
+        let refused = |reason: &str| Err(self.source.fail(color.span(), &key, reason));
+        match color.get_ref() {
+            Color::Code(name) if !name.starts_with('#') => match others.get_key_value(name) {
+                None => refused("there is no texture of this name"),
+                Some((name, _)) if outer.contains(&name.as_str()) => {
+                    refused("the pattern is a part of itself")
+                }
+                Some(_) if outer.len() >= PASTED => {
+                    refused("too many patterns on one another, 8 are allowed")
+                }
+                Some((name, table)) => Pattern::within(self.source, (name, table), others, outer),
+            },
+            _ => light(self.source, color, &key, 1).map(Pattern::Plain),
+        }
+    }
+
+    /// The corners of a polygon of texture coordinates.
+    fn corners(&self) -> Result<Vec<[Real; 2]>, Fail> {
+        let Some(points) = &self.given.points else {
+            let reason = "points is missing, the corners of the polygon: [[u, v], ...]";
+            return Err(self.source.fail(self.given.kind.span(), &self.key("kind"), reason));
+        };
+        let corner = |(i, point): (usize, &Spanned<[Num; 2]>)| {
+            self.source.pair(point.get_ref(), &self.key(&format!("points[{i}]")))
+        };
+        points.get_ref().iter().enumerate().map(corner).collect()
+    }
+
     /// Complains about a key of another kind.
     fn check_keys(&self) -> Result<(), Fail> {
         fn entry<T>(name: &'static str, value: &Option<Spanned<T>>) -> Option<(&'static str, Range<usize>)> {
@@ -361,6 +494,9 @@ impl Reader<'_> {
             entry("lookup", &given.lookup),
             entry("u", &given.u),
             entry("v", &given.v),
+            entry("parent", &given.parent),
+            entry("detail", &given.detail),
+            entry("points", &given.points),
         ];
         match all.into_iter().flatten().find(|(key, _)| !keys.contains(key)) {
             Some((key, span)) => {

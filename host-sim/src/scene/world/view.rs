@@ -14,6 +14,7 @@ use super::super::orbit::Orbit;
 use super::super::request::Request;
 use super::figure::{Cells, Figure, Solid};
 use super::file::{DEEPEST, Description, Policy};
+use super::lamp::Light;
 use super::material::Matter;
 use super::object::each;
 use super::reference::Exact;
@@ -42,6 +43,8 @@ pub(crate) struct WorldScene {
     pub(crate) figures: Vec<Figure>,
     /// Of each part the numbers of its materials.
     pub(crate) made_of: Vec<Vec<u8>>,
+    /// Whether a light was moved.
+    is_lit_anew: bool,
     file: Source,
 }
 
@@ -61,7 +64,7 @@ impl WorldScene {
             figures.push(figure);
             made_of.push(materials_of(source, &mut world.materials, &world.things, part.made_of)?);
         }
-        let scene = Self { world, figures, made_of, file: source.clone() };
+        let scene = Self { world, figures, made_of, is_lit_anew: false, file: source.clone() };
         scene.check()?;
         Ok(scene)
     }
@@ -140,8 +143,17 @@ impl WorldScene {
         Err(self.file.fail_all(&format!("{one} and {other}"), reason))
     }
 
-    /// Moves the camera round what it looks at; the message says why not.
+    /// Moves the camera round what it looks at, or the first light; the message says why not.
     pub(crate) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
+        if let Motion::Light { right, up } = motion {
+            let about = self.world.standpoint.look_at;
+            let Some(light) = self.world.lights.first_mut() else {
+                return Err(Fail::new("there is no light to move"));
+            };
+            light.carry(about, [right, up], size);
+            self.is_lit_anew = true;
+            return Ok(());
+        }
         let Some(orbit) = &self.world.orbit else {
             return Err(Fail::new("the camera moves about only where z is up"));
         };
@@ -153,7 +165,9 @@ impl WorldScene {
 
     /// Where the viewer stands, as lines of a scene file.
     pub(crate) fn place(&self) -> Option<String> {
-        self.world.orbit.as_ref().map(Orbit::place)
+        let camera = self.world.orbit.as_ref().map(Orbit::place).unwrap_or_default();
+        let lights = self.world.lights.iter().filter(|_| self.is_lit_anew).map(Light::place);
+        Some(camera + &lights.collect::<String>()).filter(|lines| !lines.is_empty())
     }
 
     pub(crate) fn draw<D>(&self, request: &Request, target: &mut D, watch: Watch<'_, D>) -> Result<(), Fail>
@@ -232,4 +246,26 @@ fn materials_of(
         }
     }
     Ok(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_light_that_was_moved_comes_back_by_the_lines_that_are_printed() {
+        let head = "kind = \"world\"\n[[object]]\nshape = \"sphere\"\n";
+        let camera = "[camera]\neye = [0, -6, 2]\nlook_at = [0, 0, 0.7]\nup = [0, 0, 1]\n";
+        let lights = "[[light]]\nat = [1, -2, 5]\ncolor = \"#804020\"\n[[light]]\ntowards = [1, 2, 3]\n";
+        let load = |text: &str| WorldScene::load(&Source::built_in("test", text)).unwrap();
+        let mut scene = load(&format!("{head}{camera}{lights}"));
+        assert_eq!(scene.place(), None);
+        scene.go(Size::new(240, 240), Motion::Light { right: 30, up: -30 }).unwrap();
+        let again = load(&format!("{head}{camera}{}", scene.place().unwrap()));
+        assert_eq!(again.world.lights, scene.world.lights);
+        let [before, after] = [load(&format!("{head}{camera}{lights}")), scene].map(|s| s.world.lights);
+        assert!(before[0] != after[0] && before[0].color == after[0].color && before[1] == after[1]);
+        let mut dark = load(&format!("{head}{camera}"));
+        assert!(dark.go(Size::new(8, 8), Motion::Light { right: 1, up: 0 }).is_err());
+    }
 }
