@@ -107,3 +107,4 @@ pub use vector::Vec3;
 pub(crate) use vector::{square, unit};
 pub use wide::{Reciprocal, mul_high, mul_high_u, round_shift, scale31};
 pub(crate) use wide::{mul_high_short, real_from, scaled};
+pub(crate) use zeros::even_zeros;

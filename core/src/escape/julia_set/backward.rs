@@ -28,7 +28,7 @@ impl JuliaSet {
     /// Result: points of `J_c` with 24 fractional bits, rounded towards 0;
     /// [`BackwardIteration::next_preimage`] gives them with 29, and then the forward orbit of each stays
     /// within 2 for 12 steps (`forward_orbits_stay_within_two`; for `|c| > 15/8`, where a step may drive an
-    /// error away by a factor near 4, within 2.05; for `c = -2` within 2). Cost of a point: 179 Cortex-M4
+    /// error away by a factor near 4, within 2.05; for `c = -2` within 2). Cost of a point: 175 Cortex-M4
     /// instructions (kernel `backward`) with xoshiro128++.
     pub fn backward_iteration<R: Rng>(&self, rng: R) -> BackwardIteration<R> {
         BackwardIteration { c: self.word(), z: self.start(), rng }
