@@ -27,6 +27,7 @@ pub type Scaling = fixed::types::I1F31;
 /// Abscissae and descriptions: 48 fractional bits, `-32768 .. 32768`.
 pub type Wide = fixed::types::I16F48;
 
+pub(crate) type Q18 = i32;
 pub(crate) type Q24 = i32;
 pub(crate) type Q25 = i32;
 pub(crate) type Q26 = i32;
@@ -36,6 +37,7 @@ pub(crate) type Q29 = i32;
 pub(crate) type Q30 = i32;
 pub(crate) type Q31 = i32;
 pub(crate) type Q32 = i64;
+pub(crate) type Q46 = i64;
 pub(crate) type Q48 = i64;
 pub(crate) type Q52 = i64;
 pub(crate) type Q54 = i64;

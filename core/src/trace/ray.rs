@@ -2,7 +2,8 @@
 
 use core::num::NonZeroU32;
 
-use crate::num::{Near, Real, Unit, Vec3, reciprocal, reciprocal_of};
+use crate::num::formats::{Q24, Q28, Q30};
+use crate::num::{Near, Real, Unit, Vec3, reciprocal, reciprocal_of, square};
 
 /// One coordinate of a ray: origin, direction, and the direction's reciprocal.
 #[derive(Debug, Clone, Copy)]
@@ -107,10 +108,11 @@ impl Footprint {
 /// A ray `origin + t d`, `t >= 0`; `d` need not be of unit length.
 #[derive(Debug, Clone, Copy)]
 pub struct Ray {
-    /// 24 fractional bits.
-    pub(super) origin: [i32; 3],
-    /// 28 fractional bits.
-    pub(super) direction: [i32; 3],
+    pub(super) origin: [Q24; 3],
+    pub(super) direction: [Q28; 3],
+    /// `1 / |d|^2`, what it takes to find the place that is closest to another; 0 where nobody asked for it,
+    /// and where the square is below 1/2.
+    pub(super) pace: Q30,
 }
 
 impl Ray {
@@ -122,6 +124,25 @@ impl Ray {
         let o = |c: Real| c.to_bits().clamp(1 - (64 << 24), 64 << 24);
         let d = |c: Real| c.to_bits().clamp(-(4 << 24), 4 << 24).saturating_mul(16);
         Self::from_bits([origin.x, origin.y, origin.z].map(o), [direction.x, direction.y, direction.z].map(d))
+            .paced()
+    }
+
+    /// The ray from a place along a unit direction.
+    #[inline]
+    pub(super) fn unit(origin: Vec3, direction: Vec3<Unit>) -> Self {
+        let o = |c: Real| c.to_bits().clamp(1 - (64 << 24), 64 << 24);
+        let direction = [direction.x, direction.y, direction.z].map(|c| c.to_bits() >> 2);
+        Self { origin: [origin.x, origin.y, origin.z].map(o), direction, pace: 1 << 30 }
+    }
+
+    /// The same ray for things that are placed.
+    #[inline]
+    pub(super) fn paced(self) -> Self {
+        // the square has 26 fractional bits, and is below 48
+        let length = NonZeroU32::new((square(self.direction) >> 30) as u32).unwrap_or(NonZeroU32::MIN);
+        let (mantissa, zeros) = reciprocal_of(length);
+        let pace = 6_u32.checked_sub(zeros).map_or(0, |places| mantissa >> places);
+        Self { pace, ..self }
     }
 
     /// Where it starts.
@@ -149,8 +170,8 @@ impl Ray {
 
     /// Origin with 24, direction with 28 fractional bits.
     #[inline(always)]
-    pub(crate) fn from_bits(origin: [i32; 3], direction: [i32; 3]) -> Self {
-        Self { origin, direction }
+    pub(crate) fn from_bits(origin: [Q24; 3], direction: [Q28; 3]) -> Self {
+        Self { origin, direction, pace: 0 }
     }
 
     /// Its coordinates along x, y and z, ready for many planes.

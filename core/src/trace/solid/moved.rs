@@ -136,7 +136,7 @@ impl<S: Surface> Surface for Moved<S> {
         let Some(approach) = self.site.approach_met(ray) else { return point };
         let Some((inner, start, cone)) = self.inner(ray, &approach, cone) else { return point };
         // back from t to the surface's own: s = (t - start) 2^k
-        let s = i64::from(crossing.t.to_bits()).saturating_sub(approach.start);
+        let s = i64::from(crossing.t.to_bits()) - i64::from(approach.start);
         let s = i64::from(shifted(s, 4 + approach.places));
         let t = (s - i64::from(start.to_bits())) >> (4 - self.places);
         let own = Crossing { t: Real::from_bits(shifted(t.max(0), 0)), ..*crossing };

@@ -1,22 +1,26 @@
 //! Where a thing is in a world: rays go to its own coordinates by the inverse of an affine map, normals and
 //! tangents come back.
 //!
-//! `t` is the same on both sides: the direction is not normalised. A ray that comes near is moved along
-//! itself to where it is closest to the middle of the thing's box, `t = t_0 + s 2^-k`; `t_0` has so few bits
-//! that the place there, `M^-1 (o + t_0 d - c)`, is exact to `2^-29` at any distance. Normals come back by the
-//! inverse transpose, tangents by the map itself.
+//! `t` is the same on both sides: the direction is not normalised. A ray is moved along itself to where it is
+//! closest to the middle of the thing's box, `t = t_0 + s 2^-k`: if it is not inside the ball round the box
+//! there, it passes by. `t_0` has so few bits that the place there, `o + t_0 d - c`, is exact to `2^-46` at any
+//! distance, and what is left of it is small. Normals come back by the inverse transpose, tangents by the map
+//! itself.
+//!
+//! What is closest in the world is not closest in generic coordinates where the map scales by very different
+//! factors; there the ray is moved once more, in those.
 //!
 //! Source: the course unit V, section 5.7; Glassner (ed.), "An Introduction to Ray Tracing", 1989, section 2.7.
 
 use core::num::NonZeroU32;
 
 use super::super::ray::Ray;
-use super::super::surface::{Extent, SAME};
+use super::super::surface::Extent;
 use super::shape::NearRay;
 use crate::Error;
-use crate::num::formats::{Q24, Q28, Q29, Q30, Q54, Q58, UQ16};
+use crate::num::formats::{Q18, Q24, Q28, Q29, Q30, Q46, Q54, Q58, UQ16};
 use crate::num::{
-    Affine3, Near, Real, Unit, Vec3, Wide, product, product_u, reciprocal_of, sqrt, square, unit,
+    Affine3, Near, Real, Unit, Vec3, Wide, high, product, product_u, reciprocal_of, sqrt, square, unit,
 };
 
 /// A map and what it makes of a box.
@@ -33,6 +37,12 @@ pub(super) struct Site {
     /// The square of the radius of a ball round the centre that holds the shape, 16 fractional bits, rounded
     /// up.
     ball: UQ16,
+    /// A place in the ball has `14 + up` fractional bits in a word.
+    up: u32,
+    /// Such a place times `inverse` has 28 in the upper word after a shift to the left by so many places.
+    left: u32,
+    /// Whether every place in the ball is near the shape in generic coordinates as well.
+    is_even: bool,
     pub(super) limited: bool,
     linear: [Vec3; 3],
     /// The norm of the map, 16 fractional bits.
@@ -43,8 +53,7 @@ pub(super) struct Site {
 /// A ray near the shape: `t = start + s 2^-k`.
 pub(super) struct Approach {
     pub(super) near: NearRay,
-    /// 24 fractional bits.
-    pub(super) start: i64,
+    pub(super) start: Q24,
     /// `k`.
     pub(super) places: i32,
     /// The `s` at `t` = 0, or a little less: `t` is known to within `SAME`.
@@ -52,17 +61,27 @@ pub(super) struct Approach {
 }
 
 impl Approach {
-    /// The ray's parameter where the near ray has `s`, 24 fractional bits, to nearest; beyond the format's end
-    /// none.
+    /// A near ray that begins at a parameter, `k` places.
+    #[inline(always)]
+    fn new(near: NearRay, start: Q18, places: i32) -> Self {
+        // as much before the ray's begin as parameters are known to
+        let (early, up) = (2 * start + 1, 9 + places);
+        let from = if (0..=31).contains(&up) && early.leading_zeros() as i32 > up {
+            -(early << up)
+        } else {
+            shifted(-i64::from(early), up)
+        };
+        Self { near, start: start << 6, places, from: Near::from_bits(from) }
+    }
+
+    /// The ray's parameter where the near ray has `s`, to nearest; beyond the format's end none.
     #[inline(always)]
     pub(super) fn parameter(&self, s: Near) -> Option<Real> {
-        let (s, right) = (i64::from(s.to_bits()), 4 + self.places);
-        let moved = if right >= 1 {
-            ((s >> (right - 1).min(62)) + 1) >> 1
-        } else {
-            s.saturating_mul(1 << (-right).min(62))
-        };
-        i32::try_from(self.start.saturating_add(moved).max(0)).ok().map(Real::from_bits)
+        let (s, right) = (s.to_bits(), 4 + self.places);
+        let moved =
+            if right >= 1 { ((s >> (right - 1).min(31)) + 1) >> 1 } else { shifted(s.into(), -right) };
+        let t = self.start.saturating_add(moved).max(0);
+        if t == i32::MAX { None } else { Some(Real::from_bits(t)) }
     }
 
     /// The place where the near ray has `s`, to nearest, saturated.
@@ -87,6 +106,20 @@ fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
 pub(super) fn shifted(v: i64, places: i32) -> i32 {
     let v = if places >= 0 { v.saturating_mul(1 << (places & 63)) } else { v >> (-places).min(63) };
     v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+}
+
+/// `v 2^up / 2^32` for 1 to 31 places, if it fits a word.
+#[inline(always)]
+fn narrowed(v: i64, up: u32) -> i32 {
+    // by words: a 64-bit shift by a variable takes three times as long
+    ((v >> 32) as i32) << (up & 31) | ((v as u32) >> (32_u32.wrapping_sub(up) & 31)) as i32
+}
+
+/// All bits of upper words without their signs.
+#[inline(always)]
+fn folded(all: u32, v: i64) -> u32 {
+    let high = (v >> 32) as i32;
+    all | (high ^ (high >> 31)) as u32
 }
 
 /// A coordinate of a place, of 24 + 28 fractional bits less 28.
@@ -143,7 +176,16 @@ impl Site {
             }
             farthest = farthest.max(sum >> 16);
         }
+        // the radius below 2^length
         let ball = u32::try_from(farthest + 1).unwrap_or(u32::MAX);
+        let length = (17 - ball.leading_zeros() as i32).div_euclid(2);
+        let fractional = (30 - length).min(29 + inverse.exponent);
+        // whether what is in the ball is within 4 of the origin in generic coordinates, by the inverse's norm:
+        // squares with 16 fractional bits
+        let norm: u64 = inverse.rows.iter().flatten().map(|c| u64::from(c.unsigned_abs() >> 15).pow(2)).sum();
+        let reached = (norm >> 4).saturating_mul(ball.into()) >> (26 - 2 * inverse.exponent);
+        let aside: u64 = middle.iter().map(|c| u64::from(c.unsigned_abs() >> 21)).sum();
+        let is_even = reached <= 998_u64.saturating_sub(aside).pow(2);
         let end = |c: Q24, r: i64| Real::from_bits(shifted(i64::from(c) + r, 0));
         let [x, y, z] = [0, 1, 2].map(|k: usize| (end(centre[k], -reach[k]), end(centre[k], reach[k])));
         let extent = Extent { low: Vec3::new(x.0, y.0, z.0), high: Vec3::new(x.1, y.1, z.1) };
@@ -154,6 +196,9 @@ impl Site {
             centre,
             middle,
             ball,
+            up: (fractional - 14) as u32,
+            left: (30 - fractional + inverse.exponent) as u32,
+            is_even,
             linear,
             norm: sqrt(rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum()),
             extent: if bounds.is_some() { extent } else { Extent::SPACE },
@@ -167,50 +212,108 @@ impl Site {
         Real::from_bits(shifted(((near * i64::from(self.norm) * 111) >> 25) + 2, 0))
     }
 
-    /// Whether the ray passes the ball round the shape by, or leaves it behind. `w` is the way from the
-    /// centre to the ray's origin.
-    #[inline(always)]
-    fn is_far(&self, w: [Q24; 3], d: [Q28; 3]) -> bool {
-        // the distance of the line is |w x d| / |d|; words of 20 fractional bits, never too large
-        let across = |a: usize, b: usize| {
-            let v = product(w[a], d[b]).wrapping_sub(product(w[b], d[a]));
-            let high = (v >> 32) as i32;
-            high ^ (high >> 31)
-        };
-        let distance = square([across(1, 2), across(2, 0), across(0, 1)]);
-        let length = (square(d) >> 32) as u32 + 1;
-        if distance > product_u(length, self.ball) {
-            return true;
-        }
-        dot(w, d) > 0 && (square(w) >> 32) as u32 > self.ball
-    }
-
     /// The ray in the shape's coordinates, moved to where it is closest; none if it comes nowhere near.
     #[inline(never)]
     pub(super) fn approach(&self, ray: &Ray) -> Option<Approach> {
-        let w = self.way(ray);
-        if self.limited && self.is_far(w, ray.direction) {
-            return None;
+        let way = self.way(ray);
+        if !self.limited {
+            return self.over(way, ray.direction);
         }
-        self.mapped(w, ray.direction)
-    }
-
-    /// From the centre to the ray's origin.
-    #[inline(always)]
-    fn way(&self, ray: &Ray) -> [Q24; 3] {
-        [0, 1, 2].map(|k: usize| ray.origin[k].wrapping_sub(self.centre[k]))
+        if ray.pace != 0 {
+            let (steps, place) = closest(way, ray);
+            // words with 14 fractional bits, 222 at most
+            if (square(place.map(|c| (c >> 32) as i32)) >> 12) as u32 > self.ball {
+                return None;
+            }
+            if let Some(approach) = self.brought(steps, place, ray.direction) {
+                return Some(approach);
+            }
+        }
+        self.mapped(way, ray.direction)
     }
 
     /// The same as [`Site::approach`] for a ray of which something is known to be met.
+    #[inline]
     pub(super) fn approach_met(&self, ray: &Ray) -> Option<Approach> {
-        self.mapped(self.way(ray), ray.direction)
+        self.approach(ray)
+    }
+
+    /// From the ray's origin to the centre.
+    #[inline(always)]
+    fn way(&self, ray: &Ray) -> [Q24; 3] {
+        [0, 1, 2].map(|k: usize| self.centre[k].wrapping_sub(ray.origin[k]))
+    }
+
+    /// The ray from a place near the centre on, which is seen from there; none where it has to be moved in
+    /// generic coordinates.
+    #[inline(always)]
+    fn brought(&self, steps: Q18, place: [Q46; 3], d: [Q28; 3]) -> Option<Approach> {
+        let along: [Q58; 3] = self.inverse.map(|row| dot(row, d));
+        // the direction's greatest component gets 29 bits
+        let up = along.into_iter().fold(0, folded).leading_zeros().wrapping_sub(3);
+        if !(1..=31).contains(&up) {
+            return None;
+        }
+        let [dx, dy, dz] = along.map(|c| Near::from_bits(narrowed(c, up)));
+        let place = place.map(|c| narrowed(c, self.up));
+        let origin = self.inverse.map(|row| dot(row, place));
+        if !self.is_even && origin.into_iter().fold(0, folded) >> (29_u32.wrapping_sub(self.left) & 31) > 0 {
+            return None;
+        }
+        let near =
+            |k: usize| Near::from_bits((self.middle[k] >> 1).wrapping_sub(narrowed(origin[k], self.left)));
+        let near = NearRay { origin: Vec3::new(near(0), near(1), near(2)), direction: Vec3::new(dx, dy, dz) };
+        Some(Approach::new(near, steps, self.exponent + 2 - up as i32))
+    }
+
+    /// The same for a half-space, of which the height alone counts: its ray goes straight up or down.
+    #[inline(always)]
+    fn over(&self, way: [Q24; 3], d: [Q28; 3]) -> Option<Approach> {
+        let [.., row] = self.inverse;
+        let (below, rise): (Q54, Q58) = (dot(row, way), dot(row, d));
+        // 22 fractional bits; what leaves it behind by more than a few units does not meet it
+        let high = (below >> 32) as i32;
+        if high ^ ((rise >> 32) as i32) < 0 && high ^ (high >> 31) > 128 {
+            return None;
+        }
+        // the direction gets 29 bits
+        let up = folded(0, rise).leading_zeros().wrapping_sub(3);
+        let is_near = (high ^ (high >> 31)) >> (25 - self.exponent).clamp(0, 31) == 0;
+        if is_near && (1..=31).contains(&up) && self.exponent >= -5 {
+            let place = narrowed(below, (6 + self.exponent) as u32).wrapping_neg();
+            let near = upright(place, narrowed(rise, up));
+            return Some(Approach::new(near, 0, self.exponent + 2 - up as i32));
+        }
+        self.moved_over(below, rise)
+    }
+
+    /// The same from farther away: the ray is moved to the plane.
+    #[cold]
+    #[inline(never)]
+    fn moved_over(&self, below: Q54, rise: Q58) -> Option<Approach> {
+        let shift = 35 - (rise ^ (rise >> 63)).leading_zeros() as i32;
+        if shift < 0 {
+            return None;
+        }
+        let down = (rise >> shift) as i32;
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(down.unsigned_abs())?);
+        // 2^18 t is 2^22 height / rise; the upper word is enough
+        let high = (below >> 32) as i32;
+        let towards = product(if down < 0 { high.wrapping_neg() } else { high }, mantissa);
+        let steps = (towards >> (8 + shift - zeros as i32)).clamp(0, (1 << 25) - 1) as i32;
+        // 44 fractional bits
+        let way = product(steps, (rise >> 32) as i32)
+            .wrapping_add((product_u(steps as u32, rise as u32) >> 32) as i64);
+        let place = i32::try_from(way.wrapping_sub(below >> 10) >> (16 - self.exponent)).ok()?;
+        Some(Approach::new(upright(place, down), steps, self.exponent + shift - 30))
     }
 
     /// The same without a look at the ball.
+    #[cold]
     #[inline(never)]
     fn mapped(&self, w: [Q24; 3], d: [Q28; 3]) -> Option<Approach> {
         // both without the inverse's power of two; a row's sum of magnitudes is at most 3
-        let origin: [Q54; 3] = self.inverse.map(|row| dot(row, w));
+        let origin: [Q54; 3] = self.inverse.map(|row| dot(row, w).wrapping_neg());
         let along: [Q58; 3] = self.inverse.map(|row| dot(row, d));
         // a sign takes no bit of the magnitude: or is as good as the greatest
         let magnitude = along.iter().fold(0_u64, |all, c| all | (c ^ (c >> 63)) as u64);
@@ -221,15 +324,9 @@ impl Site {
         }
         let direction: [Q28; 3] = along.map(|c| (c >> shift) as i32);
         // n steps of 2^-(3 + exponent) each: 0 to 128
-        let most = 1 << 18 >> (8 - self.exponent);
-        let (towards, over) = if self.limited {
-            let o = origin.map(|c| (c >> 32) as i32);
-            (-dot(o, direction), ((square(direction)) >> 28) as u32)
-        } else {
-            let down = direction[2];
-            let high = (origin[2] >> 32) as i32;
-            (if down < 0 { product(high, 1 << 28) } else { product(-high, 1 << 28) }, down.unsigned_abs())
-        };
+        let most = (1 << 18 >> (8 - self.exponent)) - 1;
+        let towards = -dot(origin.map(|c| (c >> 32) as i32), direction);
+        let over = ((square(direction)) >> 28) as u32;
         let n = if towards <= 0 { 0 } else { steps(towards, over, shift, self.exponent, most) };
         // 29 fractional bits: 54 + exponent - 25 of the origin, 58 - 32 + (3 + exponent) of the way
         let place = |k: usize| -> Option<Near> {
@@ -238,21 +335,10 @@ impl Site {
             let from = (origin[k] >> (25 - self.exponent)).wrapping_add(i64::from(self.middle[k]));
             Some(Near::from_bits(i32::try_from(way.wrapping_add(from)).ok()? >> 1))
         };
-        let origin = if self.limited {
-            Vec3::new(place(0)?, place(1)?, place(2)?)
-        } else {
-            // only its height counts
-            Vec3::new(Near::ZERO, Near::ZERO, place(2)?)
-        };
+        let origin = Vec3::new(place(0)?, place(1)?, place(2)?);
         let [dx, dy, dz] = direction.map(Near::from_bits);
-        let places = self.exponent + shift - 30;
-        let begin = shifted(-i64::from(n), shift - 5);
-        Some(Approach {
-            near: NearRay { origin, direction: Vec3::new(dx, dy, dz) },
-            start: i64::from(n) << (21 - self.exponent),
-            places,
-            from: Near::from_bits(begin.saturating_sub(shifted(SAME.into(), 4 + places))),
-        })
+        let near = NearRay { origin, direction: Vec3::new(dx, dy, dz) };
+        Some(Approach::new(near, (n << (15 - self.exponent)) as i32, self.exponent + shift - 30))
     }
 
     /// A place of the world in generic coordinates, saturated.
@@ -285,6 +371,26 @@ impl Site {
         let shift = 34_u32.saturating_sub(magnitude.leading_zeros());
         unit(sums.map(|c| (c >> shift) as i32))
     }
+}
+
+/// A ray straight up or down at a height.
+#[inline(always)]
+fn upright(height: Q28, up: Q28) -> NearRay {
+    let along = |c: i32| Vec3::new(Near::ZERO, Near::ZERO, Near::from_bits(c));
+    NearRay { origin: along(height), direction: along(up) }
+}
+
+/// The ray's parameter where it is closest to the centre, and the way from there to the centre.
+#[inline(always)]
+fn closest(way: [Q24; 3], ray: &Ray) -> (Q18, [Q46; 3]) {
+    let d = ray.direction;
+    // less than 2^63: 222 times 7; the parameter ends at 128
+    let towards = (dot(way, d) >> 32) as i32;
+    let back = -high(towards, ray.pace).clamp(0, (1 << 25) - 1);
+    let moved = |way: Q24, d: Q28| {
+        (i64::from(way >> 10) << 32 | i64::from((way << 22) as u32)).wrapping_add(product(back, d))
+    };
+    (-back, [moved(way[0], d[0]), moved(way[1], d[1]), moved(way[2], d[2])])
 }
 
 /// How many steps of `2^-(3 + exponent)` it is to the closest place, to nearest, at most `most`.

@@ -9,9 +9,10 @@ use heapless::Vec;
 use super::super::material::{Lit, Material, Response};
 use super::super::ray::Ray;
 use super::super::snell::{mirrored, refracted};
-use super::super::surface::{Surface, SurfacePoint};
+use super::super::surface::{Crossing, Surface, SurfacePoint};
 use super::super::surroundings::Surroundings;
-use super::scene::{Cast, Interpenetration, Met, World};
+use super::scene::{Interpenetration, Leaf, World};
+use super::search::{Met, Start};
 use crate::num::{Lumen, Real, Rgb, Unit, Vec3, quotient, unit};
 
 /// Below this weight a ray is not cast: `1/256`.
@@ -20,7 +21,8 @@ const FAINT: Lumen = Lumen::from_bits(1 << 8);
 /// A ray that waits for its turn.
 #[derive(Debug, Clone, Copy)]
 struct Waiting {
-    cast: Cast,
+    ray: Ray,
+    start: Start,
     /// How much of what it brings is seen.
     weight: Rgb,
     /// How wide its cone is where it starts, 24 fractional bits.
@@ -36,10 +38,9 @@ fn negated(v: Vec3<Unit>) -> Vec3<Unit> {
     Vec3::new(v.x.saturating_neg(), v.y.saturating_neg(), v.z.saturating_neg())
 }
 
-/// A ray from a place in a unit direction.
-fn from(place: Vec3, direction: Vec3<Unit>) -> Ray {
-    let origin = [place.x, place.y, place.z].map(|c| c.to_bits().clamp(1 - (64 << 24), 64 << 24));
-    Ray::from_bits(origin, [direction.x, direction.y, direction.z].map(|c| c.to_bits() >> 2))
+/// Whether a place is not beyond the end of the world.
+fn lies_in_the_world(place: Vec3) -> bool {
+    [place.x, place.y, place.z].into_iter().all(|c| c.to_bits().unsigned_abs() <= 64 << 24)
 }
 
 impl<L: Surface, M: Material> World<'_, L, M> {
@@ -47,61 +48,72 @@ impl<L: Surface, M: Material> World<'_, L, M> {
     /// share it with is told to `shared`.
     pub(super) fn light<const E: usize, const R: usize>(
         &self,
-        cast: Cast,
+        ray: Ray,
+        start: &Start,
         depth: Depth,
         surroundings: &impl Surroundings,
         shared: &mut impl FnMut(Interpenetration),
     ) -> Rgb {
         let mut waiting = Vec::<Waiting, R>::new();
         let mut light = Rgb::BLACK;
-        let mut next = Some(Waiting { cast, weight: Rgb::WHITE, width: 0, level: 0 });
-        while let Some(Waiting { cast, weight, width, level }) = next {
-            let direction = unit(cast.ray.direction);
-            let met =
-                if level <= depth.0 && weight.brightest() >= FAINT { self.met::<E>(&cast) } else { None };
-            let seen = met.and_then(|met| Some((met, self.seen(&cast, &met, direction, width)?)));
-            if let Some((met, (point, material))) = seen {
-                let (before, behind) = self.states_at(&met, point.position);
-                if let (Some((other, _)), Some(one)) = self.within(behind) {
+        let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, width: 0, level: 0 };
+        loop {
+            let direction = unit(now.ray.direction);
+            let is_cast = now.level <= depth.0 && now.weight.brightest() >= FAINT;
+            let met = if is_cast { self.met::<E>(&now.ray, &now.start) } else { None };
+            let hit = met.as_ref().and_then(|met| self.hit(met));
+            let point = hit.and_then(|(leaf, material, crossing)| {
+                let mut point = leaf.surface.point(&now.ray, now.start.cone, crossing, material.is_charted());
+                lies_in_the_world(point.position).then(|| {
+                    if point.normal.dot(direction) > 0 {
+                        point.normal = negated(point.normal);
+                    }
+                    let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
+                    let width = i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX);
+                    point.width = Real::from_bits(width);
+                    point
+                })
+            });
+            if let (Some(met), Some((_, material, _)), Some(point)) = (&met, hit, &point) {
+                let states =
+                    [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
+                let [before, behind] = states;
+                if let (Some((other, _)), Some(one)) = self.within(behind.inside) {
                     shared(Interpenetration { objects: [one, other], place: point.position });
                 }
-                let stay = Cast { states: before, departed: Some(met.event.leaf), ..cast };
-                let response = self.response::<E>(&point, material, direction, stay);
-                light = light.plus(weight.through(response.light));
-                let bounced = self.bounced(&point, material, direction, &response, (before, behind));
-                for (direction, states, part) in bounced.into_iter().flatten() {
-                    let weight = weight.through(part);
-                    if weight != Rgb::BLACK {
-                        let cast = Cast { ray: from(point.position, direction), states, ..stay };
-                        let width = point.width.to_bits();
-                        // there is room: `WorldCaster::with_depth` sees to it
-                        let _ = waiting.push(Waiting { cast, weight, width, level: level.saturating_add(1) });
+                let stay = Start { states: before, departed: Some(met.event.leaf), ..now.start };
+                let response = self.response::<E>(point, material, direction, &stay);
+                light = light.plus(now.weight.through(response.light));
+                if response.reflected != Rgb::BLACK || response.refracted != Rgb::BLACK {
+                    let parts =
+                        self.bounced(point, material, direction, &response, [before.inside, behind.inside]);
+                    for (part, states) in parts.into_iter().zip(states) {
+                        let Some((direction, part)) = part else { continue };
+                        let weight = now.weight.through(part);
+                        if weight != Rgb::BLACK {
+                            let (ray, start) =
+                                (Ray::unit(point.position, direction), Start { states, ..stay });
+                            let (width, level) = (point.width.to_bits(), now.level.saturating_add(1));
+                            // there is room: `WorldCaster::with_depth` sees to it
+                            let _ = waiting.push(Waiting { ray, start, weight, width, level });
+                        }
                     }
                 }
             } else {
-                light = light.plus(weight.through(surroundings.light(direction, cast.cone)));
+                light = light.plus(now.weight.through(surroundings.light(direction, now.start.cone)));
             }
-            next = waiting.pop();
+            match waiting.pop() {
+                Some(next) => now = next,
+                None => return light,
+            }
         }
-        light
     }
 
-    /// The point of a hit and its material; none beyond the end of the world.
-    fn seen(&self, cast: &Cast, met: &Met, direction: Vec3<Unit>, width: i32) -> Option<(SurfacePoint, &M)> {
+    /// What is hit: the leaf, its material, and where.
+    fn hit<'m>(&self, met: &'m Met) -> Option<(&Leaf<'_, L>, &M, &'m Crossing)> {
         let leaf = self.leaf(met.event.leaf)?;
         let crossing = &met.event.crossing;
-        let material = self.material(leaf, crossing.face)?;
-        let mut point = leaf.surface.point(&cast.ray, cast.cone, crossing, material.is_charted());
-        let beyond = |c: Real| c.to_bits().unsigned_abs() > 64 << 24;
-        if beyond(point.position.x) || beyond(point.position.y) || beyond(point.position.z) {
-            return None;
-        }
-        if point.normal.dot(direction) > 0 {
-            point.normal = negated(point.normal);
-        }
-        let grown = (i64::from(crossing.t.to_bits()) * i64::from(cast.cone.to_bits())) >> 30;
-        point.width = Real::from_bits(i32::try_from(grown + i64::from(width)).unwrap_or(i32::MAX));
-        Some((point, material))
+        Some((leaf, self.material(leaf, crossing.face)?, crossing))
     }
 
     /// What a point answers to the lamps that reach it.
@@ -110,7 +122,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         point: &SurfacePoint,
         material: &M,
         direction: Vec3<Unit>,
-        stay: Cast,
+        stay: &Start,
     ) -> Response {
         let normal = material.normal(point);
         let lights = self.lamps.iter().filter_map(|lamp| {
@@ -118,8 +130,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             if point.normal.dot(towards) <= 0 || normal.dot(towards) <= 0 {
                 return None;
             }
-            let cast = Cast { ray: from(point.position, towards), ..stay };
-            let passed = self.passed::<E>(&cast, distance);
+            let passed = self.passed::<E>(&Ray::unit(point.position, towards), stay, distance);
             if passed == Rgb::BLACK {
                 None
             } else {
@@ -129,15 +140,16 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         material.respond(point, direction, lights)
     }
 
-    /// The mirrored and the refracted ray of a hit: direction, states, and how much of each is seen.
+    /// The mirrored and the refracted ray of a hit: direction, and how much of each is seen. The states are
+    /// those before and behind it.
     fn bounced(
         &self,
         point: &SurfacePoint,
         material: &M,
         direction: Vec3<Unit>,
         response: &Response,
-        (before, behind): (u64, u64),
-    ) -> [Option<(Vec3<Unit>, u64, Rgb)>; 2] {
+        [before, behind]: [u64; 2],
+    ) -> [Option<(Vec3<Unit>, Rgb)>; 2] {
         let mut reflected = response.reflected;
         let mut bent = None;
         let mut normal = material.normal(point);
@@ -162,7 +174,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                 Some(_) => Unit::ZERO,
             };
             reflected = reflected.plus(response.refracted.scaled(share));
-            bent = way.map(|way| (way.direction, behind, response.refracted.scaled(Unit::ONE - share)));
+            bent = way.map(|way| (way.direction, response.refracted.scaled(Unit::ONE - share)));
         }
         let mirror = if reflected == Rgb::BLACK {
             None
@@ -171,7 +183,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             if way.dot(point.normal) < 0 {
                 way = mirrored(way, point.normal);
             }
-            Some((way, before, reflected))
+            Some((way, reflected))
         };
         [mirror, bent]
     }

@@ -14,7 +14,8 @@ use super::super::screen::{Screen, narrow};
 use super::super::surface::Surface;
 use super::super::surroundings::Surroundings;
 use super::bounce::Depth;
-use super::scene::{Cast, Interpenetration, World};
+use super::scene::{Interpenetration, World};
+use super::search::Start;
 use crate::Error;
 use crate::num::{Lumen, Rgb, Unit, Wide};
 use crate::plane::{Field, LinearRgb, along, checked_size};
@@ -31,11 +32,9 @@ pub struct WorldCaster<'a, L, M, S, const EVENTS: usize = 32, const RAYS: usize 
     size: Size,
     screen: Screen,
     pattern: Pattern,
-    /// Width of a sample's cone a unit of `t`.
-    cone: Unit,
     depth: Depth,
-    /// The states of the leaves at the eye.
-    states: u64,
+    /// What is known at the eye.
+    start: Start,
 }
 
 impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RAYS: usize>
@@ -58,10 +57,9 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
         }
         let size = checked_size(size)?;
         let screen = Screen::new(&camera, size, 0)?;
-        let states = world.states(camera.eye);
+        let start = Start { cone: screen.footprint, states: world.states(camera.eye), departed: None };
         let depth = Depth(RAYS.saturating_sub(2).min(255) as u8);
-        let (pattern, cone) = (Pattern::CENTRE, screen.footprint);
-        Ok(Self { world, surroundings, camera, size, screen, pattern, cone, depth, states })
+        Ok(Self { world, surroundings, camera, size, screen, pattern: Pattern::CENTRE, depth, start })
     }
 
     /// With these samples a pixel.
@@ -74,7 +72,7 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
         self.screen = Screen::new(&self.camera, self.size, filter.margin())?;
         let parts = self.pattern.parts_a_side();
         let bits = self.screen.footprint.to_bits().checked_div(parts as i32).unwrap_or(1);
-        self.cone = Unit::from_bits(bits.max(1));
+        self.start.cone = Unit::from_bits(bits.max(1));
         Ok(self)
     }
 
@@ -94,14 +92,14 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
     /// they should not interpenetrate, or have priorities. Casts all rays.
     pub fn interpenetration(&self) -> Option<Interpenetration> {
         let mut found = None;
-        if let (Some((other, _)), Some(one)) = self.world.within(self.states) {
+        if let (Some((other, _)), Some(one)) = self.world.within(self.start.states.inside) {
             return Some(Interpenetration { objects: [one, other], place: self.camera.eye });
         }
         for y in 0..self.size.height {
             for x in 0..self.size.width {
                 let direction = self.screen.direction(x, y);
                 // what lies wholly inside another is not seen: it is looked for along the ray itself
-                let overlap = self.world.overlap::<EVENTS>(&self.cast(direction.map(narrow)));
+                let overlap = self.world.overlap::<EVENTS>(&self.ray(direction.map(narrow)), &self.start);
                 if overlap.is_some() {
                     return overlap;
                 }
@@ -118,17 +116,16 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
 
     /// The camera's ray in a direction, 28 fractional bits.
     #[inline]
-    fn cast(&self, direction: [i32; 3]) -> Cast {
+    fn ray(&self, direction: [i32; 3]) -> Ray {
         let eye = [self.camera.eye.x, self.camera.eye.y, self.camera.eye.z].map(|c| c.to_bits());
-        let (ray, cone, states) = (Ray::from_bits(eye, direction), self.cone, self.states);
-        Cast { ray, cone, states, departed: None }
+        Ray::from_bits(eye, direction).paced()
     }
 
     /// The light of one ray, cut off at white.
     #[inline]
     fn sample(&self, direction: [i32; 3], shared: &mut impl FnMut(Interpenetration)) -> Rgb {
-        let cast = self.cast(direction);
-        let light = self.world.light::<EVENTS, RAYS>(cast, self.depth, &self.surroundings, shared);
+        let (ray, start) = (self.ray(direction), &self.start);
+        let light = self.world.light::<EVENTS, RAYS>(ray, start, self.depth, &self.surroundings, shared);
         Rgb::new(light.r.min(Lumen::ONE), light.g.min(Lumen::ONE), light.b.min(Lumen::ONE))
     }
 

@@ -7,6 +7,7 @@
 use heapless::Vec;
 
 use super::super::surface::{Crossing, SAME};
+use super::states::bit;
 
 /// A ray crosses a leaf.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,7 +27,7 @@ impl Event {
     /// The states of all leaves behind it.
     #[inline]
     pub(super) fn behind(&self, states: u64) -> u64 {
-        let bit = 1 << (self.leaf & 63);
+        let bit = bit(self.leaf);
         if self.crossing.enters { states | bit } else { states & !bit }
     }
 }
@@ -40,20 +41,39 @@ impl<const N: usize> Events<N> {
         Self(Vec::new())
     }
 
-    /// Puts an event into its place. A caster has room for all: it asks the surfaces how many there can be.
+    /// How many there are.
     #[inline]
-    pub(super) fn insert(&mut self, event: Event) {
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// All of them.
+    #[inline]
+    pub(super) fn all(&self) -> &[Event] {
+        &self.0
+    }
+
+    /// Puts an event into its place among those from `begin` on. A caster has room for all: it asks the
+    /// surfaces how many there can be.
+    #[inline]
+    pub(super) fn insert(&mut self, begin: usize, event: Event) {
         let mut at = self.0.len();
         if self.0.push(event).is_err() {
             return;
         }
-        while let Some(before) = at.checked_sub(1) {
-            match self.0.get_mut(before..=at) {
-                Some([other, own]) if other.t() > own.t() => core::mem::swap(other, own),
+        while at > begin {
+            match self.0.get_mut(at - 1..=at) {
+                Some([other, own]) if other.t() > event.t() => (*own, *other) = (*other, event),
                 _ => break,
             }
-            at = before;
+            at -= 1;
         }
+    }
+
+    /// Forgets all but the first `len`.
+    #[inline]
+    pub(super) fn truncate(&mut self, len: usize) {
+        self.0.truncate(len);
     }
 
     /// Forgets what lies beyond `t`.
@@ -96,13 +116,13 @@ mod tests {
     fn events_are_sorted_and_those_at_one_parameter_stay_in_order() {
         let mut events = Events::<8>::new();
         for (t, leaf) in [(500, 0), (100, 1), (500, 2), (0, 3), (100 + SAME, 4), (101 + SAME, 5)] {
-            events.insert(event(t, leaf));
+            events.insert(0, event(t, leaf));
         }
         let leaves = |start| events.together(start).iter().map(|e| e.leaf).collect::<std::vec::Vec<_>>();
         assert_eq!((leaves(0), leaves(1), leaves(3)), (std::vec![3], std::vec![1, 4], std::vec![5]));
         assert_eq!((leaves(4), leaves(6)), (std::vec![0, 2], std::vec![]));
         // another object's in between is none of them
-        events.insert(Event { object: 1, ..event(110, 6) });
+        events.insert(0, Event { object: 1, ..event(110, 6) });
         let of = |object, start| events.of(object, start).map(|e| e.leaf).collect::<std::vec::Vec<_>>();
         assert_eq!(
             (of(0, 1), of(1, 1), of(1, 0), of(0, 3)),
@@ -112,7 +132,7 @@ mod tests {
         events.cut(100);
         assert_eq!(events.together(0).len() + events.together(1).len(), 2);
         for k in 0..20 {
-            events.insert(event(k, 1));
+            events.insert(0, event(k, 1));
         }
         // what has no room is left out, and nothing is lost of what was there
         assert_eq!(events.0.len(), 8);

@@ -12,6 +12,8 @@ mod events;
 mod lamp;
 mod object;
 mod scene;
+mod search;
+mod states;
 
 pub use caster::WorldCaster;
 pub use compound::{Difference, Intersection, Union};

@@ -1,15 +1,16 @@
 //! An object: a Boolean function of the shapes of which it is made, as a program.
 //!
 //! The bowl `(S1 - S2) - C` of the text, as data: `S1 S2 - C -`, reverse Polish. Whether a point is inside is
-//! found from one bit for each shape, in a pass over the program with a stack of bits in a word. The box of
-//! every node of the tree is stored beside its step, so that a ray crosses no shape of a part that it misses:
-//! a union's parts are tried each for itself, an intersection's only by a ray that meets what both boxes have
-//! in common, what is taken away from a difference only by a ray that meets the rest.
+//! found from one bit for each shape, in a pass over the program with a stack of bits in a word; up to five
+//! shapes have a table of all answers. A ray crosses no shape of a part that it misses: the box of every union
+//! and intersection is stored beside its step and tried first, an intersection's is what both parts have in
+//! common; and of an intersection or a difference the right part is tried only by a ray that meets the left.
 //!
 //! Source: the course unit V, section 5.10.
 
 use super::super::ray::Ray;
 use super::super::surface::{Extent, Surface};
+use super::states::bit;
 use crate::Error;
 use crate::num::Wide;
 
@@ -32,6 +33,17 @@ pub enum Op {
 pub struct Object<'a> {
     ops: &'a [Op],
     extents: &'a [Extent],
+    /// A bit for each step: whether the leaf there begins the right part of an intersection or a difference.
+    guarded: [u32; 4],
+    /// Whether a union or an intersection has boxes to be tried.
+    is_boxed: bool,
+    /// Whether it is what the first leaf has in common with others, or has left of others.
+    is_chain: bool,
+    /// Of an object with five leaves at most that are numbered from `first` on, in the order of the program:
+    /// whether a point is inside, by the bits of its leaves.
+    table: Option<u32>,
+    first: u8,
+    count: u8,
 }
 
 /// The most leaves of a world: one bit each.
@@ -113,13 +125,52 @@ impl<'a> Object<'a> {
         }
         match height {
             0 => Err(Error::TooFew { what: "steps of an object", given: 0, at_least: 1 }),
-            1 => Ok(Self { ops, extents: memory }),
+            1 => Ok(Self {
+                ops,
+                extents: memory,
+                guarded: [0; 4],
+                is_boxed: false,
+                is_chain: false,
+                table: None,
+                first: 0,
+                count: 0,
+            }
+            .prepared()),
             _ => Err(Error::LengthMismatch {
                 what: "things that a program leaves",
                 given: height,
                 expected: 1,
             }),
         }
+    }
+
+    /// With what is found out of the program once for all rays.
+    fn prepared(mut self) -> Self {
+        for (index, op) in self.ops.iter().enumerate() {
+            self.is_boxed |= matches!(op, Op::Union | Op::Intersection);
+            if matches!(op, Op::Intersection | Op::Difference) {
+                let leaf = begin(self.ops, index.saturating_sub(1));
+                if let Some(word) = self.guarded.get_mut(leaf >> 5) {
+                    *word |= 1 << (leaf & 31);
+                }
+            }
+        }
+        let first = self.leaves().next().unwrap_or(0);
+        let count = self.leaves().count();
+        if count <= 5 && self.leaves().zip(first..).all(|(leaf, number)| leaf == number) {
+            let bit = |states: u32| u32::from(self.is_inside(u64::from(states) << (first & 63))) << states;
+            // bits of other leaves change nothing
+            let table = (0..32).fold(0, |table, states| table | bit(states));
+            (self.table, self.first, self.count) = (Some(table), first, count as u8);
+            // one operation after each leaf
+            let mut rest = self.ops.iter().skip(1);
+            self.is_chain = count > 1;
+            while let Some(op) = rest.next() {
+                self.is_chain &=
+                    matches!((op, rest.next()), (Op::Leaf(_), Some(Op::Difference | Op::Intersection)));
+            }
+        }
+        self
     }
 
     /// The box that holds it.
@@ -143,9 +194,26 @@ impl<'a> Object<'a> {
         if let [Op::Leaf(leaf)] = self.ops { Some(*leaf) } else { None }
     }
 
+    /// The last of its leaves of which there is a bit.
+    #[inline]
+    pub(super) fn last_of(&self, leaves: u64) -> Option<u8> {
+        match self.table {
+            Some(_) => 63_u32.checked_sub(leaves.leading_zeros()).map(|leaf| leaf as u8),
+            None => self.leaves().filter(|leaf| leaves >> (leaf & 63) & 1 > 0).last(),
+        }
+    }
+
     /// Whether a point is inside that is inside these leaves, a bit each.
-    #[inline(never)]
+    #[inline]
     pub(super) fn is_inside(&self, leaves: u64) -> bool {
+        match self.table {
+            Some(table) => table >> ((leaves >> (self.first & 63)) as u32 & 31) & 1 > 0,
+            None => self.is_inside_by_program(leaves),
+        }
+    }
+
+    #[inline(never)]
+    fn is_inside_by_program(&self, leaves: u64) -> bool {
         // the top of the stack is the lowest bit
         let mut stack = 0_u64;
         for op in self.ops {
@@ -160,26 +228,65 @@ impl<'a> Object<'a> {
         stack & 1 > 0
     }
 
-    /// Hands over the leaves that a ray may have to cross, each with whether it has to.
+    /// Has the leaves crossed that a ray may have to cross: `cross` answers whether any part of the ray is inside
+    /// the leaf. Answers which were not crossed, a bit each.
     #[inline]
-    pub(super) fn tried(&self, ray: &Ray, mut leaf: impl FnMut(u8, bool)) {
-        if let Some(only) = self.only() {
-            return leaf(only, true);
+    pub(super) fn tried(&self, ray: &Ray, mut cross: impl FnMut(u8) -> bool) -> u64 {
+        let met = if self.is_boxed { self.met(ray) } else { u64::MAX };
+        if self.is_chain && !self.is_boxed {
+            let others = self.first.saturating_add(1)..self.first.saturating_add(self.count);
+            if !cross(self.first) {
+                return others.fold(0, |untried, leaf| untried | bit(leaf));
+            }
+            others.for_each(|leaf| {
+                cross(leaf);
+            });
+            return 0;
         }
+        // the top of the stack is the lowest bit: whether any part of the ray may be inside
+        let (mut stack, mut untried) = (0_u64, 0);
+        for (index, op) in self.ops.iter().enumerate() {
+            let (last, rest) = (stack & 1, stack >> 1);
+            stack = match *op {
+                Op::Leaf(leaf) => {
+                    let own = bit(leaf);
+                    let guard = self.guarded.get(index >> 5).map_or(0, |word| word >> (index & 31) & 1);
+                    let inside = if met & own > 0 && u64::from(guard) <= last {
+                        u64::from(cross(leaf))
+                    } else {
+                        untried |= own;
+                        0
+                    };
+                    stack << 1 | inside
+                }
+                Op::Union => rest | last,
+                Op::Intersection => rest & (last | !1),
+                Op::Difference => rest,
+            };
+        }
+        untried
+    }
+
+    /// The leaves of parts whose boxes a ray meets, a bit each.
+    fn met(&self, ray: &Ray) -> u64 {
         let axes = ray.axes();
         // from the root on, the right part first; a bit for each part that is still to come: whether its
         // parent is met
-        let mut met = 1_u64;
+        let (mut parents, mut leaves) = (1_u64, 0);
         for (op, extent) in self.ops.iter().zip(self.extents).rev() {
-            let parent = met & 1;
-            met >>= 1;
-            if let Op::Leaf(number) = op {
-                leaf(*number, parent > 0);
-            } else {
-                let node = parent & u64::from(parent > 0 && extent.is_met(&axes));
-                met = met << 2 | node << 1 | node;
+            let parent = parents & 1;
+            parents >>= 1;
+            match op {
+                Op::Leaf(leaf) => leaves |= parent.wrapping_neg() & bit(*leaf),
+                // the box of a difference is that of its left part
+                Op::Difference => parents = parents << 2 | parent << 1 | parent,
+                _ => {
+                    let node = u64::from(parent > 0 && extent.is_met(&axes));
+                    parents = parents << 2 | node << 1 | node;
+                }
             }
         }
+        leaves
     }
 }
 
@@ -201,6 +308,7 @@ mod tests {
     use core::ops::ControlFlow;
 
     use super::super::super::surface::{Crossing, SurfacePoint};
+    use super::super::states::has;
     use super::*;
     use crate::num::{Real, Unit, Vec3};
     use std::boxed::Box;
@@ -315,7 +423,7 @@ mod tests {
     }
 
     /// The three early outs: a ray that misses what two parts have in common tries neither; one that misses
-    /// the left part of a difference tries nothing; parts of a union are tried each for itself.
+    /// the left part of a difference does not try the right one; parts of a union are tried each for itself.
     #[test]
     fn a_ray_tries_only_the_parts_that_it_may_need() {
         // boxes from 0 to 2, 1 to 3, 10 to 12 along x
@@ -327,11 +435,12 @@ mod tests {
             // down along z, a little inside the edge
             let eye = Vec3::new(Real::from_num(x) + Real::from_num(0.5), Real::ONE, Real::from_num(9));
             let ray = Ray::new(eye, at(0, 0, -1));
-            object.tried(&ray, |leaf, tried| {
-                if tried {
-                    leaves.push(leaf)
-                }
+            // as the ray would cross them
+            let untried = object.tried(&ray, |leaf| {
+                leaves.push(leaf);
+                surfaces.get(usize::from(leaf)).is_some_and(|surface| surface.extent().is_met(&ray.axes()))
             });
+            assert!((0..2).all(|leaf| leaves.contains(&leaf) != has(untried, leaf)), "{ops:?} {x}");
             leaves.sort_unstable();
             leaves
         };
@@ -343,7 +452,7 @@ mod tests {
             (Op::Intersection, 0, &[]),
             (Op::Intersection, 2, &[]),
             (Op::Difference, 0, &[0, 1]),
-            (Op::Difference, 2, &[]),
+            (Op::Difference, 2, &[0]),
         ] {
             assert_eq!(tried(&both(op), x), expected, "{op:?} {x}");
         }

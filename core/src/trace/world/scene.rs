@@ -1,19 +1,12 @@
-//! A world: leaves, objects made of them, materials and lamps; and what a ray meets first in it.
-//!
-//! The crossings of a ray with all leaves stand in one list, sorted; a bit for each leaf tells whether the ray
-//! is inside it, and the first event at which the function of an object changes is the hit. No interval lists,
-//! no recursion. What the bits are behind the hit tells which media a refracted ray is in.
-
-use core::ops::ControlFlow;
+//! A world: leaves, objects made of them, materials and lamps; and which media there are at a place.
 
 use super::super::material::{Material, Medium};
-use super::super::ray::Ray;
-use super::super::surface::{SAME, Surface};
-use super::events::{Event, Events};
+use super::super::surface::Surface;
 use super::lamp::Lamp;
 use super::object::{LEAVES, Object};
+use super::states::{States, bit, has};
 use crate::Error;
-use crate::num::{Real, Rgb, Unit, Vec3, Wide};
+use crate::num::{Vec3, Wide};
 
 /// A surface of a world and the numbers of its materials, one a face; where there are fewer, the last one is
 /// that of the others.
@@ -32,11 +25,11 @@ pub struct Leaf<'a, L> {
 #[derive(Debug, Clone, Copy)]
 pub struct World<'a, L, M> {
     leaves: &'a [Leaf<'a, L>],
-    objects: &'a [Object<'a>],
+    pub(super) objects: &'a [Object<'a>],
     materials: &'a [M],
     pub(super) lamps: &'a [Lamp],
-    /// Whether any object is transparent.
-    has_media: bool,
+    /// The transparent objects, a bit each.
+    pub(super) media: u64,
 }
 
 /// Two transparent objects of equal priority that share a place.
@@ -47,28 +40,6 @@ pub struct Interpenetration {
     pub objects: [u8; 2],
     /// Where a ray found it.
     pub place: Vec3,
-}
-
-/// A ray on its way: what is known of it where it starts.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cast {
-    pub(super) ray: Ray,
-    pub(super) cone: Unit,
-    /// The state of each leaf at its start.
-    pub(super) states: u64,
-    /// The leaf from which it starts, if any.
-    pub(super) departed: Option<u8>,
-}
-
-/// What a ray meets first.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Met {
-    pub(super) event: Event,
-    /// The states before and behind it.
-    pub(super) before: u64,
-    pub(super) behind: u64,
-    /// Leaves whose state was not followed, as the ray misses the objects of which they are parts.
-    unfollowed: u64,
 }
 
 /// The medium of a place: the object, and what is in it.
@@ -98,7 +69,7 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
         }
         let mut used = 0_u64;
         for leaf in objects.iter().flat_map(Object::leaves) {
-            let bit = 1_u64 << (leaf & 63);
+            let bit = bit(leaf);
             if usize::from(leaf) >= leaves.len() || used & bit > 0 {
                 let max = Wide::from_num(leaves.len().saturating_sub(1) as u8);
                 let (value, min) = (Wide::from_num(leaf), Wide::ZERO);
@@ -136,8 +107,11 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
                 }
             }
         }
-        let mut world = Self { leaves, objects, materials, lamps: &[], has_media: false };
-        world.has_media = (0..objects.len()).any(|object| world.medium(object as u8).is_some());
+        let mut world = Self { leaves, objects, materials, lamps: &[], media: 0 };
+        // an object has a leaf of its own, of 64
+        for number in 0..objects.len() as u8 {
+            world.media |= u64::from(world.medium(number).is_some()) << (number & 63);
+        }
         Ok(world)
     }
 
@@ -171,14 +145,14 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
     }
 
     /// The states of all leaves at a place: what of closed leaves it is inside.
-    pub(super) fn states(&self, place: Vec3) -> u64 {
-        self.refreshed(0, u64::MAX, place)
+    pub(super) fn states(&self, place: Vec3) -> States {
+        States { inside: self.refreshed(0, u64::MAX, place), unknown: 0 }
     }
 
     /// `states` with those of the leaves in `which` as the inside-outside functions have it.
     fn refreshed(&self, mut states: u64, which: u64, place: Vec3) -> u64 {
         for (number, leaf) in self.leaves.iter().enumerate() {
-            let bit = 1_u64 << (number & 63);
+            let bit = bit(number as u8);
             if which & bit > 0 && leaf.surface.is_closed() {
                 let inside = leaf.surface.extent().holds(place) && leaf.surface.value(place) <= Wide::ZERO;
                 states = if inside { states | bit } else { states & !bit };
@@ -190,11 +164,12 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
     /// The medium at a place with these states, and whether another object of the same priority shares it.
     pub(super) fn within(&self, states: u64) -> (Within, Option<u8>) {
         let (mut within, mut shared): (Within, _) = (None, None);
-        if self.has_media {
+        if self.media != 0 {
             for (number, object) in self.objects.iter().enumerate() {
-                let Some(medium) = self.medium(number as u8).filter(|_| object.is_inside(states)) else {
+                if !self.is_transparent(number as u8) || !object.is_inside(states) {
                     continue;
-                };
+                }
+                let Some(medium) = self.medium(number as u8) else { continue };
                 match within {
                     Some((_, top)) if top.priority > medium.priority => {}
                     Some((other, top)) => {
@@ -208,167 +183,25 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
         (within, shared)
     }
 
-    /// The crossings of a ray with an object up to `limit`; answers which leaves were not tried. On which side
-    /// of an open surface a ray starts that does not come from it, its first crossing tells: `states`.
+    /// Whether light passes through an object.
     #[inline]
-    fn cross<const E: usize>(
-        &self,
-        number: u8,
-        cast: &Cast,
-        limit: i32,
-        events: &mut Events<E>,
-        states: &mut u64,
-    ) -> u64 {
-        let mut untried = 0;
-        let Some(object) = self.objects.get(usize::from(number)) else { return 0 };
-        let alone = object.only().is_some() && !(self.has_media && self.medium(number).is_some());
-        object.tried(&cast.ray, |number_of_leaf, tried| {
-            let bit = 1_u64 << (number_of_leaf & 63);
-            let Some(leaf) = self.leaf(number_of_leaf).filter(|_| tried) else {
-                untried |= bit;
-                return;
-            };
-            // near where the ray starts may be the very point from which it starts
-            let departs = cast.departed == Some(number_of_leaf);
-            let own = if departs { leaf.surface.error() } else { -Real::DELTA };
-            let mut undecided = !departs && !leaf.surface.is_closed();
-            leaf.surface.cross(&cast.ray, cast.cone, &mut |crossing| {
-                if crossing.t.to_bits() > limit {
-                    return ControlFlow::Break(());
-                }
-                let event = Event { crossing, leaf: number_of_leaf, object: number };
-                if crossing.t <= own {
-                    return ControlFlow::Continue(());
-                }
-                if undecided {
-                    *states = if crossing.enters { *states & !bit } else { *states | bit };
-                    undecided = false;
-                }
-                if !alone {
-                    events.insert(event);
-                } else if event.behind(*states) != *states {
-                    // the first change of the only leaf is the object's, and nothing is seen through it
-                    events.insert(event);
-                    return ControlFlow::Break(());
-                }
-                ControlFlow::Continue(())
-            });
-        });
-        untried
+    pub(super) fn is_transparent(&self, object: u8) -> bool {
+        self.media != 0 && has(self.media, object)
     }
 
-    /// The first seen change of an object, from the event at `start` with these states on, and the event from
-    /// which to go on.
-    ///
-    /// Of several objects that change at one parameter each is met in turn, in the order of naming: with the
-    /// states behind the hit the same events tell of the next, as an event that has taken effect changes
-    /// nothing any more.
-    fn change<const E: usize>(&self, events: &Events<E>, start: usize, states: u64) -> Option<(Met, usize)> {
-        let (mut at, mut before) = (start, states);
-        loop {
-            let group = events.together(at);
-            if group.is_empty() {
-                return None;
-            }
-            let mut from = 0;
-            while let Some(number) = group.iter().map(|event| event.object).filter(|o| *o >= from).min() {
-                let behind = events.of(number, at).fold(before, |states, event| event.behind(states));
-                let object = self.objects.get(usize::from(number))?;
-                if object.is_inside(before) != object.is_inside(behind) {
-                    let changed = |leaf: &u8| (before ^ behind) >> (leaf & 63) & 1 > 0;
-                    let last = object.leaves().filter(changed).last()?;
-                    let event = events.of(number, at).filter(|event| event.leaf == last).last();
-                    let met = Met { event: *event?, before, behind, unfollowed: 0 };
-                    if self.is_seen(&met) {
-                        return Some((met, at));
-                    }
-                }
-                (before, from) = (behind, number.saturating_add(1));
-            }
-            at += group.len();
-        }
+    /// States of a place that are all known where there are media, as these depend on all. Others are looked up
+    /// when a ray needs them.
+    #[inline]
+    pub(super) fn states_at(&self, inside: u64, unknown: u64, place: Vec3) -> States {
+        let states = States { inside, unknown };
+        if self.media != 0 && unknown != 0 { self.known(states, unknown, place) } else { states }
     }
 
-    /// Whether the medium changes at a hit, or what is hit is opaque.
-    fn is_seen(&self, met: &Met) -> bool {
-        if !self.has_media || self.medium(met.event.object).is_none() {
-            return true;
-        }
-        let object = |states| self.within(states).0.map(|(object, _)| object);
-        object(met.before) != object(met.behind)
-    }
-
-    /// What a ray meets first.
+    /// States with those of the leaves in `which` looked up.
+    #[cold]
     #[inline(never)]
-    pub(super) fn met<const E: usize>(&self, cast: &Cast) -> Option<Met> {
-        let mut events = Events::<E>::new();
-        let (mut first, mut limit, mut unfollowed, mut states) = (None, i32::MAX, 0, cast.states);
-        for number in 0..self.objects.len() as u8 {
-            unfollowed |= self.cross(number, cast, limit, &mut events, &mut states);
-            first = self.change(&events, 0, states).map(|(met, _)| met);
-            if let Some(met) = &first {
-                // what comes later changes nothing before: not what is at its parameter, nor what is at theirs
-                limit = met.event.t().saturating_add(2 * SAME);
-                events.cut(limit);
-            }
-        }
-        first.map(|met: Met| Met { unfollowed, ..met })
-    }
-
-    /// The states before and behind a hit at its place: those of leaves that were not followed are looked up.
-    pub(super) fn states_at(&self, met: &Met, place: Vec3) -> (u64, u64) {
-        if met.unfollowed == 0 {
-            return (met.before, met.behind);
-        }
-        let looked_up = self.refreshed(met.before, met.unfollowed, place) & met.unfollowed;
-        let with = |states: u64| states & !met.unfollowed | looked_up;
-        (with(met.before), with(met.behind))
-    }
-
-    /// The first place along a ray that two transparent objects of equal priority share, and which they are;
-    /// whether anything opaque stands before it or not.
-    pub(super) fn overlap<const E: usize>(&self, cast: &Cast) -> Option<Interpenetration> {
-        let (mut events, mut states, mut at) = (Events::<E>::new(), cast.states, 0);
-        for number in 0..self.objects.len() as u8 {
-            if self.medium(number).is_some() {
-                self.cross(number, cast, i32::MAX, &mut events, &mut states);
-            }
-        }
-        loop {
-            let group = events.together(at);
-            let first = group.first()?;
-            states = group.iter().fold(states, |states, event| event.behind(states));
-            if let (Some((other, _)), Some(one)) = self.within(states) {
-                let place = cast.ray.at(first.crossing.t);
-                return Some(Interpenetration { objects: [one, other], place });
-            }
-            at += group.len();
-        }
-    }
-
-    /// How much light comes along a ray from beyond `limit`: what the things on the way let pass.
-    #[inline(never)]
-    pub(super) fn passed<const E: usize>(&self, cast: &Cast, limit: i32) -> Rgb {
-        let (mut events, mut states) = (Events::<E>::new(), cast.states);
-        for number in 0..self.objects.len() as u8 {
-            if self.medium(number).is_none() {
-                // what is opaque needs no more than to be met
-                let mut own = Events::<E>::new();
-                self.cross(number, cast, limit, &mut own, &mut states);
-                if self.change(&own, 0, states).is_some() {
-                    return Rgb::BLACK;
-                }
-            } else {
-                self.cross(number, cast, limit, &mut events, &mut states);
-            }
-        }
-        let (mut light, mut at) = (Rgb::WHITE, 0);
-        while let Some((met, next)) = self.change(&events, at, states) {
-            let leaf = self.leaf(met.event.leaf);
-            let material = leaf.and_then(|leaf| self.material(leaf, met.event.crossing.face));
-            light = light.through(material.map_or(Rgb::BLACK, Material::passes));
-            (states, at) = (met.behind, next);
-        }
-        light
+    pub(super) fn known(&self, states: States, which: u64, place: Vec3) -> States {
+        let which = which & states.unknown;
+        States { inside: self.refreshed(states.inside, which, place), unknown: states.unknown & !which }
     }
 }

@@ -1,0 +1,336 @@
+//! What a ray meets first in a world, and how much light passes along it.
+//!
+//! The crossings of a ray with the leaves of an object stand in a list, sorted; a bit for each leaf tells
+//! whether the ray is inside it, and the first event at which the function of the object changes is its hit.
+//! What is opaque is looked at one object after the other, and none needs what is farther than the hit so far;
+//! the transparent ones share a list, as what is seen of one depends on the media of all. No interval lists, no
+//! recursion. What the bits are behind the hit tells which media a refracted ray is in.
+
+use core::ops::ControlFlow;
+
+use super::super::material::Material;
+use super::super::ray::Ray;
+use super::super::surface::{Crossing, SAME, Surface};
+use super::events::{Event, Events};
+use super::object::Object;
+use super::scene::{Interpenetration, World};
+use super::states::{States, bit, has};
+use crate::num::{Real, Rgb, Unit};
+
+/// What is known of a ray where it starts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Start {
+    pub(super) cone: Unit,
+    pub(super) states: States,
+    /// The leaf from which it starts, if any.
+    pub(super) departed: Option<u8>,
+}
+
+/// What a ray meets first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Met {
+    pub(super) event: Event,
+    /// The states before and behind it.
+    pub(super) before: u64,
+    pub(super) behind: u64,
+    /// Leaves whose state was not followed, as the ray misses the objects of which they are parts.
+    pub(super) unknown: u64,
+}
+
+impl Met {
+    /// Whether this is met, and not the other: at one parameter it is what is named first.
+    #[inline]
+    fn precedes(&self, other: &Self) -> bool {
+        let (event, other) = (&self.event, &other.event);
+        if event.t().abs_diff(other.t()) <= SAME.unsigned_abs() {
+            event.object < other.object
+        } else {
+            event.t() < other.t()
+        }
+    }
+
+    /// Whether an event of another object has taken effect before this.
+    #[inline]
+    fn follows(&self, other: &Event) -> bool {
+        let event = &self.event;
+        let margin = if other.object < event.object { SAME } else { -SAME };
+        other.object != event.object && other.t() <= event.t().saturating_add(margin)
+    }
+}
+
+/// A ray on its way through the leaves.
+struct Search<'r, const E: usize> {
+    ray: &'r Ray,
+    start: &'r Start,
+    events: Events<E>,
+    states: States,
+    /// Leaves that were not crossed.
+    untried: u64,
+    /// What is farther is of no use.
+    limit: i32,
+    /// From which event on they are sorted.
+    begin: usize,
+    leaf: u8,
+    object: u8,
+    /// Whether the first change of the leaf is all that counts.
+    is_alone: bool,
+    /// Whether the ray starts inside the leaf, and whether the first crossing is to tell.
+    is_inside: bool,
+    is_undecided: bool,
+    /// Crossings up to here are the one from which the ray starts.
+    own: Real,
+}
+
+impl<'r, const E: usize> Search<'r, E> {
+    fn new(ray: &'r Ray, start: &'r Start, limit: i32) -> Self {
+        Self {
+            ray,
+            start,
+            events: Events::new(),
+            states: start.states,
+            untried: 0,
+            limit,
+            begin: 0,
+            leaf: 0,
+            object: 0,
+            is_alone: false,
+            is_inside: false,
+            is_undecided: false,
+            own: Real::ZERO,
+        }
+    }
+
+    /// Takes a crossing of the leaf.
+    #[inline]
+    fn take(&mut self, crossing: Crossing) -> ControlFlow<()> {
+        if self.is_undecided {
+            (self.is_inside, self.is_undecided) = (!crossing.enters, false);
+        }
+        if crossing.t.to_bits() > self.limit {
+            return ControlFlow::Break(());
+        }
+        if crossing.t <= self.own || (self.is_alone && crossing.enters == self.is_inside) {
+            return ControlFlow::Continue(());
+        }
+        self.events.insert(self.begin, Event { crossing, leaf: self.leaf, object: self.object });
+        // nothing is seen through what is alone
+        if self.is_alone { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl<L: Surface, M: Material> World<'_, L, M> {
+    /// Puts the crossings of a ray with a leaf into the search's list. Answers whether any part of the ray is
+    /// inside. On which side of an open surface a ray starts that does not come from it, its first crossing
+    /// tells.
+    #[inline(never)]
+    fn cross<const E: usize>(&self, search: &mut Search<'_, E>, number: u8) -> bool {
+        let Some(leaf) = self.leaf(number) else { return false };
+        let surface = &leaf.surface;
+        search.leaf = number;
+        search.is_inside = has(search.states.inside, number);
+        if search.start.departed == Some(number) {
+            // a line has two crossings with what is convex: one that leaves it has left it for good
+            if surface.most_crossings() <= 1 + u32::from(!search.is_inside && surface.is_closed()) {
+                return search.is_inside;
+            }
+            // near where the ray starts may be the very point from which it starts
+            (search.own, search.is_undecided) = (surface.error(), false);
+        } else {
+            search.own = -Real::DELTA;
+            search.is_undecided = has(search.states.unknown, number) || !surface.is_closed();
+        }
+        let (was_undecided, count) = (search.is_undecided, search.events.len());
+        surface.cross(search.ray, search.start.cone, &mut |crossing| search.take(crossing));
+        if was_undecided {
+            self.decide(search);
+        }
+        search.is_inside || search.events.len() > count
+    }
+
+    /// Keeps on which side of the leaf the ray starts.
+    #[cold]
+    #[inline(never)]
+    fn decide<const E: usize>(&self, search: &mut Search<'_, E>) {
+        let bit = bit(search.leaf);
+        if search.is_undecided {
+            search.states = self.known(search.states, bit, search.ray.origin());
+            search.is_inside = has(search.states.inside, search.leaf);
+        }
+        let States { inside, unknown } = search.states;
+        let inside = if search.is_inside { inside | bit } else { inside & !bit };
+        search.states = States { inside, unknown: unknown & !bit };
+    }
+
+    /// Crosses all leaves of a transparent object.
+    fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8) {
+        if let Some(object) = self.objects.get(usize::from(number)) {
+            (search.object, search.is_alone) = (number, false);
+            search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
+        }
+    }
+
+    /// The first change of an opaque object.
+    #[inline(always)]
+    fn first<const E: usize>(
+        &self,
+        search: &mut Search<'_, E>,
+        number: u8,
+        object: &Object<'_>,
+    ) -> Option<Met> {
+        search.begin = search.events.len();
+        search.object = number;
+        if let Some(leaf) = object.only() {
+            search.is_alone = true;
+            self.cross(search, leaf);
+            let (event, before) = (*search.events.all().get(search.begin)?, search.states.inside);
+            return Some(Met { event, before, behind: event.behind(before), unknown: 0 });
+        }
+        search.is_alone = false;
+        search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
+        let (events, mut from, mut before) = (&search.events, search.begin, search.states.inside);
+        let was = object.is_inside(before);
+        loop {
+            let group = events.together(from);
+            let last = group.last()?;
+            let behind = group.iter().fold(before, |states, event| event.behind(states));
+            if object.is_inside(behind) != was {
+                let leaf = object.last_of(before ^ behind);
+                let event = *group.iter().rev().find(|event| Some(event.leaf) == leaf).unwrap_or(last);
+                return Some(Met { event, before, behind, unknown: 0 });
+            }
+            (from, before) = (from + group.len(), behind);
+        }
+    }
+
+    /// The opaque objects with their numbers.
+    #[inline]
+    fn opaque(&self) -> impl Iterator<Item = (u8, &Object<'_>)> {
+        (0..).zip(self.objects).filter(|(number, _)| !self.is_transparent(*number))
+    }
+
+    /// The numbers of the transparent objects.
+    fn transparent(&self) -> impl Iterator<Item = u8> {
+        (0..self.objects.len() as u8).filter(|number| self.is_transparent(*number))
+    }
+
+    /// The first seen change of a transparent object, from the event at `start` with these states on, and the
+    /// event from which to go on.
+    ///
+    /// Of several objects that change at one parameter each is met in turn, in the order of naming: with the
+    /// states behind the hit the same events tell of the next, as an event that has taken effect changes
+    /// nothing any more.
+    fn change<const E: usize>(&self, events: &Events<E>, start: usize, states: u64) -> Option<(Met, usize)> {
+        let (mut at, mut before) = (start, states);
+        loop {
+            let group = events.together(at);
+            if group.is_empty() {
+                return None;
+            }
+            let mut from = 0;
+            while let Some(number) = group.iter().map(|event| event.object).filter(|o| *o >= from).min() {
+                let behind = events.of(number, at).fold(before, |states, event| event.behind(states));
+                let object = self.objects.get(usize::from(number))?;
+                if object.is_inside(before) != object.is_inside(behind) {
+                    let last = object.last_of(before ^ behind)?;
+                    let event = events.of(number, at).filter(|event| event.leaf == last).last();
+                    let met = Met { event: *event?, before, behind, unknown: 0 };
+                    if self.is_seen(&met) {
+                        return Some((met, at));
+                    }
+                }
+                (before, from) = (behind, number.saturating_add(1));
+            }
+            at += group.len();
+        }
+    }
+
+    /// Whether the medium changes at a hit.
+    fn is_seen(&self, met: &Met) -> bool {
+        let object = |states| self.within(states).0.map(|(object, _)| object);
+        object(met.before) != object(met.behind)
+    }
+
+    /// What a ray meets first.
+    #[inline(never)]
+    pub(super) fn met<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Met> {
+        let mut search = Search::<E>::new(ray, start, i32::MAX);
+        let mut found = None::<Met>;
+        let mut base = start.states.inside;
+        // what comes later changes nothing before: not what is at its parameter, nor what is at theirs
+        let limit = |met: &Met| met.event.t().saturating_add(2 * SAME);
+        if self.media != 0 {
+            for number in self.transparent() {
+                self.cross_all(&mut search, number);
+                found = self.change(&search.events, 0, search.states.inside).map(|(met, _)| met);
+                if let Some(met) = &found {
+                    (search.limit, base) = (limit(met), search.states.inside);
+                    search.events.cut(search.limit);
+                }
+            }
+        }
+        for (number, object) in self.opaque() {
+            if let Some(met) = self.first(&mut search, number, object) {
+                if found.as_ref().is_none_or(|other| met.precedes(other)) {
+                    (search.limit, base) = (limit(&met), search.states.inside);
+                    found = Some(met);
+                }
+            }
+        }
+        let met = found.as_mut()?;
+        // the others as they are there, and what was found out since
+        let others = search.events.all().iter().filter(|event| met.follows(event));
+        let states =
+            others.fold(met.before ^ search.states.inside ^ base, |states, event| event.behind(states));
+        met.behind ^= met.before ^ states;
+        (met.before, met.unknown) = (states, search.untried);
+        found
+    }
+
+    /// The first place along a ray that two transparent objects of equal priority share, and which they are;
+    /// whether anything opaque stands before it or not.
+    pub(super) fn overlap<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Interpenetration> {
+        let mut search = Search::<E>::new(ray, start, i32::MAX);
+        for number in self.transparent() {
+            self.cross_all(&mut search, number);
+        }
+        let (mut states, mut at) = (search.states.inside, 0);
+        loop {
+            let group = search.events.together(at);
+            let first = group.first()?;
+            states = group.iter().fold(states, |states, event| event.behind(states));
+            if let (Some((other, _)), Some(one)) = self.within(states) {
+                let place = ray.at(first.crossing.t);
+                return Some(Interpenetration { objects: [one, other], place });
+            }
+            at += group.len();
+        }
+    }
+
+    /// How much light comes along a ray from beyond `limit`: what the things on the way let pass.
+    #[inline(never)]
+    pub(super) fn passed<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32) -> Rgb {
+        let mut search = Search::<E>::new(ray, start, limit);
+        // what is opaque needs no more than to be met
+        for (number, object) in self.opaque() {
+            if self.first(&mut search, number, object).is_some() {
+                return Rgb::BLACK;
+            }
+            search.events.truncate(0);
+        }
+        if self.media == 0 {
+            return Rgb::WHITE;
+        }
+        search.begin = 0;
+        for number in self.transparent() {
+            self.cross_all(&mut search, number);
+        }
+        let (mut light, mut at, mut states) = (Rgb::WHITE, 0, search.states.inside);
+        while let Some((met, next)) = self.change(&search.events, at, states) {
+            let leaf = self.leaf(met.event.leaf);
+            let material = leaf.and_then(|leaf| self.material(leaf, met.event.crossing.face));
+            light = light.through(material.map_or(Rgb::BLACK, Material::passes));
+            (states, at) = (met.behind, next);
+        }
+        light
+    }
+}
