@@ -16,6 +16,7 @@ mod every_name;
 mod functions;
 mod julia;
 mod numbers;
+mod patches;
 mod systems;
 mod texture;
 mod trace;

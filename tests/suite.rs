@@ -10,6 +10,7 @@ mod imports;
 mod julia_sets;
 mod l_systems;
 mod laws;
+mod patches;
 mod pictures;
 mod pictures_of_worlds;
 mod promises;

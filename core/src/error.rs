@@ -80,6 +80,24 @@ pub enum Error {
         #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
         sum: Wide,
     },
+    /// A column of a matrix with barycentric columns, a class of a mask or an end does not add up to 1.
+    NotBarycentric {
+        /// Its index.
+        column: usize,
+        /// Its sum.
+        #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
+        sum: Wide,
+    },
+    /// The maps of a curve or a patch do not join, or its boundary is not that of its control points.
+    Unjoined {
+        /// The condition that fails.
+        condition: &'static str,
+        /// Index of the map, or of the point of the grid along the side.
+        map: usize,
+        /// The greatest difference of a coordinate.
+        #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
+        gap: Wide,
+    },
     /// Neighbouring maps disagree at a knot (joining condition).
     NotJoined {
         /// Index of the knot.
@@ -160,6 +178,10 @@ impl fmt::Display for Error {
             }
             Self::NotContractive { map } => write!(f, "map {map} is not a contraction"),
             Self::Probabilities { sum } => write!(f, "the probabilities add up to {sum}, not to 1"),
+            Self::NotBarycentric { column, sum } => write!(f, "column {column} adds up to {sum}, not to 1"),
+            Self::Unjoined { condition, map, gap } => {
+                write!(f, "{condition} fails at {map}: a coordinate is off by {gap}")
+            }
             Self::NotJoined { knot } => write!(f, "the maps on both sides of knot {knot} disagree there"),
             Self::NotDifferentiable { map } => write!(
                 f,
@@ -220,6 +242,11 @@ mod tests {
             (out(None, Wide::MIN), "reach is -32768 or less, it must lie between -0.5 and 2"),
             (Error::NotContractive { map: 1 }, "map 1 is not a contraction"),
             (Error::Probabilities { sum: value(1.5) }, "the probabilities add up to 1.5, not to 1"),
+            (Error::NotBarycentric { column: 2, sum: value(0.75) }, "column 2 adds up to 0.75, not to 1"),
+            (
+                Error::Unjoined { condition: "T_0 c_1 = T_1 c_0", map: 1, gap: value(0.25) },
+                "T_0 c_1 = T_1 c_0 fails at 1: a coordinate is off by 0.25",
+            ),
             (Error::NotJoined { knot: 1 }, "the maps on both sides of knot 1 disagree there"),
             (Error::Malformed { what: "number", position: 4 }, "this is no number: look at byte 4"),
             (Error::Degenerate { what: "direction of the light" }, "direction of the light is zero"),

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 
 use defmt::{Debug2Format, Format, Formatter};
 
-use crate::{curve, escape, fif, ifs, num, plane, trace};
+use crate::{curve, escape, fif, ifs, num, patch, plane, trace};
 
 macro_rules! as_debug {
     ($([$($generics:tt)*] $type:ty;)*) => {$(
@@ -21,6 +21,7 @@ as_debug! {
     [T: Debug] num::Vec3<T>;
     [const LIMBS: usize] num::Limbs<LIMBS>;
     [] num::Reciprocal;
+    [] patch::Mask;
     [] plane::Point2;
     [] plane::PathElement;
     [] plane::Bounds2;

@@ -15,6 +15,7 @@
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
 //! | [curve] | curves by refinement: Koch, Hilbert and their relatives; random curves: elbows, Carpenter's subdivision |
 //! | [escape] | dwell of the Mandelbrot set and of filled Julia sets, backward iteration, deep zoom |
+//! | [patch] | curves and surfaces by control points: projected systems, tensor products, patches, refinable lattices |
 //! | [trace] | a scanline ray caster: height fields, and worlds of shapes, materials, textures and lamps |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!
@@ -66,6 +67,7 @@ pub mod ifs;
 #[cfg(any(doc, test))]
 pub mod methods;
 pub mod num;
+pub mod patch;
 pub mod plane;
 #[cfg(test)]
 mod promised;

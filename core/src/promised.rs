@@ -34,6 +34,13 @@ const NOT_SERDE: [(&str, &[&str]); 5] = [
             "Clear",
             "Mixture",
             "Spline",
+            "Barycentric",
+            "Address",
+            "Contraction",
+            "ProjectedCurve",
+            "Tensor",
+            "Patch",
+            "Mask",
         ],
     ),
     (
@@ -72,7 +79,17 @@ const NOT_SERDE: [(&str, &[&str]); 5] = [
 const NOT_DEFMT: [(&str, &[&str]); 4] = [
     (
         "as large as a program, or made of what is logged",
-        &["Dyadic", "Compiled", "Composite", "Factor", "JuliaCover"],
+        &[
+            "Dyadic",
+            "Compiled",
+            "Composite",
+            "Factor",
+            "JuliaCover",
+            "Barycentric",
+            "ProjectedCurve",
+            "Tensor",
+            "Patch",
+        ],
     ),
     ("a step on the way to a value", &["Ending", "OrbitPoint"]),
     (

@@ -18,6 +18,7 @@ mod height_field;
 mod ifs;
 pub mod koch;
 pub mod l_system;
+pub mod patch;
 mod picture;
 mod polynomial;
 pub mod random_curve;
