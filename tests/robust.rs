@@ -17,6 +17,7 @@ mod functions;
 mod julia;
 mod numbers;
 mod systems;
+mod terrain;
 mod texture;
 mod trace;
 mod worlds;
