@@ -18,6 +18,7 @@ mod julia;
 mod numbers;
 mod patches;
 mod systems;
+mod terrain;
 mod texture;
 mod trace;
 mod worlds;

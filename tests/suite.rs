@@ -16,5 +16,6 @@ mod pictures_of_worlds;
 mod promises;
 mod robust;
 mod solids;
+mod terrain;
 mod worked_examples;
 mod worlds;

@@ -15,8 +15,9 @@
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
 //! | [curve] | curves by refinement: Koch, Hilbert and their relatives; random curves: elbows, Carpenter's subdivision |
 //! | [escape] | dwell of the Mandelbrot set and of filled Julia sets, backward iteration, deep zoom |
+//! | [terrain] | surfaces by subdivision: mountains through given heights, patches, seams, any resolution |
 //! | [patch] | curves and surfaces by control points: projected systems, tensor products, patches, refinable lattices |
-//! | [trace] | a scanline ray caster: height fields, and worlds of shapes, materials, textures and lamps |
+//! | [trace] | a scanline ray caster: height fields, terrain, and worlds of shapes, materials, textures and lamps |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!
 //! Imports point downwards in this table's order: a kernel returns values and knows no colour.
@@ -73,6 +74,7 @@ pub mod plane;
 mod promised;
 #[cfg(feature = "serde")]
 mod serial;
+pub mod terrain;
 pub mod trace;
 
 pub use error::Error;

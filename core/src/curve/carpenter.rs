@@ -19,13 +19,13 @@
 
 use super::dimension::dimension_of_ratio;
 use super::displacement::{
-    Displacement, LEVELS, Part, checked_offset, checked_spectrum, displaced, perpendicular, product_q28,
-    raised, raised_across, undone,
+    Displacement, LEVELS, Part, checked_spectrum, displaced, perpendicular, product_q28, raised,
+    raised_across, undone,
 };
 use crate::Error;
 use crate::num::formats::Q28;
 use crate::num::{Deviate, Parameter, RandomFunction};
-use crate::num::{Real, Unit, product, product_u, sqrt};
+use crate::num::{Real, Unit, checked_offset, offsets, product, product_u, sqrt};
 use crate::plane::Point2;
 
 /// The graph of a function `h(t)`: `x` of a point is `t`, `y` is `h`. Size: 136 bytes.
@@ -66,14 +66,8 @@ impl LineToLine {
     /// # Errors
     /// [`Error::OutOfRange`] for an offset outside `0 ..= 2` or `beta` outside `1 ..= 3`.
     pub fn from_spectrum(offset: Unit, beta: Real, seed: u64) -> Result<Self, Error> {
-        let factor = checked_spectrum(beta)?;
-        let mut amplitude = u64::from(checked_offset(offset)?) << 30; // 58 fractional bits
-        let mut offsets = [0; LEVELS];
-        for offset in &mut offsets {
-            *offset = ((amplitude + (1 << 29)) >> 30) as i32;
-            // 2^-H with 31 fractional bits
-            amplitude = (amplitude >> 31) * u64::from(sqrt(factor << 32));
-        }
+        let decay = checked_spectrum(beta)?;
+        let offsets = offsets(checked_offset(offset)?, decay);
         Ok(Self { random: RandomFunction::new(seed), offsets })
     }
 

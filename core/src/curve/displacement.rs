@@ -8,9 +8,9 @@
 //! Formats: points in [`Real`], `g` with 28 fractional bits; one rounding a coordinate.
 
 use crate::Error;
-use crate::num::formats::{Q28, Q52, UQ28};
+use crate::num::formats::{Q28, Q52, UQ30};
 use crate::num::{Deviate, Parameter};
-use crate::num::{Real, Unit, Wide, exp_minus, product, product_shifted};
+use crate::num::{Real, Wide, decay, product, product_shifted};
 use crate::plane::Point2;
 
 /// How often a part between two knots can be halved at most: the parameter has 32 fractional bits.
@@ -125,22 +125,8 @@ pub(super) fn product_q28(a: Q28, b: Q28) -> Q28 {
     product_shifted::<28>(a, b, 1 << 11)
 }
 
-/// An offset, unless it is negative.
-pub(super) fn checked_offset(offset: Unit) -> Result<UQ28, Error> {
-    if offset < Unit::ZERO {
-        return Err(Error::OutOfRange {
-            what: "offset",
-            index: None,
-            value: Wide::from(offset),
-            min: Wide::ZERO,
-            max: Wide::from(Unit::MAX),
-        });
-    }
-    Ok(offset.to_bits().unsigned_abs() >> 2)
-}
-
 /// `2^(1 - beta)` with 30 fractional bits, for `beta` in `1 ..= 3`.
-pub(super) fn checked_spectrum(beta: Real) -> Result<u64, Error> {
+pub(super) fn checked_spectrum(beta: Real) -> Result<UQ30, Error> {
     let (min, max) = (Real::ONE, Real::from_bits(3 << 24));
     if beta < min || beta > max {
         return Err(Error::OutOfRange {
@@ -151,10 +137,7 @@ pub(super) fn checked_spectrum(beta: Real) -> Result<u64, Error> {
             max: Wide::from(max),
         });
     }
-    // ln 2 with 31 fractional bits
-    const LN_2: i64 = 0x58b9_0bfc;
-    let exponent = (i64::from(beta.to_bits() - min.to_bits()) * LN_2 + (1 << 30)) >> 31;
-    Ok(exp_minus(Real::from_bits(exponent as i32)).to_bits().unsigned_abs().into())
+    Ok(decay(beta - min))
 }
 
 /// The end of the part that begins at `from` and has its midpoint at `middle`, for `g = along + across i`:
@@ -292,8 +275,6 @@ mod tests {
         let fits = [(1 << 24) - 1, 1 << 24, 3 << 24, (3 << 24) + 1]
             .map(|b| checked_spectrum(Real::from_bits(b)).is_ok());
         assert_eq!(fits, [false, true, true, false]);
-        let offsets = [-1, 0, i32::MAX].map(|o| checked_offset(Unit::from_bits(o)).ok());
-        assert_eq!(offsets, [None, Some(0), Some((1 << 29) - 1)]);
     }
 
     /// The end of a part from its midpoint, against fractions: the nearest, a half upwards.

@@ -15,13 +15,11 @@
 //! text prints give other spectra: `2^((1 - beta) / 2)` falls as `1/f^(beta + 2)`. Source: course unit V,
 //! section 5.6; `t` from Carpenter's table, so that the seed repeats the curve and so does every part of it.
 
-use super::displacement::{
-    Displacement, LEVELS, Part, checked_offset, checked_spectrum, product_q28, raised_across,
-};
+use super::displacement::{Displacement, LEVELS, Part, checked_spectrum, product_q28, raised_across};
 use crate::Error;
 use crate::num::RandomFunction;
 use crate::num::formats::Q28;
-use crate::num::{Real, Unit, sqrt};
+use crate::num::{Real, Unit, checked_offset, sqrt};
 use crate::plane::Point2;
 
 /// The law of the random elbow. Size: 136 bytes.
@@ -61,7 +59,7 @@ impl Elbow {
     /// # Errors
     /// [`Error::OutOfRange`] for a deviation outside `0 .. 2`, or `beta` outside `1 ..= 3`.
     pub fn new(standard_deviation: Unit, beta: Real, seed: u64) -> Result<Self, Error> {
-        let factor = checked_spectrum(beta)?;
+        let factor = u64::from(checked_spectrum(beta)?);
         let offset = u64::from(checked_offset(standard_deviation)?);
         // 30 fractional bits, at most 4
         let mut square = (offset * offset) >> 26;
@@ -79,7 +77,7 @@ impl Elbow {
     /// # Errors
     /// [`Error::OutOfRange`] for `beta` outside `1 ..= 3`; at 3 the curve is a straight line.
     pub fn self_similar(beta: Real, seed: u64) -> Result<Self, Error> {
-        let square = checked_spectrum(beta)?.saturating_sub(1 << 28);
+        let square = u64::from(checked_spectrum(beta)?).saturating_sub(1 << 28);
         Self::new(Unit::from_bits(sqrt(square << 30) as i32), beta, seed)
     }
 

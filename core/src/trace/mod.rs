@@ -37,6 +37,7 @@ pub mod solid;
 mod statistics;
 mod surface;
 mod surroundings;
+mod terrain;
 pub mod texture;
 pub mod world;
 
@@ -52,3 +53,4 @@ pub use sampling::{Filter, Sampling};
 pub use statistics::Statistics;
 pub use surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
 pub use surroundings::{Sky, Surroundings, Tiles};
+pub use terrain::{DeepTerrain, HeightRange, Terrain};

@@ -24,6 +24,7 @@ mod polynomial;
 pub mod random_curve;
 mod shade;
 mod surface;
+pub mod terrain;
 pub mod texture;
 mod vector;
 pub mod world;

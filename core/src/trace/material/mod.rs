@@ -3,6 +3,7 @@
 //! Source: the course unit V, section 5.9; Cochran, Lewis, Hart, sections 4 to 6.
 
 mod anisotropic;
+mod hazy;
 mod highlight;
 mod mixture;
 mod phong;
@@ -11,6 +12,7 @@ mod specular;
 mod torrance_sparrow;
 
 pub use anisotropic::Anisotropic;
+pub use hazy::Hazy;
 pub use highlight::Highlight;
 pub use mixture::{Clear, Interior, Mixture};
 pub use phong::Phong;

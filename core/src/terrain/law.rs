@@ -1,0 +1,94 @@
+//! The law of displacement of a surface: how far a midpoint lies from the mean of its neighbours.
+//!
+//! A cell at level `k` has sides of `2^-k` knots. Halving it displaces the middle of each edge by `o_k R` and
+//! the centre by `o_k (R_1 + R_2)`, with the offsets `o_k = o 2^(-H k)`: `o` says how rough the surface is,
+//! the similarity exponent `H` how much of that is left at small scales. `H` = 1 is the text's
+//! `o (t_2 - t_1) R`.
+//!
+//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980 ("adding the result":
+//! the centre is the mean of the midpoints of both midlines, and both displacements are added); M. F.
+//! Barnsley et al., "The Science of Fractal Images", 1988, section 1.4.3.
+//!
+//! Formats: heights 24 fractional bits, offsets and deviates 28; one rounding a midpoint.
+
+use crate::Error;
+use crate::num::formats::{Q24, Q28};
+use crate::num::{Deviate, Real, Unit, Wide, checked_offset, decay, offsets, product};
+
+/// How often a cell between four knots can be halved: coordinates have 16 fractional bits.
+pub const LEVELS: u32 = 16;
+
+/// More than the largest deviate, 28 fractional bits.
+const LARGEST: i64 = 888_000_000;
+
+/// How rough a surface is. Size: 64 bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Law {
+    offsets: [Q28; LEVELS as usize],
+}
+
+impl Law {
+    /// The law of an offset `o` and a similarity exponent `H`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an offset outside `0 .. 2` or an exponent outside `0 ..= 1`.
+    pub fn new(offset: Unit, similarity: Unit) -> Result<Self, Error> {
+        if similarity < Unit::ZERO || similarity > Unit::ONE {
+            return Err(Error::OutOfRange {
+                what: "similarity exponent",
+                index: None,
+                value: Wide::from(similarity),
+                min: Wide::ZERO,
+                max: Wide::ONE,
+            });
+        }
+        let decay = decay(Real::from_bits(similarity.to_bits() >> 5));
+        Ok(Self { offsets: offsets(checked_offset(offset)?, decay) })
+    }
+
+    /// The offset at a level; 0 from level 16 on.
+    pub fn offset(&self, level: u32) -> Unit {
+        Unit::from_bits(self.at(level).saturating_mul(4))
+    }
+
+    /// That of the level above the first, `o 2^H`: what a surface was displaced by of which the knots are the
+    /// midpoints. 28 fractional bits, saturated.
+    pub(super) fn above(&self) -> Q28 {
+        let [first, second, ..] = self.offsets;
+        let above = product(first, first).checked_div(i64::from(second).max(1)).unwrap_or(0);
+        above.min(i64::from(i32::MAX)) as i32
+    }
+
+    #[inline(always)]
+    pub(super) fn at(&self, level: u32) -> Q28 {
+        self.offsets.get(level as usize).copied().unwrap_or(0)
+    }
+
+    /// How far heights inside a cell at one level can lie outside those of its corners, down to another
+    /// level, as an upper bound: an edge's middle lies outside by `o_k R`, the centre, which is the mean of
+    /// four of these, by three times as much.
+    pub fn reach(&self, from: u32, to: u32) -> Wide {
+        let sum: i64 = (from..to.min(LEVELS)).map(|level| i64::from(self.at(level))).sum();
+        // below 2^33 times 3 2^29.8, of 56 fractional bits; a unit of a height a level for rounding
+        let reach = ((i128::from(sum) * i128::from(3 * LARGEST)) >> 8) as i64;
+        Wide::from_bits(reach.saturating_add(i64::from(to.saturating_sub(from).min(LEVELS)) << 25))
+    }
+}
+
+/// The middle of an edge: `(a + b) / 2 + o R`, to the nearest, halves upwards.
+#[inline(always)]
+pub(super) fn edge(a: Q24, b: Q24, offset: Q28, r: Deviate) -> Q24 {
+    // heights are below 2^30 in magnitude, the product is below 2^59
+    let twice = i64::from(a.wrapping_add(b)) << 31;
+    (twice.wrapping_add(product(offset, r.to_bits())).wrapping_add(1 << 31) >> 32) as i32
+}
+
+/// The centre, from the middles of the four edges: `(s + n + w + e) / 4 + o (R_1 + R_2)`.
+#[inline(always)]
+pub(super) fn centre([s, n, w, e]: [Q24; 4], offset: Q28, [r_1, r_2]: [Deviate; 2]) -> Q24 {
+    // each half below 2^31, R_1 + R_2 below 2^31
+    let half = |a: i32, b: i32| i64::from(a.wrapping_add(b));
+    let sum = (half(s, n) + half(w, e)) << 30;
+    let both = r_1.to_bits().wrapping_add(r_2.to_bits());
+    (sum.wrapping_add(product(offset, both)).wrapping_add(1 << 31) >> 32) as i32
+}

@@ -1,0 +1,97 @@
+//! The inner geometry of a surface: what spans the cells of its finest lattice.
+//!
+//! "The behavior of the geometry inside the inner scale is up to the implementor." Source: L. C. Carpenter,
+//! "Computer rendering of fractal curves and surfaces", 1980, figures 8 to 10.
+
+use super::b_spline::b_spline;
+use super::bicubic::Bicubic;
+use super::bilinear::Bilinear;
+use super::ferguson::ferguson;
+use super::heights::Heights;
+use crate::num::formats::Q24;
+use crate::num::{Real, Unit};
+
+/// What spans the cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum InnerGeometry {
+    /// Bilinear patches through the heights: `C0`.
+    #[default]
+    Bilinear,
+    /// Ferguson's patches through the heights, slopes from their neighbours, no twist: `C1`.
+    Ferguson,
+    /// A bicubic B-spline whose vertices are the heights: `C2`, it passes near them.
+    BSpline,
+}
+
+/// The patch of one cell: a function of `s` and `t`, both 0 to 1.
+///
+/// ```
+/// use attractor::num::{Real, Unit};
+/// use attractor::terrain::{Heights, InnerGeometry};
+///
+/// let knots = [0, 1, 1, 2].map(Real::from_num);
+/// let heights = Heights::new(2, 2, &knots)?;
+/// let half = Unit::ONE / 2;
+/// for inner in [InnerGeometry::Bilinear, InnerGeometry::Ferguson, InnerGeometry::BSpline] {
+///     assert_eq!(inner.patch(&heights, 0, 0).height(half, half), Real::ONE);
+/// }
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Patch(pub(crate) Form);
+
+/// How a patch is given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    Bilinear(Bilinear),
+    Bicubic(Bicubic),
+}
+
+impl InnerGeometry {
+    /// The patch of the cell at this column and row, those beyond the end being the last.
+    pub fn patch(self, heights: &Heights<'_>, column: u32, row: u32) -> Patch {
+        let (i, j) = (column.min(heights.columns() - 2), row.min(heights.rows() - 2));
+        Patch(match self {
+            Self::Bilinear => Form::Bilinear(Bilinear::new(heights, i, j)),
+            Self::Ferguson => Form::Bicubic(ferguson(heights, i, j)),
+            Self::BSpline => Form::Bicubic(b_spline(heights, i, j)),
+        })
+    }
+}
+
+impl Patch {
+    /// The height at `(s, t)`, each clamped to 0 .. 1.
+    ///
+    /// Error: below 4 units of `2^-24` (`a_patch_is_within_4_units`).
+    pub fn height(&self, s: Unit, t: Unit) -> Real {
+        let [s, t] = [s, t].map(|c| c.clamp(Unit::ZERO, Unit::ONE).to_bits());
+        Real::from_bits(match &self.0 {
+            Form::Bilinear(patch) => patch.height(s, t),
+            Form::Bicubic(patch) => patch.height(s, t),
+        })
+    }
+
+    /// `h_s` and `h_t` at `(s, t)`, each clamped to 0 .. 1: by how much the height grows when one of them
+    /// grows by 1. The normal is `(-h_s / a, -h_t / b, 1)` for a cell of the sides `a` and `b`.
+    ///
+    /// Error: below 16 units of `2^-24` (`a_patch_is_within_4_units`).
+    pub fn slopes(&self, s: Unit, t: Unit) -> [Real; 2] {
+        let [s, t] = [s, t].map(|c| c.clamp(Unit::ZERO, Unit::ONE).to_bits());
+        let slopes: [Q24; 2] = match &self.0 {
+            Form::Bilinear(patch) => patch.slopes(s, t),
+            Form::Bicubic(patch) => patch.slopes(s, t),
+        };
+        slopes.map(Real::from_bits)
+    }
+
+    /// Rigorous bounds of its heights.
+    pub fn range(&self) -> [Real; 2] {
+        let range: [Q24; 2] = match &self.0 {
+            Form::Bilinear(patch) => patch.range(),
+            Form::Bicubic(patch) => patch.range(),
+        };
+        range.map(Real::from_bits)
+    }
+}

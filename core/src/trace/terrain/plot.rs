@@ -1,0 +1,70 @@
+//! Where the cells of a terrain lie in the world: equal rectangles, column by column and row by row.
+//!
+//! The plane between two columns is one number, whichever cell asks for it: rays leave one cell where they
+//! enter the next.
+//!
+//! Formats: lengths 24 fractional bits, pitches 40, places inside a cell 30.
+
+use crate::Error;
+use crate::num::formats::{Q24, Q30};
+use crate::num::{Real, Wide};
+
+/// Columns or rows of cells along an axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rule {
+    origin: Q24,
+    /// How wide a cell is, 40 fractional bits.
+    pitch: i64,
+    /// Cells a unit, 23 fractional bits.
+    density: i64,
+    pub(super) count: u32,
+}
+
+impl Rule {
+    /// So many cells from one coordinate to another.
+    pub(super) fn new(what: &'static str, from: Real, to: Real, count: u32) -> Result<Self, Error> {
+        let outside = |c: Real| c.to_bits() <= -(64 << 24) || c.to_bits() >= 64 << 24;
+        if let Some(end) = [from, to].into_iter().find(|end| outside(*end)) {
+            let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
+            return Err(Error::OutOfRange { what, index: None, value: end.into(), min, max });
+        }
+        let width = i64::from(to.to_bits()) - i64::from(from.to_bits());
+        // a cell at least 2^-13 wide: below 2^36 cells a unit with 23 fractional bits
+        let pitch = (width << 16).checked_div(i64::from(count)).unwrap_or(0);
+        if pitch < 1 << 27 {
+            return Err(Error::Degenerate { what });
+        }
+        Ok(Self { origin: from.to_bits(), pitch, density: i64::MAX.checked_div(pitch).unwrap_or(0), count })
+    }
+
+    /// The plane before a cell, or behind the last.
+    #[inline(always)]
+    pub(super) fn plane(&self, index: u32) -> Q24 {
+        self.origin.wrapping_add((i64::from(index) * self.pitch >> 16) as i32)
+    }
+
+    /// The first and the last plane.
+    pub(super) fn ends(&self) -> [Q24; 2] {
+        [self.origin, self.plane(self.count)]
+    }
+
+    /// How wide a cell is, 24 fractional bits.
+    pub(super) fn width(&self) -> Q24 {
+        (self.pitch >> 16) as i32
+    }
+
+    /// How far into a cell that is `size` columns wide a coordinate lies, from 0 to 1.
+    #[inline(always)]
+    pub(super) fn inside(&self, c: Q24, index: u32, size_log: u32) -> Q30 {
+        let along = i64::from(c.wrapping_sub(self.plane(index)).max(0));
+        // along is at most a cell and its rounding: 47 fractional bits of a cell
+        ((along * (self.density >> (size_log & 31))) >> 17).min(1 << 30) as i32
+    }
+
+    /// The cell at a coordinate, those outside being the first or the last.
+    pub(super) fn index(&self, c: Q24) -> u32 {
+        let along = (i64::from(c) - i64::from(self.origin)).max(0);
+        let index = ((i128::from(along) * i128::from(self.density)) >> 47) as i64;
+        index.clamp(0, i64::from(self.count) - 1) as u32
+    }
+}
