@@ -171,7 +171,7 @@ impl Pencil {
 /// From where on the nodes of one surface are no wider than a footprint.
 #[derive(Debug, Clone, Copy)]
 struct LevelOfDetail {
-    /// From where on the whole surface is small: that parameter less its last `shift` bits.
+    /// From where on the whole surface is small: twice that parameter less its last `shift` bits.
     small: u32,
     shift: u32,
 }
@@ -181,7 +181,8 @@ impl LevelOfDetail {
     /// `t`.
     #[inline(always)]
     fn is_reached(&self, shift: u32, t: i32) -> bool {
-        let small = self.small >> ((shift & 31) ^ 31);
+        // halved first, once for all nodes
+        let small = (self.small >> 1) >> ((shift & 31) ^ 31);
         t >> (self.shift & 31) >= small as i32
     }
 }
@@ -203,7 +204,7 @@ impl Hierarchy<'_> {
         let small = footprint.reaches(self.x.width.max(self.y.width)).max(0);
         // at most 31: a width has 31 bits, the reciprocal of a footprint 32
         let shift = 33_u32.saturating_sub(small.leading_zeros());
-        LevelOfDetail { small: (small >> shift) as u32, shift }
+        LevelOfDetail { small: ((small >> shift) << 1) as u32, shift }
     }
 
     /// The first leaf that the ray in this direction (28 fractional bits) meets.

@@ -50,6 +50,7 @@ pub use panorama::Panorama;
 pub use ray::Ray;
 pub use ray_caster::RayCaster;
 pub use sampling::{Filter, Sampling};
+pub use snell::refracted_direction;
 pub use statistics::Statistics;
 pub use surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
 pub use surroundings::{Sky, Surroundings, Tiles};

@@ -8,7 +8,7 @@
 //!
 //! Source: the course unit V, section 5.9.1, as corrected: `sin t / c_2 = sin i / c_1`.
 
-use crate::num::{Real, Unit, Vec3, ratio, sqrt, square};
+use crate::num::{Real, Unit, Vec3, product, ratio, sqrt, square};
 
 /// Where refracted light goes, and which share of it is reflected instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,26 +39,38 @@ pub(super) fn mirrored(d: Vec3<Unit>, n: Vec3<Unit>) -> Vec3<Unit> {
     vector([part(d.x, n.x), part(d.y, n.y), part(d.z, n.z)])
 }
 
-/// The refracted direction; none where light is reflected totally.
+/// The direction in which light along `d` goes on behind a boundary with the normal `n` against it, `eta` the
+/// index of refraction before it over that behind it; none where light is reflected totally.
 ///
 /// Domain: unit vectors with `d . n <= 0`, `eta` from 0.01 to 100. Error: below `2^-22` in each component, for
 /// an `eta` above 10 `2^-21`, away from the critical angle (`a_refracted_ray_is_within_two_to_the_minus_22`).
+/// Cost: 149 Cortex-M4 instructions (kernel `refraction`).
+#[inline]
+pub fn refracted_direction(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Vec3<Unit>> {
+    refracted(d, n, eta).map(|refracted| refracted.direction)
+}
+
+/// The same, and what tells which share of the light is reflected.
 #[inline]
 pub(super) fn refracted(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Refracted> {
-    let along = i64::from(d.dot(n).to_bits());
-    let eta = i64::from(eta.to_bits());
+    let (along, eta) = (d.dot(n).to_bits(), eta.to_bits());
     let (d, n) = (bits(d), bits(n));
-    let mut inside = [0; 3];
+    let (mut inside, mut far) = ([0; 3], 0);
     for ((w, d), n) in inside.iter_mut().zip(d).zip(n) {
-        let tangential = i64::from(d) - ((along * i64::from(n)) >> 30);
-        // below 2^31 times 100 2^24
-        let bent = (eta * tangential) >> 24;
-        *w = i32::try_from(bent).ok().filter(|w| w.unsigned_abs() <= 1 << 30)?;
+        // what of a unit vector lies in the boundary is no longer than 1
+        let tangential = d.wrapping_sub((product(along, n) >> 30) as i32);
+        let bent = product(eta, tangential);
+        *w = (bent >> 24) as i32;
+        // what leaves 32 bits there
+        far |= (((bent >> 32) as i32).wrapping_add(1 << 23) as u32) >> 24;
+    }
+    if far != 0 {
+        return None;
     }
     let rest = (1_u64 << 60).checked_sub(square(inside))?;
     let cos = sqrt(rest) as i32;
     for (w, n) in inside.iter_mut().zip(n) {
-        *w = w.wrapping_sub(((i64::from(cos) * i64::from(n)) >> 30) as i32);
+        *w = w.wrapping_sub((product(cos, n) >> 30) as i32);
     }
     Some(Refracted { direction: vector(inside), cos: Unit::from_bits(cos) })
 }
@@ -169,7 +181,7 @@ mod tests {
         let down = Vec3::new(Unit::ZERO, Unit::ZERO, -Unit::ONE);
         let up = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
         for eta in [1, 2, 50] {
-            assert_eq!(refracted(down, up, Real::from_num(eta)).unwrap().direction, down);
+            assert_eq!(refracted_direction(down, up, Real::from_num(eta)), Some(down));
         }
         for (d, n) in pairs().into_iter().filter(|(d, n)| d.dot(*n) < -0.1) {
             let got = refracted(d, n, Real::ONE).unwrap().direction;

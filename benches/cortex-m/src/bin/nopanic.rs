@@ -217,6 +217,9 @@ fn textures() -> Result<(), Error> {
     };
     use attractor::trace::{Panorama, Sky, Surroundings, Tiles};
     let (one, half, white) = (bb(Real::ONE), bb(Unit::ONE), bb(Rgb::WHITE));
+    let up = Vec3::new(Unit::ZERO, Unit::ZERO, bb(Unit::ONE));
+    let down = Vec3::new(Unit::ZERO, Unit::ZERO, bb(-Unit::ONE));
+    bb(attractor::trace::refracted_direction(down, up, one));
     bb(Noise::new(bb(1)).at(Vec3::new(bb(Lattice::ZERO), bb(Lattice::ZERO), bb(Lattice::ZERO))));
     let turbulence = Turbulence::new(bb(Noise::PERLIN), one, bb(3))?;
     let undulate = Spline::<4>::new(bb(&[(Unit::ZERO, Rgb::BLACK), (Unit::ONE, Rgb::WHITE)]))?;

@@ -157,6 +157,8 @@ const TABLE: &[Kernel] = &[
     roomy(beside("normal", "unit normal of a hit", shade::normals, shade::normals_float::<f32>, shade::normals_float::<f64>)),
     roomy(beside("shade mirror", "call", shade::mirror, shade::mirror_float::<f32>, shade::mirror_float::<f64>)),
     roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
+    roomy(beside("phong rgb", "call, one light", shade::phong_rgb, shade::phong_rgb_float::<f32>, shade::phong_rgb_float::<f64>)),
+    roomy(beside("refraction", "call", shade::refraction, shade::refraction_float::<f32>, shade::refraction_float::<f64>)),
     beside("noise", "value", texture::noise_fixed, texture::noise_float::<f32>, texture::noise_float::<f64>),
     beside("turbulence", "octave of four", texture::turbulence_fixed, texture::turbulence_float::<f32>, texture::turbulence_float::<f64>),
     roomy(beside("sphere", "ray, both crossings", shapes::sphere, shapes::sphere_float::<f32>, shapes::sphere_float::<f64>)),

@@ -1,9 +1,10 @@
-//! The normals of the surface `G x G`, and how it answers light.
+//! The normals of the surface `G x G`, how it answers light, and where it bends it.
 
 use core::hint::black_box;
 
-use attractor::num::{Real, Unit, Vec3};
-use attractor::trace::{Environment, Finish, Light};
+use attractor::num::{Lumen, Real, Rgb, Unit, Vec3};
+use attractor::trace::material::{Lit, Material as _, Mixture, Phong};
+use attractor::trace::{Chart, Environment, Finish, Light, SurfacePoint, refracted_direction};
 
 use super::trace::with_hits;
 use super::watch::{Tally, Watch};
@@ -86,4 +87,81 @@ pub(super) fn mirror_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
 pub(super) fn phong_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
     let (sun, shininess) = black_box((Sun::new(), 32));
     shaded_float::<F>(watch, |n, d| rivals::phong(n, d, &sun, shininess))
+}
+
+/// From air into water.
+const ETA: f64 = 0.75;
+
+#[inline(never)]
+pub(super) fn refraction(watch: &mut Watch<'_>) -> Tally {
+    let Some(d) = Vec3::new(Real::from_num(5), Real::from_num(4), Real::from_num(-5)).normalised() else {
+        return Tally::default();
+    };
+    with_hits(|hits| {
+        let normals = hits.map(|(hit, _, _)| hit.normal().normalised().unwrap_or(d));
+        let eta = black_box(Real::from_num(ETA));
+        watch.over(&normals, |n| refracted_direction(d, n, eta).map_or(0, bits))
+    })
+}
+
+#[inline(never)]
+pub(super) fn refraction_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    let d = rivals::unit([5.0, 4.0, -5.0]).map(F::of);
+    with_hits(|hits| {
+        let float = |v: Real| F::of(v.to_num::<f64>());
+        let normals = hits
+            .map(|(_, f, g)| rivals::normal([float(f.slope), float(f.mean), float(g.slope), float(g.mean)]));
+        let eta = black_box(F::of(ETA));
+        watch.over(&normals, |n| rivals::refracted(d, n, eta).map_or(0, folded))
+    })
+}
+
+/// A pigment and a light.
+const COLORS: [[f32; 3]; 2] = [[0.75, 0.5, 0.25], [1.0, 0.875, 0.75]];
+
+/// One light, matt and with a highlight, as materials of a world have it.
+#[inline(never)]
+pub(super) fn phong_rgb(watch: &mut Watch<'_>) -> Tally {
+    let vector = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+    let (d, towards) = (vector(5, 4, -5).normalised(), vector(-1, -2, 3).normalised());
+    let (Some(d), Some(towards)) = (d, towards) else { return Tally::default() };
+    let [pigment, light] = COLORS.map(|c| {
+        let [r, g, b] = c.map(Lumen::from_num);
+        Rgb::new(r, g, b)
+    });
+    let grey = Rgb::grey(Lumen::from_num(0.375));
+    let Ok(matt) = Mixture::matt(pigment).with_parts(Unit::from_num(0.125), Unit::from_num(0.5)) else {
+        return Tally::default();
+    };
+    with_hits(|hits| {
+        let normals = hits.map(|(hit, _, _)| hit.normal().normalised().unwrap_or(d));
+        let (material, lit) =
+            black_box((matt.with_highlight(grey, Phong { shininess: 32 }), Lit { towards, light }));
+        let mut point = SurfacePoint {
+            position: Vec3::default(),
+            place: Vec3::default(),
+            normal: d,
+            chart: Chart::default(),
+            face: 0,
+            width: Real::ZERO,
+        };
+        watch.over(&normals, |n| {
+            point.normal = n;
+            let light = material.respond(&point, d, core::iter::once(lit)).light;
+            mixed_up([light.r, light.g, light.b].map(Lumen::to_bits))
+        })
+    })
+}
+
+#[inline(never)]
+pub(super) fn phong_rgb_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    let d = rivals::unit([5.0, 4.0, -5.0]).map(F::of);
+    let (sun, shininess) = black_box((Sun::new(), 32));
+    let colors = black_box(COLORS.map(|c| c.map(|c| F::of(c.into()))));
+    with_hits(|hits| {
+        let float = |v: Real| F::of(v.to_num::<f64>());
+        let normals = hits
+            .map(|(_, f, g)| rivals::normal([float(f.slope), float(f.mean), float(g.slope), float(g.mean)]));
+        watch.over(&normals, |n| folded(rivals::phong_rgb(n, d, &sun, colors, shininess)))
+    })
 }

@@ -16,6 +16,6 @@ mod vector;
 mod walk;
 
 pub(crate) use paper::Paper;
-pub(crate) use shade::{Sun, mirror, normal, phong};
+pub(crate) use shade::{Sun, mirror, normal, phong, phong_rgb, refracted};
 pub(crate) use vector::{Vector, unit};
 pub(crate) use walk::{CELLS, Caster, Cell, DEPTH, meets};

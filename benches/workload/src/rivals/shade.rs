@@ -58,3 +58,41 @@ pub(crate) fn phong<F: Float>(n: Vector<F>, d: Vector<F>, sun: &Sun<F>, shinines
     }
     clamp(F::of(0.375).fused(highlight, F::of(0.5).fused(lit, F::of(0.125))))
 }
+
+/// Where light along `d` goes on behind a boundary with the normal `n` against it.
+#[inline(always)]
+pub(crate) fn refracted<F: Float>(d: Vector<F>, n: Vector<F>, eta: F) -> Option<Vector<F>> {
+    let along = dot(d, n);
+    let inside = [0, 1, 2].map(|i: usize| (-along).fused(n[i], d[i]) * eta);
+    let rest = F::of(1.0) - dot(inside, inside);
+    if rest < F::of(0.0) {
+        return None;
+    }
+    let cos = -rest.root();
+    Some([0, 1, 2].map(|i: usize| cos.fused(n[i], inside[i])))
+}
+
+/// [`phong`]'s highlight and matt part in red, green and blue, of a pigment under one light.
+#[inline(always)]
+pub(crate) fn phong_rgb<F: Float>(
+    n: Vector<F>,
+    d: Vector<F>,
+    sun: &Sun<F>,
+    [pigment, light]: [Vector<F>; 2],
+    shininess: u16,
+) -> Vector<F> {
+    let lit = dot(n, sun.0).most(F::of(0.0)) * F::of(0.5);
+    let (mut highlight, mut square, mut rest) =
+        (F::of(0.375), dot(mirrored(n, d), sun.0).most(F::of(0.0)), shininess);
+    while rest > 0 {
+        if rest & 1 == 1 {
+            highlight = highlight * square;
+        }
+        square = square * square;
+        rest >>= 1;
+    }
+    [0, 1, 2].map(|i: usize| {
+        let matt = light[i].fused(lit, F::of(0.125));
+        pigment[i].fused(matt, light[i] * highlight)
+    })
+}
