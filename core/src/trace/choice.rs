@@ -52,6 +52,12 @@ macro_rules! surfaces {
                 }
             }
 
+            fn ball(&self) -> $crate::trace::Ball {
+                match self {
+                    $(Self::$variant(one) => $crate::trace::Surface::ball(one)),+
+                }
+            }
+
             fn is_closed(&self) -> bool {
                 match self {
                     $(Self::$variant(one) => $crate::trace::Surface::is_closed(one)),+
@@ -90,6 +96,12 @@ macro_rules! surfaces {
             fn value(&self, place: $crate::num::Vec3) -> $crate::num::Wide {
                 match self {
                     $(Self::$variant(one) => $crate::trace::Surface::value(one, place)),+
+                }
+            }
+
+            fn is_clear_of(&self, place: $crate::num::Vec3) -> bool {
+                match self {
+                    $(Self::$variant(one) => $crate::trace::Surface::is_clear_of(one, place)),+
                 }
             }
 

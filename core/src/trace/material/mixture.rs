@@ -185,10 +185,10 @@ impl<T: Texture, S: Specular, I: Interior> Material for Mixture<T, S, I> {
                 specular = specular.plus(light.through(Rgb::grey(self.model.part(&view, towards))));
             }
         }
-        let light = pigment
-            .scaled(self.ambient)
-            .plus(pigment.through(diffuse.scaled(self.diffuse)))
-            .plus(self.specular.through(specular));
+        let mut light = pigment.scaled(self.ambient).plus(pigment.through(diffuse.scaled(self.diffuse)));
+        if self.specular != Rgb::BLACK {
+            light = light.plus(self.specular.through(specular));
+        }
         Response { light, reflected: self.reflect, refracted: self.interior.passes() }
     }
 }

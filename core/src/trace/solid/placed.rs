@@ -4,6 +4,7 @@
 
 use core::ops::ControlFlow;
 
+use super::super::ball::Ball;
 use super::super::ray::Ray;
 use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
 use super::shape::Shape;
@@ -31,7 +32,7 @@ impl<S: Shape> Placed<S> {
     /// 128 times as large or more, or as small as one 256th or less, or that puts its middle more than 64 from
     /// the origin along an axis.
     pub fn new(shape: S, map: &Affine3) -> Result<Self, Error> {
-        let site = Site::new(shape.bounds(), map)?;
+        let site = Site::new(shape.bounds(), shape.radius(), map)?;
         let error = site.error(shape.error());
         Ok(Self { shape, site, error })
     }
@@ -45,6 +46,10 @@ impl<S: Shape> Placed<S> {
 impl<S: Shape> Surface for Placed<S> {
     fn extent(&self) -> Extent {
         self.site.extent
+    }
+
+    fn ball(&self) -> Ball {
+        self.site.ball
     }
 
     fn is_closed(&self) -> bool {
@@ -82,6 +87,11 @@ impl<S: Shape> Surface for Placed<S> {
 
     fn value(&self, place: Vec3) -> Wide {
         self.shape.value(self.site.place(place))
+    }
+
+    #[inline(never)]
+    fn is_clear_of(&self, place: Vec3) -> bool {
+        self.site.limited && (!self.site.ball.has(place) || self.shape.is_clear_of(self.site.place(place)))
     }
 
     fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {

@@ -40,7 +40,7 @@ fn negated(v: Vec3<Unit>) -> Vec3<Unit> {
 
 /// Whether a place is not beyond the end of the world.
 fn lies_in_the_world(place: Vec3) -> bool {
-    [place.x, place.y, place.z].into_iter().all(|c| c.to_bits().unsigned_abs() <= 64 << 24)
+    [place.x, place.y, place.z].into_iter().all(|c| c.to_bits().unsigned_abs() < 64 << 24)
 }
 
 impl<L: Surface, M: Material> World<'_, L, M> {
@@ -59,22 +59,22 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, width: 0, level: 0 };
         loop {
             let direction = unit(now.ray.direction);
+            let weighted = |light: Rgb| if now.level == 0 { light } else { now.weight.through(light) };
             let is_cast = now.level <= depth.0 && now.weight.brightest() >= FAINT;
             let met = if is_cast { self.met::<E>(&now.ray, &now.start) } else { None };
-            let hit = met.as_ref().and_then(|met| self.hit(met));
-            let point = hit.and_then(|(leaf, material, crossing)| {
+            let is_seen = met.as_ref().is_some_and(|met| {
+                let Some((leaf, material, crossing)) = self.hit(met) else { return false };
                 let mut point = leaf.surface.point(&now.ray, now.start.cone, crossing, material.is_charted());
-                lies_in_the_world(point.position).then(|| {
-                    if point.normal.dot(direction) > 0 {
-                        point.normal = negated(point.normal);
-                    }
-                    let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
-                    let width = i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX);
-                    point.width = Real::from_bits(width);
-                    point
-                })
-            });
-            if let (Some(met), Some((_, material, _)), Some(point)) = (&met, hit, &point) {
+                if !lies_in_the_world(point.position) {
+                    return false;
+                }
+                if point.normal.dot(direction) > 0 {
+                    point.normal = negated(point.normal);
+                }
+                let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
+                point.width =
+                    Real::from_bits(i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX));
+                let point = &point;
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
                 let [before, behind] = states;
@@ -83,10 +83,10 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                 }
                 let stay = Start { states: before, departed: Some(met.event.leaf), ..now.start };
                 let response = self.response::<E>(point, material, direction, &stay);
-                light = light.plus(now.weight.through(response.light));
+                light = light.plus(weighted(response.light));
                 if response.reflected != Rgb::BLACK || response.refracted != Rgb::BLACK {
-                    let parts =
-                        self.bounced(point, material, direction, &response, [before.inside, behind.inside]);
+                    let states_inside = [before.inside, behind.inside];
+                    let parts = self.bounced(point, material, direction, &response, states_inside);
                     for (part, states) in parts.into_iter().zip(states) {
                         let Some((direction, part)) = part else { continue };
                         let weight = now.weight.through(part);
@@ -99,8 +99,10 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                         }
                     }
                 }
-            } else {
-                light = light.plus(now.weight.through(surroundings.light(direction, now.start.cone)));
+                true
+            });
+            if !is_seen {
+                light = light.plus(weighted(surroundings.light(direction, now.start.cone)));
             }
             match waiting.pop() {
                 Some(next) => now = next,
@@ -133,6 +135,8 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             let passed = self.passed::<E>(&Ray::unit(point.position, towards), stay, distance);
             if passed == Rgb::BLACK {
                 None
+            } else if passed == Rgb::WHITE {
+                Some(Lit { towards, light: lamp.light() })
             } else {
                 Some(Lit { towards, light: lamp.light().through(passed) })
             }
