@@ -167,6 +167,9 @@ macro_rules! materials {
         }
 
         impl $(<$life>)? $crate::trace::material::Material for $name $(<$life>)? {
+            const MAY_BE_CLEAR: bool =
+                $(<$kind as $crate::trace::material::Material>::MAY_BE_CLEAR)||+;
+
             fn is_charted(&self) -> bool {
                 match self {
                     $(Self::$variant(one) => $crate::trace::material::Material::is_charted(one)),+

@@ -270,6 +270,7 @@ mod tests {
                     assert_eq!(crossing.enters, (t - ends[0]).abs() < (t - ends[1]).abs(), "{ends:?} {t}");
                     let (at, extent) = (ray.at(crossing.t), sphere.extent());
                     assert_eq!(extent.overlap(Extent { low: at, high: at }).low, at, "{extent:?} {at:?}");
+                    assert!(sphere.ball().has(at) && !sphere.is_clear_of(at), "{:?} {at:?}", sphere.ball());
                 }
             }
         }
@@ -442,6 +443,33 @@ mod tests {
             let radius = x.hypot(y);
             if face == 0 { [x / radius, y / radius, 1.0] } else { [0.0, 0.0, -1.0] }
         }
+    }
+
+    /// A place is clear of a cone only where the cone's function in double precision is above 0, and of most
+    /// places that are well outside it is said; what is met is in the ball.
+    #[test]
+    fn what_is_clear_of_a_shape_is_outside() {
+        let mut word = words(29);
+        let (mut clear, mut outside): (u32, u32) = (0, 0);
+        for _ in 0..400 {
+            let size = Vec3::new(Real::ONE + real(&mut word) / 2, Real::ONE, Real::ONE - real(&mut word) / 2);
+            let map = map(size, &mut word);
+            let (cone, exact) = (Placed::new(TaperedCylinder::CONE, &map).unwrap(), Exact::of(&map));
+            for _ in 0..20 {
+                let place = vector(&mut word);
+                let place = map.at(Vec3::new(place.x * 2, place.y * 2, place.z * 2));
+                let [x, y, z] = exact.place(numbers_of(place));
+                let height = (x.hypot(y) - (1.0 - z)).max(-z).max(z - 1.0);
+                clear += u32::from(cone.is_clear_of(place));
+                outside += u32::from(height > 0.01);
+                assert!(!cone.is_clear_of(place) || height > 2_f64.powi(-12), "{map:?} {place:?} {height}");
+            }
+            let ray = ray(&map, 1, &mut word);
+            for crossing in crossings(&cone, &ray) {
+                assert!(cone.ball().has(ray.at(crossing.t)), "{map:?} {ray:?}");
+            }
+        }
+        assert!(clear > 4_000 && clear > outside * 9 / 10 && clear < 7_900, "{clear} {outside}");
     }
 
     /// The corners of the box are corners of the mapped box, a few units out.

@@ -100,7 +100,7 @@ fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
 }
 
 /// `v 2^places`, saturated to a word; places below 32, shifts to the right round down.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn shifted(v: i64, places: i32) -> i32 {
     let v = if places >= 0 { v.saturating_mul(1 << (places & 63)) } else { v >> (-places).min(63) };
     v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
@@ -180,16 +180,16 @@ impl Site {
             farthest = farthest.max(sum >> 16);
         }
         // a ball of generic coordinates becomes longer by the map's norm at most: the squares of that are sums of
-        // rows of the columns' products, entries with 16 fractional bits
+        // rows of the columns' products, 16 fractional bits
         if let Some(radius) = radius {
             let mut norm = 0;
             for i in 0..3 {
-                let entry =
-                    |j: usize| rows.iter().map(|row| (row[i] >> 8) * (row[j] >> 8)).sum::<i64>().abs();
-                norm = norm.max((entry(0) + entry(1) + entry(2)) >> 8);
+                let column = |k: usize| rows.map(|row| row[k] >> 2);
+                let entry = |j: usize| moved(&column(i), &column(j)).abs() + 1;
+                norm = norm.max(entry(0) + entry(1) + entry(2));
             }
             let radius = i64::from(radius.to_bits() >> 12) + 1;
-            let square = (norm + 1).saturating_mul(radius * radius >> 16) >> 24;
+            let square = norm.saturating_mul(radius * radius >> 16) >> 16;
             // and what was rounded there
             farthest = farthest.min(square + (square >> 8) + i64::from(slack as i32 >> 4));
         }
@@ -354,13 +354,15 @@ impl Site {
     }
 
     /// A place of the world in generic coordinates, saturated.
+    #[inline(never)]
     pub(super) fn place(&self, at: Vec3) -> Vec3 {
         let at = [at.x, at.y, at.z].map(Real::to_bits);
         let w = [0, 1, 2].map(|k: usize| at[k].saturating_sub(self.ball.centre[k]));
         let [x, y, z] = [0, 1, 2].map(|k: usize| {
             // 54 fractional bits, then 24
             let v = (dot(self.inverse[k], w) >> (29 - self.exponent)) + 1;
-            Real::from_bits(shifted((v >> 1) + i64::from(self.middle[k] >> 5), 0))
+            let v = (v >> 1) + i64::from(self.middle[k] >> 5);
+            Real::from_bits(i32::try_from(v).unwrap_or(if v < 0 { i32::MIN } else { i32::MAX }))
         });
         Vec3::new(x, y, z)
     }

@@ -6,14 +6,14 @@
 
 use heapless::Vec;
 
-use super::super::material::{Lit, Material, Response};
+use super::super::material::{Lit, Material, Medium, Response};
 use super::super::ray::Ray;
 use super::super::snell::{mirrored, refracted};
 use super::super::surface::{Crossing, Surface, SurfacePoint};
 use super::super::surroundings::Surroundings;
 use super::scene::{Interpenetration, Leaf, World};
 use super::search::{Met, Start};
-use crate::num::{Lumen, Real, Rgb, Unit, Vec3, quotient, unit};
+use crate::num::{Lumen, Real, Rgb, Unit, Vec3, product, reciprocal, unit};
 
 /// Below this weight a ray is not cast: `1/256`.
 const FAINT: Lumen = Lumen::from_bits(1 << 8);
@@ -36,6 +36,13 @@ pub(super) struct Depth(pub(super) u8);
 
 fn negated(v: Vec3<Unit>) -> Vec3<Unit> {
     Vec3::new(v.x.saturating_neg(), v.y.saturating_neg(), v.z.saturating_neg())
+}
+
+/// The quotient of two indices of refraction, which are between 0.1 and 10.
+fn over(a: Real, b: Real) -> Real {
+    // `1 / b` is mantissa / 2^shift
+    let (mantissa, shift) = reciprocal(b.to_bits().unsigned_abs());
+    Real::from_bits((((product(a.to_bits(), mantissa as i32) >> (shift - 25)) + 1) >> 1) as i32)
 }
 
 /// Whether a place is not beyond the end of the world.
@@ -78,7 +85,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
                 let [before, behind] = states;
-                if let (Some((other, _)), Some(one)) = self.within(behind.inside) {
+                if let (true, (Some((other, _)), Some(one))) = (M::MAY_BE_CLEAR, self.within(behind.inside)) {
                     shared(Interpenetration { objects: [one, other], place: point.position });
                 }
                 let stay = Start { states: before, departed: Some(met.event.leaf), ..now.start };
@@ -161,17 +168,15 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             // a bump that is looked at from behind
             normal = point.normal;
         }
-        if response.refracted != Rgb::BLACK {
-            let medium = |states| self.within(states).0;
-            let index = |states| medium(states).map_or(Real::ONE, |(_, medium)| medium.index).to_bits();
-            // indices are between 0.1 and 10: the quotient fits
-            let behind_it = u64::from(index(behind).unsigned_abs());
-            let eta = Real::from_bits(quotient(index(before).into(), 24, behind_it) as i32);
+        if M::MAY_BE_CLEAR && response.refracted != Rgb::BLACK {
+            let [from, to] = [before, behind].map(|states| self.within(states).0);
+            let index = |medium: Option<(u8, Medium)>| medium.map_or(Real::ONE, |(_, medium)| medium.index);
+            let eta = over(index(from), index(to));
             let mut way = refracted(direction, normal, eta);
             if way.is_some_and(|way| way.direction.dot(point.normal) >= 0) {
                 way = refracted(direction, point.normal, eta);
             }
-            let fresnel = medium(before).or(medium(behind)).is_some_and(|(_, medium)| medium.fresnel);
+            let fresnel = from.or(to).is_some_and(|(_, medium)| medium.fresnel);
             let share = match &way {
                 None => Unit::ONE,
                 Some(way) if fresnel => way.reflectance(negated(normal).dot(direction), eta),

@@ -238,8 +238,21 @@ impl<'a> Object<'a> {
     pub(super) fn last_of(&self, leaves: u64) -> Option<u8> {
         match self.table {
             Some(_) => 63_u32.checked_sub(leaves.leading_zeros()).map(|leaf| leaf as u8),
-            None => self.leaves().filter(|leaf| leaves >> (leaf & 63) & 1 > 0).last(),
+            None => self.last_by_program(leaves),
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn last_by_program(&self, leaves: u64) -> Option<u8> {
+        let mut last = None;
+        for op in self.ops {
+            match op {
+                Op::Leaf(leaf) if has(leaves, *leaf) => last = Some(*leaf),
+                _ => {}
+            }
+        }
+        last
     }
 
     /// Whether a point is inside that is inside these leaves, a bit each.

@@ -175,14 +175,25 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         search.states = States { inside, unknown: unknown & !bit };
     }
 
-    /// Crosses all leaves of a transparent object.
-    fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8) {
-        if let Some(object) = self.objects.get(usize::from(number)) {
-            if object.ball.is_passed_by(search.ray) {
-                search.untried |= object.others;
-                return;
-            }
-            (search.object, search.is_alone) = (number, false);
+    /// Crosses all leaves of a transparent object. Answers whether there is anything new.
+    #[inline]
+    fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8) -> bool {
+        let Some(object) = self.objects.get(usize::from(number)) else { return false };
+        if object.ball.is_passed_by(search.ray) {
+            search.untried |= object.others;
+            return false;
+        }
+        let count = search.events.len();
+        self.cross_near(search, number, object);
+        search.events.len() > count
+    }
+
+    #[inline(never)]
+    fn cross_near<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) {
+        (search.object, search.is_alone) = (number, false);
+        if let Some(leaf) = object.only() {
+            self.cross(search, leaf);
+        } else {
             search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
         }
     }
@@ -239,8 +250,14 @@ impl<L: Surface, M: Material> World<'_, L, M> {
     }
 
     /// The numbers of the transparent objects.
+    #[inline]
     fn transparent(&self) -> impl Iterator<Item = u8> {
-        (0..self.objects.len() as u8).filter(|number| self.is_transparent(*number))
+        let mut rest = self.media();
+        core::iter::from_fn(move || {
+            let number = rest.trailing_zeros() as u8;
+            rest &= rest.wrapping_sub(1);
+            (number < 64).then_some(number)
+        })
     }
 
     /// The first seen change of a transparent object, from the event at `start` with these states on, and the
@@ -284,11 +301,13 @@ impl<L: Surface, M: Material> World<'_, L, M> {
     #[inline(never)]
     pub(super) fn met<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Met> {
         let mut search = Search::<E>::new(ray, start, i32::MAX);
-        if self.media != 0 {
+        if self.media() != 0 {
             for number in self.transparent() {
-                self.cross_all(&mut search, number);
+                if !self.cross_all(&mut search, number) {
+                    continue;
+                }
+                search.found = None;
                 if let Some((met, _)) = self.change(&search.events, 0, search.states.inside) {
-                    search.found = None;
                     search.keep(met);
                     search.events.cut(search.limit);
                 }
@@ -345,7 +364,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                 return Rgb::BLACK;
             }
         }
-        if self.media == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit) }
+        if self.media() == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit) }
     }
 
     /// Whether a ray meets an opaque object up to `limit`.
