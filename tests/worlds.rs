@@ -553,6 +553,13 @@ fn a_world_that_does_not_fit_together_is_refused() {
     let at = camera([4.0, 0.0, 0.0], [0.0; 3]);
     let narrow = WorldCaster::<_, _, _, 1, 2>::new(world, Rgb::WHITE, at, SIZE).map(|_| ());
     assert!(matches!(narrow, Err(Error::Capacity { needed: 2, capacity: 1, .. })));
+    let lamps = [Lamp::point(vector([9.0; 3]), Rgb::WHITE); 65];
+    let lit = |count: usize| {
+        let world = World::new(&leaves, &objects, &matt).unwrap().with_lamps(&lamps[..count]);
+        WorldCaster::<_, _, _, 2, 2>::new(world, Rgb::WHITE, at, SIZE).map(|_| ())
+    };
+    assert!(matches!(lit(65), Err(Error::Capacity { needed: 65, capacity: 64, .. })));
+    assert_eq!(lit(64), Ok(()));
     assert!(Mixture::glass(Real::from_num(0.05)).is_err() && Mixture::glass(Real::from_num(11)).is_err());
     assert!(Mixture::glass(Real::from_num(0.1)).is_ok() && Mixture::glass(Real::from_num(10)).is_ok());
 }

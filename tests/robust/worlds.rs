@@ -13,7 +13,9 @@ use attractor::trace::solid::{
     Square, Superellipsoid, TaperedCylinder, Torus,
 };
 use attractor::trace::world::{Difference, Intersection, Lamp, Leaf, Object, Op, Union, World, WorldCaster};
-use attractor::trace::{Camera, Chart, Environment, Extent, Filter, Ray, Sampling, Surface, SurfacePoint};
+use attractor::trace::{
+    Ball, Camera, Chart, Environment, Extent, Filter, Ray, Sampling, Surface, SurfacePoint,
+};
 use embedded_graphics::geometry::Size;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -329,6 +331,8 @@ fn any_shape(shape: impl Shape + Copy, map: &Affine3, ray: &Ray, cone: Unit, pla
     };
     met(&crossed, &mut before);
     let _ = (placed.value(place), placed.error(), placed.extent(), placed.shape().bounds());
+    let _ = (placed.ball().centre(), placed.is_clear_of(place), shape.radius(), shape.is_clear_of(place));
+    let _ = Ball::round(place, ray.origin());
     if let Ok(moved) = Moved::new(placed, map) {
         moved.cross(ray, cone, &mut |crossing| {
             let _ = moved.point(ray, cone, &crossing, true);

@@ -3,7 +3,7 @@
 use core::iter::FusedIterator;
 use core::ops::Range;
 
-use attractor::draw::{Dots, Grey, Ink, Palette, Picture, Stroke};
+use attractor::draw::{Dots, Grey, Ink, Palette, Picture, Srgb, Stroke};
 use attractor::escape::{Dwell, Mandelbrot, View};
 use attractor::fif::{Cell, Fif, Pyramid};
 use attractor::ifs::Ifs;
@@ -11,7 +11,8 @@ use attractor::ifs::catalogue::BARNSLEY_FERN;
 use attractor::num::Complex;
 use attractor::num::{Angle, Real, Wide, sin_cos};
 use attractor::plane::{Bounds2, Field, Point2, Symmetric, Window, along};
-use attractor::trace::RayCaster;
+use attractor::trace::world::World;
+use attractor::trace::{Extent, Filter, RayCaster, Sampling};
 use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
@@ -19,10 +20,27 @@ use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 
-use crate::exported::{figure_1_f, figure_3_g};
+use crate::exported::{bowl, figure_1_f, figure_3_g, glass_spheres};
 use crate::scene::{Scene, colour, mono, roomy};
 use crate::sink::{Colour, Failure, Stage};
 use crate::surface::mirror;
+
+/// A world of the command with one ray a pixel in place of its samples.
+macro_rules! once {
+    ($stage:ident, $of:ident) => {{
+        let (leaves, materials, lamps) = ($of::leaves()?, $of::materials()?, $of::lamps()?);
+        let mut boxes = [Extent::NOTHING; $of::BOXES];
+        let objects = $of::objects(&leaves, &mut boxes)?;
+        let world = World::new(&leaves, &objects, &materials)?.with_lamps(&lamps);
+        let caster = $of::caster(world, $stage.size(), 1)?.with_sampling(Sampling::Centre, Filter::Box)?;
+        let lent = size_of_val(&leaves)
+            + size_of_val(&materials)
+            + size_of_val(&lamps)
+            + size_of::<[Extent; $of::BOXES]>()
+            + size_of_val(&objects);
+        field::<Rgb565, _, _>($stage, caster, Srgb, lent)
+    }};
+}
 
 /// The first rows are the floor: a picture that computes nothing.
 #[rustfmt::skip]
@@ -38,6 +56,8 @@ pub(crate) const ROWS: &[Scene] = &[
     mono("fif graph", graph::<BinaryColor>),
     roomy(colour("fif mirror", fif_mirror::<Rgb565, 8, { Pyramid::cells(2, 8) }>)),
     roomy(mono("fif mirror", fif_mirror::<BinaryColor, 8, { Pyramid::cells(2, 8) }>)),
+    roomy(colour("bowl of one sample", |stage| once!(stage, bowl))),
+    roomy(colour("glass spheres of one sample", |stage| once!(stage, glass_spheres))),
     mono("fif mirror of depth 6", fif_mirror::<BinaryColor, 6, { Pyramid::cells(2, 6) }>),
 ];
 

@@ -57,10 +57,19 @@ impl Rgb {
     /// `part` of this light: the products, to the nearest, saturated; none for a negative part.
     #[inline]
     pub fn scaled(self, part: Unit) -> Self {
-        let part = u64::from(part.max(Unit::ZERO).to_bits().unsigned_abs());
+        let part = part.max(Unit::ZERO).to_bits().unsigned_abs();
+        let Self { r, g, b } = self;
+        if (r | g | b).to_bits() >> 30 == 0 {
+            // half a unit of the upper word more
+            let scaled = |c: Lumen| {
+                Lumen::from_bits(((u64::from(c.to_bits() << 2) * u64::from(part) + (1 << 31)) >> 32) as u32)
+            };
+            return Self::new(scaled(r), scaled(g), scaled(b));
+        }
+        let part = u64::from(part);
         let scaled = |c: Lumen| {
-            let product = (u64::from(c.to_bits()) * part + (1 << 29)) >> 30;
-            Lumen::from_bits(u32::try_from(product).unwrap_or(u32::MAX))
+            let product = u64::from(c.to_bits()) * part + (1 << 29);
+            Lumen::from_bits(if product >> 62 > 0 { u32::MAX } else { (product >> 30) as u32 })
         };
         Self::new(scaled(self.r), scaled(self.g), scaled(self.b))
     }
@@ -81,8 +90,9 @@ impl Rgb {
 
 #[inline]
 fn product(a: Lumen, b: Lumen) -> Lumen {
-    let product = (u64::from(a.to_bits()) * u64::from(b.to_bits())).saturating_add(1 << 15) >> 16;
-    Lumen::from_bits(u32::try_from(product).unwrap_or(u32::MAX))
+    // (2^32 - 1)^2 leaves room for half a unit
+    let product = (u64::from(a.to_bits()) * u64::from(b.to_bits())).wrapping_add(1 << 15);
+    Lumen::from_bits(if product >> 48 > 0 { u32::MAX } else { (product >> 16) as u32 })
 }
 
 #[cfg(test)]

@@ -52,6 +52,12 @@ macro_rules! surfaces {
                 }
             }
 
+            fn ball(&self) -> $crate::trace::Ball {
+                match self {
+                    $(Self::$variant(one) => $crate::trace::Surface::ball(one)),+
+                }
+            }
+
             fn is_closed(&self) -> bool {
                 match self {
                     $(Self::$variant(one) => $crate::trace::Surface::is_closed(one)),+
@@ -90,6 +96,12 @@ macro_rules! surfaces {
             fn value(&self, place: $crate::num::Vec3) -> $crate::num::Wide {
                 match self {
                     $(Self::$variant(one) => $crate::trace::Surface::value(one, place)),+
+                }
+            }
+
+            fn is_clear_of(&self, place: $crate::num::Vec3) -> bool {
+                match self {
+                    $(Self::$variant(one) => $crate::trace::Surface::is_clear_of(one, place)),+
                 }
             }
 
@@ -155,6 +167,9 @@ macro_rules! materials {
         }
 
         impl $(<$life>)? $crate::trace::material::Material for $name $(<$life>)? {
+            const MAY_BE_CLEAR: bool =
+                $(<$kind as $crate::trace::material::Material>::MAY_BE_CLEAR)||+;
+
             fn is_charted(&self) -> bool {
                 match self {
                     $(Self::$variant(one) => $crate::trace::material::Material::is_charted(one)),+

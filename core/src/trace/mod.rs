@@ -13,6 +13,7 @@
 //! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", 2000, sections 4 to 6; the course unit V,
 //! sections 5.7 to 5.10.
 
+mod ball;
 mod boxes;
 mod camera;
 mod choice;
@@ -41,6 +42,7 @@ mod terrain;
 pub mod texture;
 pub mod world;
 
+pub use ball::Ball;
 pub use boxes::meets;
 pub use camera::Camera;
 pub use environment::Environment;

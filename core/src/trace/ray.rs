@@ -127,12 +127,11 @@ impl Ray {
             .paced()
     }
 
-    /// The ray from a place along a unit direction.
+    /// The ray from a place, less than 64 from the origin along each axis, along a unit direction.
     #[inline]
     pub(super) fn unit(origin: Vec3, direction: Vec3<Unit>) -> Self {
-        let o = |c: Real| c.to_bits().clamp(1 - (64 << 24), 64 << 24);
         let direction = [direction.x, direction.y, direction.z].map(|c| c.to_bits() >> 2);
-        Self { origin: [origin.x, origin.y, origin.z].map(o), direction, pace: 1 << 30 }
+        Self { origin: [origin.x, origin.y, origin.z].map(Real::to_bits), direction, pace: 1 << 30 }
     }
 
     /// The same ray for things that are placed.
@@ -159,10 +158,16 @@ impl Ray {
 
     /// The place at a parameter, to the nearest, saturated.
     pub fn at(&self, t: Real) -> Vec3 {
-        let place = |origin: i32, direction: i32| {
-            let moved = (i64::from(direction) * i64::from(t.to_bits()) + (1 << 27)) >> 28;
-            let sum = i64::from(origin) + moved;
-            Real::from_bits(sum.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+        let place = |origin: Q24, direction: Q28| {
+            let moved = i64::from(direction) * i64::from(t.to_bits()) + (1 << 27);
+            // 27 bits and a sign of the upper word fit
+            let high = (moved >> 32) as i32;
+            let moved = if high.wrapping_add(1 << 27) as u32 >> 28 > 0 {
+                high >> 31 ^ i32::MAX
+            } else {
+                high << 4 | (moved as u32 >> 28) as i32
+            };
+            Real::from_bits(origin.saturating_add(moved))
         };
         let ([ox, oy, oz], [dx, dy, dz]) = (self.origin, self.direction);
         Vec3::new(place(ox, dx), place(oy, dy), place(oz, dz))

@@ -7,6 +7,7 @@
 
 use core::ops::ControlFlow;
 
+use super::ball::Ball;
 use super::ray::{Axis, Ray};
 use crate::num::{Real, Unit, Vec3, Wide};
 
@@ -133,6 +134,12 @@ pub trait Surface {
     /// A box of the world that holds it.
     fn extent(&self) -> Extent;
 
+    /// A ball that holds it, which is looked at first: that round the extent, unless it knows a smaller one.
+    fn ball(&self) -> Ball {
+        let Extent { low, high } = self.extent();
+        Ball::round(low, high)
+    }
+
     /// Whether it encloses a part of space, so that it can be a part of a compound. An open surface, as a
     /// square, has two sides and no inside.
     fn is_closed(&self) -> bool;
@@ -159,6 +166,11 @@ pub trait Surface {
     /// The inside-outside function at a place of the world: above 0 outside, 0 on the surface, below 0
     /// inside. Of an open surface: which side.
     fn value(&self, place: Vec3) -> Wide;
+
+    /// Whether a place is outside for certain: by more than places are known to. False in case of doubt.
+    fn is_clear_of(&self, _: Vec3) -> bool {
+        false
+    }
 
     /// All there is to know of a crossing that [`Surface::cross`] found on this ray; with texture coordinates
     /// if they are asked for.

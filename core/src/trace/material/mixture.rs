@@ -39,6 +39,9 @@ pub struct Mixture<T = Rgb, S = (), I = ()> {
 
 /// What is inside a thing of a material.
 pub trait Interior {
+    /// Whether there is ever a medium.
+    const MAY_BE_CLEAR: bool = true;
+
     /// The medium; none where no light passes.
     fn medium(&self) -> Option<Medium>;
     /// How much of the light that meets the surface goes through.
@@ -47,6 +50,8 @@ pub trait Interior {
 
 /// Opaque.
 impl Interior for () {
+    const MAY_BE_CLEAR: bool = false;
+
     fn medium(&self) -> Option<Medium> {
         None
     }
@@ -162,6 +167,8 @@ impl<T, S, I> Mixture<T, S, I> {
 }
 
 impl<T: Texture, S: Specular, I: Interior> Material for Mixture<T, S, I> {
+    const MAY_BE_CLEAR: bool = I::MAY_BE_CLEAR;
+
     fn is_charted(&self) -> bool {
         self.pigment.is_charted() || self.model.is_charted()
     }
@@ -185,10 +192,10 @@ impl<T: Texture, S: Specular, I: Interior> Material for Mixture<T, S, I> {
                 specular = specular.plus(light.through(Rgb::grey(self.model.part(&view, towards))));
             }
         }
-        let light = pigment
-            .scaled(self.ambient)
-            .plus(pigment.through(diffuse.scaled(self.diffuse)))
-            .plus(self.specular.through(specular));
+        let mut light = pigment.scaled(self.ambient).plus(pigment.through(diffuse.scaled(self.diffuse)));
+        if self.specular != Rgb::BLACK {
+            light = light.plus(self.specular.through(specular));
+        }
         Response { light, reflected: self.reflect, refracted: self.interior.passes() }
     }
 }

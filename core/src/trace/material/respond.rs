@@ -40,6 +40,9 @@ pub struct Response {
 
 /// What a surface is made of.
 pub trait Material {
+    /// Whether any material of this type may have a medium: where none has, a world has no code of glass.
+    const MAY_BE_CLEAR: bool = true;
+
     /// Whether it looks at texture coordinates.
     fn is_charted(&self) -> bool {
         false

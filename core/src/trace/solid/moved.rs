@@ -5,6 +5,7 @@
 
 use core::ops::ControlFlow;
 
+use super::super::ball::Ball;
 use super::super::ray::Ray;
 use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
 use super::site::{Approach, Site, shifted};
@@ -48,7 +49,7 @@ impl<S: Surface> Moved<S> {
         let near =
             bounds.map(|[x, y, z]| Vec3::new(Near::from_bits(x), Near::from_bits(y), Near::from_bits(z)));
         let unit = Real::from_bits(1 << (24 + places));
-        let site = Site::new(Some(near), &Affine3::scale(Vec3::new(unit, unit, unit)).then(map))?;
+        let site = Site::new(Some(near), None, &Affine3::scale(Vec3::new(unit, unit, unit)).then(map))?;
         let error = Near::from_bits(shifted(surface.error().to_bits().into(), 4 - places as i32));
         let error = site.error(error);
         Ok(Self { surface, site, bounds, places, error })
@@ -87,6 +88,10 @@ impl<S: Surface> Moved<S> {
 impl<S: Surface> Surface for Moved<S> {
     fn extent(&self) -> Extent {
         self.site.extent
+    }
+
+    fn ball(&self) -> Ball {
+        self.site.ball
     }
 
     fn is_closed(&self) -> bool {

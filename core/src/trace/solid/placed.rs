@@ -4,6 +4,7 @@
 
 use core::ops::ControlFlow;
 
+use super::super::ball::Ball;
 use super::super::ray::Ray;
 use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
 use super::shape::Shape;
@@ -31,7 +32,7 @@ impl<S: Shape> Placed<S> {
     /// 128 times as large or more, or as small as one 256th or less, or that puts its middle more than 64 from
     /// the origin along an axis.
     pub fn new(shape: S, map: &Affine3) -> Result<Self, Error> {
-        let site = Site::new(shape.bounds(), map)?;
+        let site = Site::new(shape.bounds(), shape.radius(), map)?;
         let error = site.error(shape.error());
         Ok(Self { shape, site, error })
     }
@@ -45,6 +46,10 @@ impl<S: Shape> Placed<S> {
 impl<S: Shape> Surface for Placed<S> {
     fn extent(&self) -> Extent {
         self.site.extent
+    }
+
+    fn ball(&self) -> Ball {
+        self.site.ball
     }
 
     fn is_closed(&self) -> bool {
@@ -82,6 +87,11 @@ impl<S: Shape> Surface for Placed<S> {
 
     fn value(&self, place: Vec3) -> Wide {
         self.shape.value(self.site.place(place))
+    }
+
+    #[inline(never)]
+    fn is_clear_of(&self, place: Vec3) -> bool {
+        self.site.limited && (!self.site.ball.has(place) || self.shape.is_clear_of(self.site.place(place)))
     }
 
     fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {
@@ -260,6 +270,7 @@ mod tests {
                     assert_eq!(crossing.enters, (t - ends[0]).abs() < (t - ends[1]).abs(), "{ends:?} {t}");
                     let (at, extent) = (ray.at(crossing.t), sphere.extent());
                     assert_eq!(extent.overlap(Extent { low: at, high: at }).low, at, "{extent:?} {at:?}");
+                    assert!(sphere.ball().has(at) && !sphere.is_clear_of(at), "{:?} {at:?}", sphere.ball());
                 }
             }
         }
@@ -432,6 +443,33 @@ mod tests {
             let radius = x.hypot(y);
             if face == 0 { [x / radius, y / radius, 1.0] } else { [0.0, 0.0, -1.0] }
         }
+    }
+
+    /// A place is clear of a cone only where the cone's function in double precision is above 0, and of most
+    /// places that are well outside it is said; what is met is in the ball.
+    #[test]
+    fn what_is_clear_of_a_shape_is_outside() {
+        let mut word = words(29);
+        let (mut clear, mut outside): (u32, u32) = (0, 0);
+        for _ in 0..400 {
+            let size = Vec3::new(Real::ONE + real(&mut word) / 2, Real::ONE, Real::ONE - real(&mut word) / 2);
+            let map = map(size, &mut word);
+            let (cone, exact) = (Placed::new(TaperedCylinder::CONE, &map).unwrap(), Exact::of(&map));
+            for _ in 0..20 {
+                let place = vector(&mut word);
+                let place = map.at(Vec3::new(place.x * 2, place.y * 2, place.z * 2));
+                let [x, y, z] = exact.place(numbers_of(place));
+                let height = (x.hypot(y) - (1.0 - z)).max(-z).max(z - 1.0);
+                clear += u32::from(cone.is_clear_of(place));
+                outside += u32::from(height > 0.01);
+                assert!(!cone.is_clear_of(place) || height > 2_f64.powi(-12), "{map:?} {place:?} {height}");
+            }
+            let ray = ray(&map, 1, &mut word);
+            for crossing in crossings(&cone, &ray) {
+                assert!(cone.ball().has(ray.at(crossing.t)), "{map:?} {ray:?}");
+            }
+        }
+        assert!(clear > 4_000 && clear > outside * 9 / 10 && clear < 7_900, "{clear} {outside}");
     }
 
     /// The corners of the box are corners of the mapped box, a few units out.

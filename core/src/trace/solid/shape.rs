@@ -43,6 +43,12 @@ pub trait Shape {
     /// without limits: the half-space `z <= 0`.
     fn bounds(&self) -> Option<[Vec3<Near>; 2]>;
 
+    /// The radius of a ball round the middle of the bounds that holds the shape, if it is less than that of the
+    /// ball round the bounds.
+    fn radius(&self) -> Option<Near> {
+        None
+    }
+
     /// Whether it encloses a part of space. An open one has an upper side instead, that of its normal.
     fn is_closed(&self) -> bool {
         true
@@ -68,6 +74,11 @@ pub trait Shape {
     /// The inside-outside function: above 0 outside, 0 on the shape, below 0 inside; for an open shape, above
     /// 0 over its upper side.
     fn value(&self, place: Vec3) -> Wide;
+
+    /// Whether a place is outside by `2^-12` and more. False in case of doubt.
+    fn is_clear_of(&self, _: Vec3) -> bool {
+        false
+    }
 
     /// The outward normal at a place of the shape, of any length that is not 0.
     fn normal(&self, place: Vec3<Near>, face: u8) -> Vec3<Near>;

@@ -14,13 +14,14 @@
 
 use core::num::NonZeroU32;
 
+use super::super::ball::{Ball, LEFT};
 use super::super::ray::Ray;
 use super::super::surface::Extent;
 use super::shape::NearRay;
 use crate::Error;
-use crate::num::formats::{Q18, Q24, Q28, Q29, Q30, Q46, Q54, Q58, UQ16};
+use crate::num::formats::{Q18, Q24, Q28, Q29, Q30, Q46, Q54, Q58};
 use crate::num::{
-    Affine3, Near, Real, Unit, Vec3, Wide, high, product, product_u, reciprocal_of, sqrt, square, unit,
+    Affine3, Near, Real, Unit, Vec3, Wide, product, product_u, reciprocal_of, sqrt, square, unit,
 };
 
 /// A map and what it makes of a box.
@@ -30,13 +31,10 @@ pub(super) struct Site {
     inverse: [[Q30; 3]; 3],
     /// -8 to 8.
     exponent: i32,
-    /// Where the middle of the shape's box is in the world.
-    centre: [Q24; 3],
     /// That middle, in generic coordinates.
     middle: [Q29; 3],
-    /// The square of the radius of a ball round the centre that holds the shape, 16 fractional bits, rounded
-    /// up.
-    ball: UQ16,
+    /// Round the middle of the shape's box; for a half-space it has no end.
+    pub(super) ball: Ball,
     /// A place in the ball has `14 + up` fractional bits in a word.
     up: u32,
     /// Such a place times `inverse` has 28 in the upper word after a shift to the left by so many places.
@@ -102,7 +100,7 @@ fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
 }
 
 /// `v 2^places`, saturated to a word; places below 32, shifts to the right round down.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn shifted(v: i64, places: i32) -> i32 {
     let v = if places >= 0 { v.saturating_mul(1 << (places & 63)) } else { v >> (-places).min(63) };
     v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
@@ -129,8 +127,13 @@ fn moved(row: &[i64; 3], place: &[i64; 3]) -> i64 {
 }
 
 impl Site {
-    /// The site of a box of generic coordinates, or of a half-space without one, under a map.
-    pub(super) fn new(bounds: Option<[Vec3<Near>; 2]>, map: &Affine3) -> Result<Self, Error> {
+    /// The site of a box of generic coordinates, or of a half-space without one, under a map. All of the shape
+    /// may be known to be within a radius of the box's middle.
+    pub(super) fn new(
+        bounds: Option<[Vec3<Near>; 2]>,
+        radius: Option<Near>,
+        map: &Affine3,
+    ) -> Result<Self, Error> {
         let inverse = map.inverse()?;
         let (min, max) = (Wide::ONE / 256, Wide::from_num(128));
         let scale =
@@ -176,6 +179,20 @@ impl Site {
             }
             farthest = farthest.max(sum >> 16);
         }
+        // a ball of generic coordinates becomes longer by the map's norm at most: the squares of that are sums of
+        // rows of the columns' products, 16 fractional bits
+        if let Some(radius) = radius {
+            let mut norm = 0;
+            for i in 0..3 {
+                let column = |k: usize| rows.map(|row| row[k] >> 2);
+                let entry = |j: usize| moved(&column(i), &column(j)).abs() + 1;
+                norm = norm.max(entry(0) + entry(1) + entry(2));
+            }
+            let radius = i64::from(radius.to_bits() >> 12) + 1;
+            let square = norm.saturating_mul(radius * radius >> 16) >> 16;
+            // and what was rounded there
+            farthest = farthest.min(square + (square >> 8) + i64::from(slack as i32 >> 4));
+        }
         // the radius below 2^length
         let ball = u32::try_from(farthest + 1).unwrap_or(u32::MAX);
         let length = (17 - ball.leading_zeros() as i32).div_euclid(2);
@@ -193,9 +210,11 @@ impl Site {
             limited: bounds.is_some(),
             inverse: inverse.rows,
             exponent: inverse.exponent,
-            centre,
             middle,
-            ball,
+            ball: match bounds {
+                Some(_) => Ball { centre, square: ball, up: [0; 3] },
+                None => Ball { centre, square: u32::MAX, up: inverse.rows[2] },
+            },
             up: (fractional - 14) as u32,
             left: (30 - fractional + inverse.exponent) as u32,
             is_even,
@@ -215,33 +234,26 @@ impl Site {
     /// The ray in the shape's coordinates, moved to where it is closest; none if it comes nowhere near.
     #[inline(never)]
     pub(super) fn approach(&self, ray: &Ray) -> Option<Approach> {
-        let way = self.way(ray);
+        let ball = &self.ball;
         if !self.limited {
-            return self.over(way, ray.direction);
+            return self.over(ball.from(ray), ray.direction);
         }
         if ray.pace != 0 {
-            let (steps, place) = closest(way, ray);
-            // words with 14 fractional bits, 222 at most
-            if (square(place.map(|c| (c >> 32) as i32)) >> 12) as u32 > self.ball {
+            let (steps, place) = ball.closest(ray);
+            if !ball.holds(place) {
                 return None;
             }
             if let Some(approach) = self.brought(steps, place, ray.direction) {
                 return Some(approach);
             }
         }
-        self.mapped(way, ray.direction)
+        self.mapped(ball.from(ray), ray.direction)
     }
 
     /// The same as [`Site::approach`] for a ray of which something is known to be met.
     #[inline]
     pub(super) fn approach_met(&self, ray: &Ray) -> Option<Approach> {
         self.approach(ray)
-    }
-
-    /// From the ray's origin to the centre.
-    #[inline(always)]
-    fn way(&self, ray: &Ray) -> [Q24; 3] {
-        [0, 1, 2].map(|k: usize| self.centre[k].wrapping_sub(ray.origin[k]))
     }
 
     /// The ray from a place near the centre on, which is seen from there; none where it has to be moved in
@@ -273,7 +285,7 @@ impl Site {
         let (below, rise): (Q54, Q58) = (dot(row, way), dot(row, d));
         // 22 fractional bits; what leaves it behind by more than a few units does not meet it
         let high = (below >> 32) as i32;
-        if high ^ ((rise >> 32) as i32) < 0 && high ^ (high >> 31) > 128 {
+        if high ^ ((rise >> 32) as i32) < 0 && high ^ (high >> 31) > LEFT {
             return None;
         }
         // the direction gets 29 bits
@@ -342,13 +354,15 @@ impl Site {
     }
 
     /// A place of the world in generic coordinates, saturated.
+    #[inline(never)]
     pub(super) fn place(&self, at: Vec3) -> Vec3 {
         let at = [at.x, at.y, at.z].map(Real::to_bits);
-        let w = [0, 1, 2].map(|k: usize| at[k].saturating_sub(self.centre[k]));
+        let w = [0, 1, 2].map(|k: usize| at[k].saturating_sub(self.ball.centre[k]));
         let [x, y, z] = [0, 1, 2].map(|k: usize| {
             // 54 fractional bits, then 24
             let v = (dot(self.inverse[k], w) >> (29 - self.exponent)) + 1;
-            Real::from_bits(shifted((v >> 1) + i64::from(self.middle[k] >> 5), 0))
+            let v = (v >> 1) + i64::from(self.middle[k] >> 5);
+            Real::from_bits(i32::try_from(v).unwrap_or(if v < 0 { i32::MIN } else { i32::MAX }))
         });
         Vec3::new(x, y, z)
     }
@@ -378,19 +392,6 @@ impl Site {
 fn upright(height: Q28, up: Q28) -> NearRay {
     let along = |c: i32| Vec3::new(Near::ZERO, Near::ZERO, Near::from_bits(c));
     NearRay { origin: along(height), direction: along(up) }
-}
-
-/// The ray's parameter where it is closest to the centre, and the way from there to the centre.
-#[inline(always)]
-fn closest(way: [Q24; 3], ray: &Ray) -> (Q18, [Q46; 3]) {
-    let d = ray.direction;
-    // less than 2^63: 222 times 7; the parameter ends at 128
-    let towards = (dot(way, d) >> 32) as i32;
-    let back = -high(towards, ray.pace).clamp(0, (1 << 25) - 1);
-    let moved = |way: Q24, d: Q28| {
-        (i64::from(way >> 10) << 32 | i64::from((way << 22) as u32)).wrapping_add(product(back, d))
-    };
-    (-back, [moved(way[0], d[0]), moved(way[1], d[1]), moved(way[2], d[2])])
 }
 
 /// How many steps of `2^-(3 + exponent)` it is to the closest place, to nearest, at most `most`.

@@ -1,8 +1,8 @@
 //! The sphere of radius 1 round the origin: `F = x^2 + y^2 + z^2 - 1`.
 //!
-//! A ray `o + s d` passes the centre at the distance `|o x d| / |d|`; its crossings are
-//! `s = (-o.d -+ sqrt(|d|^2 - |o x d|^2)) / |d|^2`. The vector product takes the place of `|o|^2 - 1` in the
-//! quadratic equation, whose two large terms would cancel out.
+//! A ray `o + s d` is closest to the centre at `s_0 = -o.d / |d|^2`, in `p = o + s_0 d`; its crossings are
+//! `s = s_0 -+ sqrt((1 - |p|^2) / |d|^2)`. The quadratic equation of `o` itself has two large terms that would
+//! cancel out.
 //!
 //! Texture coordinates: `u` is the longitude, `atan2(y, x) / 2 pi`, `v` the latitude from the lower pole to the
 //! upper, `1/2 + asin(z) / pi`. `P_u = 2 pi (-y, x, 0)`, `P_v = pi (-x z / r, -y z / r, r)` with `r` the
@@ -13,8 +13,9 @@ use core::ops::ControlFlow;
 
 use super::super::surface::Chart;
 use super::shape::{NearCrossing, NearRay, Shape};
-use crate::num::formats::Q28;
-use crate::num::{Angle, Near, Real, Unit, Vec3, Wide, atan2, product, reciprocal_of, sqrt, square, unit};
+use crate::num::{
+    Angle, Near, Real, Unit, Vec3, Wide, atan2, product, product_u, reciprocal_of, rough_sqrt, square, unit,
+};
 
 /// The generic sphere: radius 1, round the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -25,6 +26,10 @@ impl Shape for Sphere {
     fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
         let one = Near::ONE;
         Some([Vec3::new(-one, -one, -one), Vec3::new(one, one, one)])
+    }
+
+    fn radius(&self) -> Option<Near> {
+        Some(Near::ONE)
     }
 
     fn error(&self) -> Near {
@@ -94,27 +99,20 @@ pub(super) fn radial(x: i32, y: i32) -> [Unit; 2] {
 fn crossings(ray: &NearRay) -> Option<[Near; 2]> {
     let o = [ray.origin.x, ray.origin.y, ray.origin.z].map(Near::to_bits);
     let d = [ray.direction.x, ray.direction.y, ray.direction.z].map(Near::to_bits);
-    // 56 fractional bits, below 2^60
-    let across = |a: usize, b: usize| product(o[a], d[b]) - product(o[b], d[a]);
-    let across = [across(1, 2), across(2, 0), across(0, 1)];
-    // |o x d| <= |d| < 4 where they meet
-    let far = |v: i64| ((v >> 32) as i32).wrapping_add(1 << 26) as u32 >> 27 != 0;
-    if across.into_iter().any(far) {
-        return None;
-    }
-    let across: [Q28; 3] = across.map(|v| ((v + (1 << 27)) >> 28) as i32);
-    let (length, distance) = (square(d), square(across));
-    if distance >= length {
-        return None;
-    }
-    // 28 fractional bits
-    let root = sqrt(length - distance);
-    let (mantissa, zeros) = reciprocal_of(NonZeroU32::new((length >> 28) as u32)?);
-    // 26 fractional bits, below 32; the quotient has 26 + 34 - zeros, and |d|^2 is at least 1
+    // |d|^2 is from 1 to 12, its reciprocal mantissa 2^zeros / 2^34
+    let (mantissa, zeros) = reciprocal_of(NonZeroU32::new((square(d) >> 28) as u32)?);
+    let zeros = zeros & 3;
+    // 26 fractional bits, below 32
     let towards = -((product(o[0], d[0]) + product(o[1], d[1]) + product(o[2], d[2])) >> 30) as i32;
-    let half = (root >> 2) as i32;
-    let over = |v: i32| Near::from_bits((product(v, mantissa) >> (32 - zeros)) as i32);
-    Some([over(towards - half), over(towards + half)])
+    let quotient = product(towards, mantissa);
+    let middle = ((quotient >> 32) as i32) << zeros | ((quotient as u32 >> 1) >> (31 - zeros)) as i32;
+    let place = [0, 1, 2].map(|k: usize| o[k].wrapping_add((product(d[k], middle) >> 28) as i32));
+    let inside = (1_u64 << 56).checked_sub(square(place))?;
+    // 28 + 34 - zeros fractional bits, and of a root half as many; an even number of them
+    let odd = zeros & 1;
+    let half = rough_sqrt(product_u((inside >> 28) as u32, mantissa as u32) << odd);
+    let half = (half >> (3 - (zeros >> 1))) as i32;
+    Some([Near::from_bits(middle - half), Near::from_bits(middle + half)])
 }
 
 #[cfg(test)]

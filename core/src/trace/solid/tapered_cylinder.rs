@@ -19,7 +19,7 @@ use super::slab::{Part, over, slowness};
 use super::sphere::{PI, radial, turns};
 use crate::Error;
 use crate::num::formats::{Q25, Q28, Q31};
-use crate::num::{Near, Real, Unit, Vec3, Wide, atan2, product, sqrt};
+use crate::num::{Near, Real, Unit, Vec3, Wide, atan2, product, rough_sqrt};
 
 /// The generic tapered cylinder: a base of radius 1 at `z` = 0, a cap of radius `S` at `z` = 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +76,11 @@ impl TaperedCylinder {
         let c = product(x, x) + product(y, y) - product(e, e);
         // 4^m a, 2^(m + q) b, 4^q c are below 16 and have 25 fractional bits then
         let places = |v: i64| (v ^ (v >> 63)).leading_zeros().saturating_sub(4);
-        let word = |v: i64, up: u32| ((v << (up & 63)) >> 31) as i32;
+        // v 2^up / 2^31, by words: a 64-bit shift by a variable takes three times as long
+        let word = |v: i64, up: u32| {
+            let (high, low) = if up & 32 == 0 { ((v >> 32) as u32, v as u32) } else { (v as u32, 0) };
+            (high << (up & 31) << 1 | low >> (!up & 31)) as i32
+        };
         let (most, far_up, near_up) = (places(b), places(a) & !1, places(c) & !1);
         let m = (far_up >> 1).min(most);
         let q = (near_up >> 1).min(most - m);
@@ -88,7 +92,7 @@ impl TaperedCylinder {
             // inside everywhere or nowhere
             return if a == 0 { c < 0 } else { a < 0 };
         }
-        let root = sqrt(discriminant as u64) as i32;
+        let root = rough_sqrt(discriminant as u64) as i32;
         // the sum that does not cancel out; the other root is c over it
         let sum: Q25 = if b > 0 { -b - root } else { root - b };
         let (up, far_up, near_up) = ((m + q) as i32, far_up as i32, near_up as i32);
@@ -135,6 +139,11 @@ impl Shape for TaperedCylinder {
         Some([Vec3::new(-one, -one, Near::ZERO), Vec3::new(one, one, one)])
     }
 
+    fn radius(&self) -> Option<Near> {
+        // the root of 5/4
+        Some(const { Near::lit("1.118034") })
+    }
+
     fn faces(&self) -> u8 {
         3
     }
@@ -174,6 +183,11 @@ impl Shape for TaperedCylinder {
         // 48 fractional bits; x^2 + y^2 is at most 32768
         let side = (x * x).saturating_add(y * y).saturating_sub(radius.saturating_mul(radius));
         Wide::from_bits(side.max(-z << 24).max((z - (1 << 24)) << 24))
+    }
+
+    fn is_clear_of(&self, place: Vec3) -> bool {
+        // the greatest slope of the function is 2 times the distance from the axis, near the surface
+        self.value(place) > Wide::ONE >> 10
     }
 
     fn normal(&self, place: Vec3<Near>, face: u8) -> Vec3<Near> {

@@ -186,6 +186,10 @@ impl Shape for Torus {
         Some([Vec3::new(-reach, -reach, -tube), Vec3::new(reach, reach, tube)])
     }
 
+    fn radius(&self) -> Option<Near> {
+        Some(Near::ONE + self.tube)
+    }
+
     fn most_crossings(&self) -> u32 {
         4
     }

@@ -80,6 +80,8 @@ impl<M: Material, B: Bump> Bumpy<M, B> {
 }
 
 impl<M: Material, B: Bump> Material for Bumpy<M, B> {
+    const MAY_BE_CLEAR: bool = M::MAY_BE_CLEAR;
+
     fn is_charted(&self) -> bool {
         true
     }

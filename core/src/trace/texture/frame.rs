@@ -66,6 +66,8 @@ impl<M: Material, G: Grain> Framed<M, G> {
 }
 
 impl<M: Material, G: Grain> Material for Framed<M, G> {
+    const MAY_BE_CLEAR: bool = M::MAY_BE_CLEAR;
+
     fn is_charted(&self) -> bool {
         true
     }

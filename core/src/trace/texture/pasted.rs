@@ -74,6 +74,8 @@ impl<P: Texture, D: Texture> Texture for Pasted<'_, P, D> {
 
 /// The medium inside, and what passes for shadows, are the parent's.
 impl<P: Material, D: Material> Material for Pasted<'_, P, D> {
+    const MAY_BE_CLEAR: bool = P::MAY_BE_CLEAR || D::MAY_BE_CLEAR;
+
     fn is_charted(&self) -> bool {
         true
     }

@@ -6,14 +6,14 @@
 
 use heapless::Vec;
 
-use super::super::material::{Lit, Material, Response};
+use super::super::material::{Lit, Material, Medium, Response};
 use super::super::ray::Ray;
 use super::super::snell::{mirrored, refracted};
 use super::super::surface::{Crossing, Surface, SurfacePoint};
 use super::super::surroundings::Surroundings;
 use super::scene::{Interpenetration, Leaf, World};
 use super::search::{Met, Start};
-use crate::num::{Lumen, Real, Rgb, Unit, Vec3, quotient, unit};
+use crate::num::{Lumen, Real, Rgb, Unit, Vec3, product, reciprocal, unit};
 
 /// Below this weight a ray is not cast: `1/256`.
 const FAINT: Lumen = Lumen::from_bits(1 << 8);
@@ -38,9 +38,16 @@ fn negated(v: Vec3<Unit>) -> Vec3<Unit> {
     Vec3::new(v.x.saturating_neg(), v.y.saturating_neg(), v.z.saturating_neg())
 }
 
+/// The quotient of two indices of refraction, which are between 0.1 and 10.
+fn over(a: Real, b: Real) -> Real {
+    // `1 / b` is mantissa / 2^shift
+    let (mantissa, shift) = reciprocal(b.to_bits().unsigned_abs());
+    Real::from_bits((((product(a.to_bits(), mantissa as i32) >> (shift - 25)) + 1) >> 1) as i32)
+}
+
 /// Whether a place is not beyond the end of the world.
 fn lies_in_the_world(place: Vec3) -> bool {
-    [place.x, place.y, place.z].into_iter().all(|c| c.to_bits().unsigned_abs() <= 64 << 24)
+    [place.x, place.y, place.z].into_iter().all(|c| c.to_bits().unsigned_abs() < 64 << 24)
 }
 
 impl<L: Surface, M: Material> World<'_, L, M> {
@@ -59,34 +66,34 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, width: 0, level: 0 };
         loop {
             let direction = unit(now.ray.direction);
+            let weighted = |light: Rgb| if now.level == 0 { light } else { now.weight.through(light) };
             let is_cast = now.level <= depth.0 && now.weight.brightest() >= FAINT;
             let met = if is_cast { self.met::<E>(&now.ray, &now.start) } else { None };
-            let hit = met.as_ref().and_then(|met| self.hit(met));
-            let point = hit.and_then(|(leaf, material, crossing)| {
+            let is_seen = met.as_ref().is_some_and(|met| {
+                let Some((leaf, material, crossing)) = self.hit(met) else { return false };
                 let mut point = leaf.surface.point(&now.ray, now.start.cone, crossing, material.is_charted());
-                lies_in_the_world(point.position).then(|| {
-                    if point.normal.dot(direction) > 0 {
-                        point.normal = negated(point.normal);
-                    }
-                    let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
-                    let width = i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX);
-                    point.width = Real::from_bits(width);
-                    point
-                })
-            });
-            if let (Some(met), Some((_, material, _)), Some(point)) = (&met, hit, &point) {
+                if !lies_in_the_world(point.position) {
+                    return false;
+                }
+                if point.normal.dot(direction) > 0 {
+                    point.normal = negated(point.normal);
+                }
+                let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
+                point.width =
+                    Real::from_bits(i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX));
+                let point = &point;
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
                 let [before, behind] = states;
-                if let (Some((other, _)), Some(one)) = self.within(behind.inside) {
+                if let (true, (Some((other, _)), Some(one))) = (M::MAY_BE_CLEAR, self.within(behind.inside)) {
                     shared(Interpenetration { objects: [one, other], place: point.position });
                 }
                 let stay = Start { states: before, departed: Some(met.event.leaf), ..now.start };
                 let response = self.response::<E>(point, material, direction, &stay);
-                light = light.plus(now.weight.through(response.light));
+                light = light.plus(weighted(response.light));
                 if response.reflected != Rgb::BLACK || response.refracted != Rgb::BLACK {
-                    let parts =
-                        self.bounced(point, material, direction, &response, [before.inside, behind.inside]);
+                    let states_inside = [before.inside, behind.inside];
+                    let parts = self.bounced(point, material, direction, &response, states_inside);
                     for (part, states) in parts.into_iter().zip(states) {
                         let Some((direction, part)) = part else { continue };
                         let weight = now.weight.through(part);
@@ -99,8 +106,10 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                         }
                     }
                 }
-            } else {
-                light = light.plus(now.weight.through(surroundings.light(direction, now.start.cone)));
+                true
+            });
+            if !is_seen {
+                light = light.plus(weighted(surroundings.light(direction, now.start.cone)));
             }
             match waiting.pop() {
                 Some(next) => now = next,
@@ -133,6 +142,8 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             let passed = self.passed::<E>(&Ray::unit(point.position, towards), stay, distance);
             if passed == Rgb::BLACK {
                 None
+            } else if passed == Rgb::WHITE {
+                Some(Lit { towards, light: lamp.light() })
             } else {
                 Some(Lit { towards, light: lamp.light().through(passed) })
             }
@@ -157,17 +168,15 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             // a bump that is looked at from behind
             normal = point.normal;
         }
-        if response.refracted != Rgb::BLACK {
-            let medium = |states| self.within(states).0;
-            let index = |states| medium(states).map_or(Real::ONE, |(_, medium)| medium.index).to_bits();
-            // indices are between 0.1 and 10: the quotient fits
-            let behind_it = u64::from(index(behind).unsigned_abs());
-            let eta = Real::from_bits(quotient(index(before).into(), 24, behind_it) as i32);
+        if M::MAY_BE_CLEAR && response.refracted != Rgb::BLACK {
+            let [from, to] = [before, behind].map(|states| self.within(states).0);
+            let index = |medium: Option<(u8, Medium)>| medium.map_or(Real::ONE, |(_, medium)| medium.index);
+            let eta = over(index(from), index(to));
             let mut way = refracted(direction, normal, eta);
             if way.is_some_and(|way| way.direction.dot(point.normal) >= 0) {
                 way = refracted(direction, point.normal, eta);
             }
-            let fresnel = medium(before).or(medium(behind)).is_some_and(|(_, medium)| medium.fresnel);
+            let fresnel = from.or(to).is_some_and(|(_, medium)| medium.fresnel);
             let share = match &way {
                 None => Unit::ONE,
                 Some(way) if fresnel => way.reflectance(negated(normal).dot(direction), eta),

@@ -20,6 +20,9 @@ use crate::Error;
 use crate::num::{Lumen, Rgb, Unit, Wide};
 use crate::plane::{Field, LinearRgb, along, checked_size};
 
+/// The most lamps of a world.
+const LAMPS: usize = 64;
+
 /// A world seen by a camera: a [`Field`] of [`LinearRgb`].
 ///
 /// `EVENTS` is how many crossings of a ray there is room for, `RAYS` how many rays may wait: two more than
@@ -43,7 +46,8 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
     /// A picture of `size` pixels with one sample each, with as many bounces as there is room for.
     ///
     /// # Errors
-    /// [`Error::Capacity`] if a ray may cross the world's leaves more often than `EVENTS` times;
+    /// [`Error::Capacity`] if a ray may cross the world's leaves more often than `EVENTS` times, or for more than
+    /// 64 lamps, each of which a ray looks for at every hit;
     /// [`Error::OutOfRange`] for a size of 0 or above [`crate::plane::MAX_SIDE`], or where the view is so
     /// wide that a ray's direction leaves ±4.
     pub fn new(world: World<'a, L, M>, surroundings: S, camera: Camera, size: Size) -> Result<Self, Error> {
@@ -54,6 +58,10 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
                 needed: needed as usize,
                 capacity: EVENTS,
             });
+        }
+        let needed = world.lamps.len();
+        if needed > LAMPS {
+            return Err(Error::Capacity { what: "lamps of a world", needed, capacity: LAMPS });
         }
         let size = checked_size(size)?;
         let screen = Screen::new(&camera, size, 0)?;

@@ -70,12 +70,6 @@ impl<const N: usize> Events<N> {
         }
     }
 
-    /// Forgets all but the first `len`.
-    #[inline]
-    pub(super) fn truncate(&mut self, len: usize) {
-        self.0.truncate(len);
-    }
-
     /// Forgets what lies beyond `t`.
     #[inline]
     pub(super) fn cut(&mut self, t: i32) {

@@ -8,9 +8,10 @@
 //!
 //! Source: the course unit V, section 5.10.
 
+use super::super::ball::Ball;
 use super::super::ray::Ray;
 use super::super::surface::{Extent, Surface};
-use super::states::bit;
+use super::states::{bit, has};
 use crate::Error;
 use crate::num::Wide;
 
@@ -33,17 +34,23 @@ pub enum Op {
 pub struct Object<'a> {
     ops: &'a [Op],
     extents: &'a [Extent],
+    /// A ball that holds it, and the leaves of which nothing is known where a ray passes it by.
+    pub(super) ball: Ball,
+    pub(super) others: u64,
+    /// Its leaf, where it has only one; and whether a ray that leaves that has left it for good, to the outside
+    /// and to the inside.
+    only: Option<u8>,
+    is_left: [bool; 2],
     /// A bit for each step: whether the leaf there begins the right part of an intersection or a difference.
     guarded: [u32; 4],
     /// Whether a union or an intersection has boxes to be tried.
     is_boxed: bool,
-    /// Whether it is what the first leaf has in common with others, or has left of others.
-    is_chain: bool,
+    /// Whether it is what others have left of its first leaf: each is taken away in turn.
+    is_carved: bool,
     /// Of an object with five leaves at most that are numbered from `first` on, in the order of the program:
     /// whether a point is inside, by the bits of its leaves.
     table: Option<u32>,
     first: u8,
-    count: u8,
 }
 
 /// The most leaves of a world: one bit each.
@@ -125,17 +132,30 @@ impl<'a> Object<'a> {
         }
         match height {
             0 => Err(Error::TooFew { what: "steps of an object", given: 0, at_least: 1 }),
-            1 => Ok(Self {
-                ops,
-                extents: memory,
-                guarded: [0; 4],
-                is_boxed: false,
-                is_chain: false,
-                table: None,
-                first: 0,
-                count: 0,
+            1 => {
+                let root = kept(ops);
+                let extent = memory.get(root).copied().unwrap_or(Extent::NOTHING);
+                let ball = match ops.get(root) {
+                    Some(Op::Leaf(leaf)) => surface((*leaf).into()).map(Surface::ball),
+                    _ => None,
+                };
+                let only = if let [Op::Leaf(leaf)] = ops { Some(*leaf) } else { None };
+                let surface = only.and_then(|leaf| surface(leaf.into()));
+                Ok(Self {
+                    only,
+                    is_left: surface.map_or([false; 2], is_left),
+                    ops,
+                    extents: memory.get(..ops.len()).unwrap_or(&[]),
+                    ball: ball.unwrap_or_else(|| Ball::round(extent.low, extent.high)),
+                    others: 0,
+                    guarded: [0; 4],
+                    is_boxed: false,
+                    is_carved: false,
+                    table: None,
+                    first: 0,
+                }
+                .prepared())
             }
-            .prepared()),
             _ => Err(Error::LengthMismatch {
                 what: "things that a program leaves",
                 given: height,
@@ -156,18 +176,20 @@ impl<'a> Object<'a> {
             }
         }
         let first = self.leaves().next().unwrap_or(0);
+        // a ray that passes the ball by misses the leaf that is the ball's
+        let is_kept = |leaf| matches!(self.ops.get(kept(self.ops)), Some(Op::Leaf(own)) if *own == leaf);
+        self.others = self.leaves().filter(|leaf| !is_kept(*leaf)).fold(0, |all, leaf| all | bit(leaf));
         let count = self.leaves().count();
         if count <= 5 && self.leaves().zip(first..).all(|(leaf, number)| leaf == number) {
             let bit = |states: u32| u32::from(self.is_inside(u64::from(states) << (first & 63))) << states;
             // bits of other leaves change nothing
             let table = (0..32).fold(0, |table, states| table | bit(states));
-            (self.table, self.first, self.count) = (Some(table), first, count as u8);
-            // one operation after each leaf
+            (self.table, self.first) = (Some(table), first);
+            // a difference after each leaf
             let mut rest = self.ops.iter().skip(1);
-            self.is_chain = count > 1;
+            self.is_carved = count > 1;
             while let Some(op) = rest.next() {
-                self.is_chain &=
-                    matches!((op, rest.next()), (Op::Leaf(_), Some(Op::Difference | Op::Intersection)));
+                self.is_carved &= matches!((op, rest.next()), (Op::Leaf(_), Some(Op::Difference)));
             }
         }
         self
@@ -191,7 +213,24 @@ impl<'a> Object<'a> {
     /// Its only leaf.
     #[inline]
     pub(super) fn only(&self) -> Option<u8> {
-        if let [Op::Leaf(leaf)] = self.ops { Some(*leaf) } else { None }
+        self.only
+    }
+
+    /// Whether a ray that starts from a leaf, outside or inside, cannot meet the object: it is that leaf alone.
+    #[inline]
+    pub(super) fn is_left_by(&self, departed: Option<u8>, inside: u64) -> bool {
+        match departed {
+            Some(leaf) if self.only == departed => self.is_left[usize::from(has(inside, leaf))],
+            _ => false,
+        }
+    }
+
+    /// The first leaf, and how many are taken away from it one by one, in the order of their numbers; none for an
+    /// object that is made otherwise.
+    #[inline]
+    pub(super) fn carved(&self) -> Option<(u8, core::ops::Range<u8>)> {
+        let next = self.first.saturating_add(1);
+        self.is_carved.then_some((self.first, next..next.saturating_add(self.ops.len() as u8 / 2)))
     }
 
     /// The last of its leaves of which there is a bit.
@@ -199,8 +238,21 @@ impl<'a> Object<'a> {
     pub(super) fn last_of(&self, leaves: u64) -> Option<u8> {
         match self.table {
             Some(_) => 63_u32.checked_sub(leaves.leading_zeros()).map(|leaf| leaf as u8),
-            None => self.leaves().filter(|leaf| leaves >> (leaf & 63) & 1 > 0).last(),
+            None => self.last_by_program(leaves),
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn last_by_program(&self, leaves: u64) -> Option<u8> {
+        let mut last = None;
+        for op in self.ops {
+            match op {
+                Op::Leaf(leaf) if has(leaves, *leaf) => last = Some(*leaf),
+                _ => {}
+            }
+        }
+        last
     }
 
     /// Whether a point is inside that is inside these leaves, a bit each.
@@ -233,16 +285,6 @@ impl<'a> Object<'a> {
     #[inline]
     pub(super) fn tried(&self, ray: &Ray, mut cross: impl FnMut(u8) -> bool) -> u64 {
         let met = if self.is_boxed { self.met(ray) } else { u64::MAX };
-        if self.is_chain && !self.is_boxed {
-            let others = self.first.saturating_add(1)..self.first.saturating_add(self.count);
-            if !cross(self.first) {
-                return others.fold(0, |untried, leaf| untried | bit(leaf));
-            }
-            others.for_each(|leaf| {
-                cross(leaf);
-            });
-            return 0;
-        }
         // the top of the stack is the lowest bit: whether any part of the ray may be inside
         let (mut stack, mut untried) = (0_u64, 0);
         for (index, op) in self.ops.iter().enumerate() {
@@ -290,6 +332,22 @@ impl<'a> Object<'a> {
     }
 }
 
+/// Whether a ray that leaves a surface to the outside, or to the inside, has left it for good: a line has two
+/// crossings with what is convex.
+pub(super) fn is_left(surface: &impl Surface) -> [bool; 2] {
+    let most = surface.most_crossings();
+    [most <= 1 + u32::from(surface.is_closed()), most <= 1]
+}
+
+/// The step of what others are taken away from.
+fn kept(ops: &[Op]) -> usize {
+    let mut root = ops.len().saturating_sub(1);
+    while let Some(Op::Difference) = ops.get(root) {
+        root = begin(ops, root.saturating_sub(1)).saturating_sub(1);
+    }
+    root
+}
+
 /// The first step of the part whose last one is `last`.
 fn begin(ops: &[Op], last: usize) -> usize {
     let (mut wanted, mut at) = (1_usize, last);
@@ -308,7 +366,6 @@ mod tests {
     use core::ops::ControlFlow;
 
     use super::super::super::surface::{Crossing, SurfacePoint};
-    use super::super::states::has;
     use super::*;
     use crate::num::{Real, Unit, Vec3};
     use std::boxed::Box;

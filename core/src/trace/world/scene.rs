@@ -28,8 +28,9 @@ pub struct World<'a, L, M> {
     pub(super) objects: &'a [Object<'a>],
     materials: &'a [M],
     pub(super) lamps: &'a [Lamp],
-    /// The transparent objects, a bit each.
-    pub(super) media: u64,
+    /// The transparent objects, a bit each, and their leaves.
+    media: u64,
+    clear: u64,
 }
 
 /// Two transparent objects of equal priority that share a place.
@@ -107,10 +108,13 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
                 }
             }
         }
-        let mut world = Self { leaves, objects, materials, lamps: &[], media: 0 };
+        let mut world = Self { leaves, objects, materials, lamps: &[], media: 0, clear: 0 };
         // an object has a leaf of its own, of 64
-        for number in 0..objects.len() as u8 {
-            world.media |= u64::from(world.medium(number).is_some()) << (number & 63);
+        for (number, object) in (0..).zip(objects) {
+            if M::MAY_BE_CLEAR && world.medium(number).is_some() {
+                world.media |= bit(number);
+                world.clear = object.leaves().fold(world.clear, |all, leaf| all | bit(leaf));
+            }
         }
         Ok(world)
     }
@@ -164,29 +168,41 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
     /// The medium at a place with these states, and whether another object of the same priority shares it.
     pub(super) fn within(&self, states: u64) -> (Within, Option<u8>) {
         let (mut within, mut shared): (Within, _) = (None, None);
-        if self.media != 0 {
-            for (number, object) in self.objects.iter().enumerate() {
-                if !self.is_transparent(number as u8) || !object.is_inside(states) {
-                    continue;
+        // who is in no leaf is in no object
+        if !M::MAY_BE_CLEAR || states & self.clear == 0 {
+            return (within, shared);
+        }
+        let mut rest = self.media();
+        while rest != 0 {
+            let number = rest.trailing_zeros() as u8;
+            rest &= rest.wrapping_sub(1);
+            let Some(object) = self.objects.get(usize::from(number)) else { break };
+            if !object.is_inside(states) {
+                continue;
+            }
+            let Some(medium) = self.medium(number) else { continue };
+            match within {
+                Some((_, top)) if top.priority > medium.priority => {}
+                Some((other, top)) => {
+                    shared = if top.priority == medium.priority { Some(other) } else { None };
+                    within = Some((number, medium));
                 }
-                let Some(medium) = self.medium(number as u8) else { continue };
-                match within {
-                    Some((_, top)) if top.priority > medium.priority => {}
-                    Some((other, top)) => {
-                        shared = if top.priority == medium.priority { Some(other) } else { None };
-                        within = Some((number as u8, medium));
-                    }
-                    None => within = Some((number as u8, medium)),
-                }
+                None => within = Some((number, medium)),
             }
         }
         (within, shared)
     }
 
+    /// The transparent objects, a bit each.
+    #[inline(always)]
+    pub(super) fn media(&self) -> u64 {
+        if M::MAY_BE_CLEAR { self.media } else { 0 }
+    }
+
     /// Whether light passes through an object.
     #[inline]
     pub(super) fn is_transparent(&self, object: u8) -> bool {
-        self.media != 0 && has(self.media, object)
+        self.media() != 0 && has(self.media, object)
     }
 
     /// States of a place that are all known where there are media, as these depend on all. Others are looked up
@@ -194,7 +210,7 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
     #[inline]
     pub(super) fn states_at(&self, inside: u64, unknown: u64, place: Vec3) -> States {
         let states = States { inside, unknown };
-        if self.media != 0 && unknown != 0 { self.known(states, unknown, place) } else { states }
+        if self.media() != 0 && unknown != 0 { self.known(states, unknown, place) } else { states }
     }
 
     /// States with those of the leaves in `which` looked up.

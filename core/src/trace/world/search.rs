@@ -12,7 +12,7 @@ use super::super::material::Material;
 use super::super::ray::Ray;
 use super::super::surface::{Crossing, SAME, Surface};
 use super::events::{Event, Events};
-use super::object::Object;
+use super::object::{Object, is_left};
 use super::scene::{Interpenetration, World};
 use super::states::{States, bit, has};
 use crate::num::{Real, Rgb, Unit};
@@ -79,6 +79,9 @@ struct Search<'r, const E: usize> {
     is_undecided: bool,
     /// Crossings up to here are the one from which the ray starts.
     own: Real,
+    /// The first change that was found so far, and the states at the ray's start as they were known then.
+    found: Option<Met>,
+    base: u64,
 }
 
 impl<'r, const E: usize> Search<'r, E> {
@@ -97,6 +100,18 @@ impl<'r, const E: usize> Search<'r, E> {
             is_inside: false,
             is_undecided: false,
             own: Real::ZERO,
+            found: None,
+            base: 0,
+        }
+    }
+
+    /// Keeps a change, if it is the first so far.
+    #[inline]
+    fn keep(&mut self, met: Met) {
+        if self.found.as_ref().is_none_or(|other| met.precedes(other)) {
+            // what comes later changes nothing before: not what is at its parameter, nor what is at theirs
+            self.limit = met.event.t().saturating_add(2 * SAME);
+            (self.found, self.base) = (Some(met), self.states.inside);
         }
     }
 
@@ -129,8 +144,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         search.leaf = number;
         search.is_inside = has(search.states.inside, number);
         if search.start.departed == Some(number) {
-            // a line has two crossings with what is convex: one that leaves it has left it for good
-            if surface.most_crossings() <= 1 + u32::from(!search.is_inside && surface.is_closed()) {
+            if is_left(surface)[usize::from(search.is_inside)] {
                 return search.is_inside;
             }
             // near where the ray starts may be the very point from which it starts
@@ -161,56 +175,89 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         search.states = States { inside, unknown: unknown & !bit };
     }
 
-    /// Crosses all leaves of a transparent object.
-    fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8) {
-        if let Some(object) = self.objects.get(usize::from(number)) {
-            (search.object, search.is_alone) = (number, false);
+    /// Crosses all leaves of a transparent object. Answers whether there is anything new.
+    #[inline]
+    fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8) -> bool {
+        let Some(object) = self.objects.get(usize::from(number)) else { return false };
+        if object.ball.is_passed_by(search.ray) {
+            search.untried |= object.others;
+            return false;
+        }
+        let count = search.events.len();
+        self.cross_near(search, number, object);
+        search.events.len() > count
+    }
+
+    #[inline(never)]
+    fn cross_near<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) {
+        (search.object, search.is_alone) = (number, false);
+        if let Some(leaf) = object.only() {
+            self.cross(search, leaf);
+        } else {
             search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
         }
     }
 
-    /// The first change of an opaque object.
-    #[inline(always)]
-    fn first<const E: usize>(
-        &self,
-        search: &mut Search<'_, E>,
-        number: u8,
-        object: &Object<'_>,
-    ) -> Option<Met> {
+    /// Looks for the first change of an opaque object.
+    #[inline(never)]
+    fn first<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) {
         search.begin = search.events.len();
         search.object = number;
         if let Some(leaf) = object.only() {
             search.is_alone = true;
             self.cross(search, leaf);
-            let (event, before) = (*search.events.all().get(search.begin)?, search.states.inside);
-            return Some(Met { event, before, behind: event.behind(before), unknown: 0 });
+            if let Some(event) = search.events.all().get(search.begin) {
+                let (event, before) = (*event, search.states.inside);
+                search.keep(Met { event, before, behind: event.behind(before), unknown: 0 });
+            }
+            return;
         }
         search.is_alone = false;
-        search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
+        if let Some((leaf, others)) = object.carved() {
+            if !self.cross(search, leaf) {
+                search.untried |= object.others;
+                return;
+            }
+            let first = search.events.all().get(search.begin).filter(|_| !search.is_inside);
+            if let Some(event) = first.copied() {
+                // where it comes in it is outside all that is taken away
+                let place = search.ray.at(event.crossing.t);
+                let is_clear = |leaf| self.leaf(leaf).is_some_and(|leaf| leaf.surface.is_clear_of(place));
+                if others.clone().all(is_clear) {
+                    let before = search.states.inside & !object.others;
+                    return search.keep(Met { event, before, behind: event.behind(before), unknown: 0 });
+                }
+            }
+            for leaf in others {
+                self.cross(search, leaf);
+            }
+        } else {
+            search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
+        }
         let (events, mut from, mut before) = (&search.events, search.begin, search.states.inside);
         let was = object.is_inside(before);
         loop {
             let group = events.together(from);
-            let last = group.last()?;
+            let Some(last) = group.last() else { return };
             let behind = group.iter().fold(before, |states, event| event.behind(states));
             if object.is_inside(behind) != was {
                 let leaf = object.last_of(before ^ behind);
                 let event = *group.iter().rev().find(|event| Some(event.leaf) == leaf).unwrap_or(last);
-                return Some(Met { event, before, behind, unknown: 0 });
+                return search.keep(Met { event, before, behind, unknown: 0 });
             }
             (from, before) = (from + group.len(), behind);
         }
     }
 
-    /// The opaque objects with their numbers.
-    #[inline]
-    fn opaque(&self) -> impl Iterator<Item = (u8, &Object<'_>)> {
-        (0..).zip(self.objects).filter(|(number, _)| !self.is_transparent(*number))
-    }
-
     /// The numbers of the transparent objects.
+    #[inline]
     fn transparent(&self) -> impl Iterator<Item = u8> {
-        (0..self.objects.len() as u8).filter(|number| self.is_transparent(*number))
+        let mut rest = self.media();
+        core::iter::from_fn(move || {
+            let number = rest.trailing_zeros() as u8;
+            rest &= rest.wrapping_sub(1);
+            (number < 64).then_some(number)
+        })
     }
 
     /// The first seen change of a transparent object, from the event at `start` with these states on, and the
@@ -254,36 +301,36 @@ impl<L: Surface, M: Material> World<'_, L, M> {
     #[inline(never)]
     pub(super) fn met<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Met> {
         let mut search = Search::<E>::new(ray, start, i32::MAX);
-        let mut found = None::<Met>;
-        let mut base = start.states.inside;
-        // what comes later changes nothing before: not what is at its parameter, nor what is at theirs
-        let limit = |met: &Met| met.event.t().saturating_add(2 * SAME);
-        if self.media != 0 {
+        if self.media() != 0 {
             for number in self.transparent() {
-                self.cross_all(&mut search, number);
-                found = self.change(&search.events, 0, search.states.inside).map(|(met, _)| met);
-                if let Some(met) = &found {
-                    (search.limit, base) = (limit(met), search.states.inside);
+                if !self.cross_all(&mut search, number) {
+                    continue;
+                }
+                search.found = None;
+                if let Some((met, _)) = self.change(&search.events, 0, search.states.inside) {
+                    search.keep(met);
                     search.events.cut(search.limit);
                 }
             }
         }
-        for (number, object) in self.opaque() {
-            if let Some(met) = self.first(&mut search, number, object) {
-                if found.as_ref().is_none_or(|other| met.precedes(other)) {
-                    (search.limit, base) = (limit(&met), search.states.inside);
-                    found = Some(met);
-                }
+        for (number, object) in (0..).zip(self.objects) {
+            if self.is_transparent(number) || object.is_left_by(start.departed, start.states.inside) {
+                continue;
+            }
+            if object.ball.is_passed_by(ray) {
+                search.untried |= object.others;
+            } else {
+                self.first(&mut search, number, object);
             }
         }
-        let met = found.as_mut()?;
+        let mut met = search.found?;
         // the others as they are there, and what was found out since
         let others = search.events.all().iter().filter(|event| met.follows(event));
-        let states =
-            others.fold(met.before ^ search.states.inside ^ base, |states, event| event.behind(states));
+        let found_out = search.states.inside ^ search.base;
+        let states = others.fold(met.before ^ found_out, |states, event| event.behind(states));
         met.behind ^= met.before ^ states;
         (met.before, met.unknown) = (states, search.untried);
-        found
+        Some(met)
     }
 
     /// The first place along a ray that two transparent objects of equal priority share, and which they are;
@@ -307,20 +354,38 @@ impl<L: Surface, M: Material> World<'_, L, M> {
     }
 
     /// How much light comes along a ray from beyond `limit`: what the things on the way let pass.
-    #[inline(never)]
     pub(super) fn passed<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32) -> Rgb {
-        let mut search = Search::<E>::new(ray, start, limit);
         // what is opaque needs no more than to be met
-        for (number, object) in self.opaque() {
-            if self.first(&mut search, number, object).is_some() {
+        for (number, object) in (0..).zip(self.objects) {
+            let is_missed = self.is_transparent(number)
+                || object.is_left_by(start.departed, start.states.inside)
+                || object.ball.is_passed_by(ray);
+            if !is_missed && self.is_met::<E>(ray, start, limit, number, object) {
                 return Rgb::BLACK;
             }
-            search.events.truncate(0);
         }
-        if self.media == 0 {
-            return Rgb::WHITE;
-        }
-        search.begin = 0;
+        if self.media() == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit) }
+    }
+
+    /// Whether a ray meets an opaque object up to `limit`.
+    #[inline(never)]
+    fn is_met<const E: usize>(
+        &self,
+        ray: &Ray,
+        start: &Start,
+        limit: i32,
+        number: u8,
+        object: &Object<'_>,
+    ) -> bool {
+        let mut search = Search::<E>::new(ray, start, limit);
+        self.first(&mut search, number, object);
+        search.found.is_some()
+    }
+
+    /// How much light the transparent objects let pass.
+    #[inline(never)]
+    fn let_through<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32) -> Rgb {
+        let mut search = Search::<E>::new(ray, start, limit);
         for number in self.transparent() {
             self.cross_all(&mut search, number);
         }
