@@ -186,7 +186,8 @@ fn materials_at_any_point() {
     fuzz((material(), place, lights), 60, |(material, (position, normal, view, along_u, u), lights)| {
         let (Some(normal), Some(view)) = (normal.normalised(), view.normalised()) else { return false };
         let chart = Chart { u, v: u, along_u, along_v: along_u };
-        let point = SurfacePoint { position, place: position, normal, chart, face: 0, width: u };
+        let point =
+            SurfacePoint { position, place: position, normal, inward: false, chart, face: 0, width: u };
         let lit: Vec<Lit> = lights
             .iter()
             .filter_map(|(towards, light)| Some(Lit { towards: towards.normalised()?, light: *light }))

@@ -115,8 +115,16 @@ pub(crate) mod tests {
             }
             let chart = crate::trace::Chart { along_u: Vec3::X, ..Default::default() };
             let origin = Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO);
-            let point =
-                SurfacePoint { position: origin, place: origin, normal, chart, face: 0, width: Real::ZERO };
+            let width = Real::ZERO;
+            let point = SurfacePoint {
+                position: origin,
+                place: origin,
+                normal,
+                inward: false,
+                chart,
+                face: 0,
+                width,
+            };
             all.push((View::new(&point, normal, direction), towards));
         }
         all

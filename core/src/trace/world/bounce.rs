@@ -66,7 +66,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                 let mut point = leaf.surface.point(&now.ray, now.start.cone, crossing, material.is_charted());
                 lies_in_the_world(point.position).then(|| {
                     if point.normal.dot(direction) > 0 {
-                        point.normal = negated(point.normal);
+                        (point.normal, point.inward) = (negated(point.normal), true);
                     }
                     let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
                     let width = i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX);

@@ -199,7 +199,9 @@ impl World {
         let mut walk = Walk::new(&self.leaves, &self.objects, &path.start, FARTHEST);
         match self.next_seen(&mut walk, &mut 0.0)? {
             Some(seen) => self.shaded(path, &seen, &walk.states),
-            None => Ok(self.surroundings.colour(normalised(path.start.ray.direction))),
+            None => {
+                Ok(self.surroundings.colour(normalised(path.start.ray.direction), path.start.cone.growth))
+            }
         }
     }
 
@@ -278,7 +280,7 @@ impl World {
         let start = Start { ray: Ray { direction: normalised(start.ray.direction), ..start.ray }, ..start };
         let total = [0, 1, 2].map(|k| parent.weight[k] * weight[k]);
         let light = if parent.level >= self.depth || total.iter().all(|&c| c < LIGHTEST) {
-            self.surroundings.colour(start.ray.direction)
+            self.surroundings.colour(start.ray.direction, start.cone.growth)
         } else {
             self.light(&Path { start, level: parent.level + 1, weight: total })?
         };
