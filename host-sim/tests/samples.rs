@@ -332,7 +332,9 @@ fn pixels_of_worlds_are_those_of_the_reference() {
     encoder.write_header().unwrap().write_image_data(&dots).unwrap();
     std::fs::write(directory.path().join("dots.png"), png).unwrap();
     std::fs::write(directory.path().join("images.toml"), include_str!("worlds/images.toml")).unwrap();
+    std::fs::write(directory.path().join("bumps.toml"), include_str!("worlds/bumps.toml")).unwrap();
     for (scene, size) in [
+        ("bumps.toml", "72x72"),
         ("images.toml", "72x72"),
         ("parcel", "40x40"),
         ("orange", "32x32"),
@@ -343,7 +345,9 @@ fn pixels_of_worlds_are_those_of_the_reference() {
     ] {
         let (psnr, near) = compared(directory.path(), scene, size);
         println!("{scene}: {psnr:.1} dB, {:.2} % within 2 levels", 100.0 * near);
-        assert!(psnr >= 60.0 && near >= 0.999, "{scene}: {psnr} dB, {near}");
+        // what steep bumps of glass show turns on the last bits
+        let least = if scene == "bumps.toml" { (40.0, 0.998) } else { (60.0, 0.999) };
+        assert!(psnr >= least.0 && near >= least.1, "{scene}: {psnr} dB, {near}");
     }
 }
 

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
 use attractor::plane::{Field, LinearRgb};
 use attractor::trace::material::{
-    Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Specular,
-    TorranceSparrow, View,
+    Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Sight, Specular,
+    TorranceSparrow,
 };
 use attractor::trace::solid::{
     Cube, Function, HalfSpace, Implicit, Moved, NearRay, Placed, Plane, Polygon, Polyhedron, Shape, Sphere,
@@ -193,7 +193,7 @@ fn materials_at_any_point() {
             .filter_map(|(towards, light)| Some(Lit { towards: towards.normalised()?, light: *light }))
             .collect();
         for lit in &lit {
-            let view = View { normal, direction: view, tangent: normal };
+            let view = Sight { normal, direction: view, tangent: normal };
             let _ = Highlight::Phong(Phong { shininess: 7 }).part(&view, lit.towards);
         }
         let response = material.respond(&point, view, lit.into_iter());

@@ -163,14 +163,14 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             // indices are between 0.1 and 10: the quotient fits
             let behind_it = u64::from(index(behind).unsigned_abs());
             let eta = Real::from_bits(quotient(index(before).into(), 24, behind_it) as i32);
-            let mut way = refracted(direction, normal, eta);
+            let (mut facing, mut way) = (normal, refracted(direction, normal, eta));
             if way.is_some_and(|way| way.direction.dot(point.normal) >= 0) {
-                way = refracted(direction, point.normal, eta);
+                (facing, way) = (point.normal, refracted(direction, point.normal, eta));
             }
             let fresnel = medium(before).or(medium(behind)).is_some_and(|(_, medium)| medium.fresnel);
             let share = match &way {
                 None => Unit::ONE,
-                Some(way) if fresnel => way.reflectance(negated(normal).dot(direction), eta),
+                Some(way) if fresnel => way.reflectance(negated(facing).dot(direction), eta),
                 Some(_) => Unit::ZERO,
             };
             reflected = reflected.plus(response.refracted.scaled(share));
