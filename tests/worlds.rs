@@ -137,6 +137,7 @@ impl Surface for Thing {
             position,
             place: position,
             normal: unit(normal),
+            inward: false,
             chart: Chart::default(),
             face: crossing.face,
             width: Real::ZERO,

@@ -82,7 +82,7 @@ as_debug! {
     [] trace::world::Interpenetration;
     [] trace::world::Lamp;
     [] trace::material::Anisotropic;
-    [] trace::material::View;
+    [] trace::material::Sight;
     [] trace::material::Clear;
     [] trace::material::Lit;
     [] trace::material::Medium;

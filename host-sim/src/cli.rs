@@ -118,11 +118,12 @@ pub(crate) struct Dump {
   copier               x,y of the first N vertices of the last order
   julia-set            x,y of the first N points, or of the first N pixels that the set meets
   mandelbrot, julia    re,im,dwell,reference for every pixel of --size; no reference for a deep zoom
-  world                --pixels: i,j,r,g,b of every pixel of --size, linear light before it is dithered, beside the reference's; so without an option
+  world                --pixels: i,j,r,g,b of every pixel of --size, linear light before it is dithered, beside the reference's
+                       r_reference,g_reference,b_reference (of many samples or superellipsoids slow: a small --size); so without an option
                        --rays FILE: ray,crossing,t,object,face,enters,x,y,z,nx,ny,nz,u,v,t_reference, every crossing of every object
                        --along RAY: t and the inside-outside function of each object at N places of a ray
-                       --at FILE: the value of each texture at places
-  texture              --at FILE: the value at places; else i,j,r,g,b of every pixel of --size
+                       --at FILE: place,texture,x,y,z,r,g,b and the reference's, each texture at places
+  texture              --at FILE: the same of the one texture; else i,j,r,g,b of every pixel of --size and the reference's
 
 Fixed-point numbers are printed exactly, those of the reference with the digits that give the same f64 back.
 An abscissa is a multiple of 2^-48 and an f64. The reference of a function passes through the knots that the format has,

@@ -42,7 +42,8 @@ fn round(bits: [i32; 3]) -> [i32; 3] {
 
 fn point(place: Vec3) -> SurfacePoint {
     let normal = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
-    SurfacePoint { position: place, place, normal, chart: Chart::default(), face: 0, width: Real::ZERO }
+    let (chart, width) = (Chart::default(), Real::ZERO);
+    SurfacePoint { position: place, place, normal, inward: false, chart, face: 0, width }
 }
 
 const TURBULENT: (f64, u8, f64) = (3.0, 4, 8.0);

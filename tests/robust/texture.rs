@@ -40,6 +40,7 @@ fn point() -> impl Strategy<Value = SurfacePoint> {
             position,
             place,
             normal,
+            inward: normal.x > 0,
             chart,
             face: 0,
             width,

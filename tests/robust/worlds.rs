@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
 use attractor::plane::{Field, LinearRgb};
 use attractor::trace::material::{
-    Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Specular,
-    TorranceSparrow, View,
+    Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Sight, Specular,
+    TorranceSparrow,
 };
 use attractor::trace::solid::{
     Cube, Function, HalfSpace, Implicit, Moved, NearRay, Placed, Plane, Polygon, Polyhedron, Shape, Sphere,
@@ -188,13 +188,14 @@ fn materials_at_any_point() {
     fuzz((material(), place, lights), 60, |(material, (position, normal, view, along_u, u), lights)| {
         let (Some(normal), Some(view)) = (normal.normalised(), view.normalised()) else { return false };
         let chart = Chart { u, v: u, along_u, along_v: along_u };
-        let point = SurfacePoint { position, place: position, normal, chart, face: 0, width: u };
+        let point =
+            SurfacePoint { position, place: position, normal, inward: false, chart, face: 0, width: u };
         let lit: Vec<Lit> = lights
             .iter()
             .filter_map(|(towards, light)| Some(Lit { towards: towards.normalised()?, light: *light }))
             .collect();
         for lit in &lit {
-            let view = View { normal, direction: view, tangent: normal };
+            let view = Sight { normal, direction: view, tangent: normal };
             let _ = Highlight::Phong(Phong { shininess: 7 }).part(&view, lit.towards);
         }
         let response = material.respond(&point, view, lit.into_iter());

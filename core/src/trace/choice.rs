@@ -258,6 +258,7 @@ mod tests {
             position: Vec3::lit("1", "2", "3"),
             place: Vec3::lit("0.5", "0", "0"),
             normal: Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE),
+            inward: false,
             chart: Chart::default(),
             face: 0,
             width: Real::ZERO,

@@ -1,6 +1,7 @@
 //! How a surface answers light: diffuse, Phong, mirror.
 
 use super::environment::{Environment, between};
+use super::power::{power, times};
 use crate::Error;
 use crate::num::{Unit, Vec3, Wide, unit};
 
@@ -145,25 +146,6 @@ fn mirrored(n: Vec3<Unit>, [x, y, z]: [i32; 3], along: i32) -> [i32; 3] {
         d.wrapping_sub(twice as i32)
     };
     [component(x, n.x), component(y, n.y), component(z, n.z)]
-}
-
-/// `base^exponent` by squaring, for a base in `[0, 1]`.
-#[inline]
-fn power(base: Unit, exponent: u16) -> Unit {
-    let (mut result, mut square, mut rest) = (Unit::ONE, base, exponent);
-    while rest > 0 {
-        if rest & 1 == 1 {
-            result = times(result, square);
-        }
-        square = times(square, square);
-        rest >>= 1;
-    }
-    result
-}
-
-#[inline]
-fn times(a: Unit, b: Unit) -> Unit {
-    Unit::from_bits(((i64::from(a.to_bits()) * i64::from(b.to_bits()) + (1 << 29)) >> 30) as i32)
 }
 
 #[cfg(test)]

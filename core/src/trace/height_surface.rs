@@ -158,6 +158,7 @@ impl Surface for HeightField<'_> {
             position,
             place: position,
             normal: unit(normal),
+            inward: false,
             chart,
             face: 0,
             width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),

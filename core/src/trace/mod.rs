@@ -29,6 +29,7 @@ pub mod material;
 mod outline;
 mod panorama;
 mod parts;
+mod power;
 mod ray;
 mod ray_caster;
 mod sampling;

@@ -2,7 +2,8 @@
 //!
 //! Longitude is the angle from the x axis towards the y axis, the image's width from 0 to a turn; latitude its
 //! height, from straight down at the lower edge to straight up at the upper one. What a cone of directions of
-//! angle `w` sees is the mean over `w / (2 pi cos latitude)` of the width and `w / pi` of the height.
+//! angle `w` sees is the mean over `w / (2 pi cos latitude)` of the width and `w / pi` of the height. Straight up
+//! and down there is no longitude: a cone sees all of them, a line that of the x axis.
 //!
 //! Source: the course unit V, section 5.8 (environment mapping: the mean over the region of the environment that a
 //! pixel's area is reflected to).
@@ -74,6 +75,14 @@ mod tests {
         let pole = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
         let light = panorama.light(pole, Unit::ZERO).g.to_num::<f64>() * 255.0;
         assert!((light - 175.0).abs() < 0.1, "{light}");
+        // and with coarser levels a cone sees all of them
+        let mut chain = std::vec![0; Image::length(Texels::Linear, 4, 2, 3)];
+        chain[..8].copy_from_slice(&bytes);
+        Image::write_levels(Texels::Linear, 4, 2, &mut chain).unwrap();
+        let levels = Panorama::new(Image::new(Texels::Linear, 4, 2, &chain).unwrap());
+        let light = levels.light(pole, Unit::from_num(0.001)).g.to_num::<f64>() * 255.0;
+        let all = bytes.iter().map(|b| f64::from(*b)).sum::<f64>() / 8.0;
+        assert!((light - all).abs() < 1.0, "{light} {all}");
         let level = Vec3::new(Unit::ONE, Unit::ZERO, Unit::ZERO);
         // without coarser levels two texels at most
         let wide = panorama.light(level, Unit::ONE).g.to_num::<f64>() * 255.0;

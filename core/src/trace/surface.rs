@@ -117,6 +117,8 @@ pub struct SurfacePoint {
     pub place: Vec3,
     /// The outward unit normal, in the world. Casters turn it towards the eye before a material sees it.
     pub normal: Vec3<Unit>,
+    /// Whether the normal was turned inwards, since the eye is behind the surface.
+    pub inward: bool,
     /// Its texture coordinates; zero unless they were asked for.
     pub chart: Chart,
     /// Which face of the shape it is on.

@@ -17,7 +17,7 @@ use super::motion::Motion;
 use super::request::{Question, Request};
 
 use super::world::texture::{Pattern, Pigment, Tables, Woven};
-use super::world::values::{light, values};
+use super::world::values::{PIXEL, at, cells, light, values};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::source::{Num, Place, Source};
@@ -156,10 +156,12 @@ impl SliceScene {
         match question {
             Question::Usual | Question::Pixels => {
                 let field = self.field(request.size)?;
-                writeln!(out, "i,j,r,g,b")?;
+                let reference = at(&self.pattern);
+                writeln!(out, "{PIXEL}")?;
                 for j in 0..request.size.height {
                     for (i, value) in (0..request.size.width).zip(field.row(j, 0..request.size.width)) {
-                        writeln!(out, "{i},{j},{}", light(value))?;
+                        let exact = cells(Some(reference(&field.point(i, j))));
+                        writeln!(out, "{i},{j},{},{exact}", light(value))?;
                     }
                 }
                 Ok(())

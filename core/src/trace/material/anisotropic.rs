@@ -8,7 +8,7 @@
 //! section 5.8, calls frame mapping turns `T`.
 
 use super::super::environment::between;
-use super::specular::{Specular, View};
+use super::specular::{Sight, Specular};
 use crate::Error;
 use crate::num::{Lumen, Real, Unit, Vec3, Wide, exp_minus, ratio, sqrt};
 
@@ -38,7 +38,7 @@ impl Specular for Anisotropic {
         true
     }
 
-    fn part(&self, view: &View, towards: Vec3<Unit>) -> Lumen {
+    fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen {
         let half = view.half(towards);
         let across = view.normal.cross(view.tangent);
         let up = half.dot(view.normal).clamp(Unit::ZERO, Unit::ONE).to_bits().unsigned_abs();

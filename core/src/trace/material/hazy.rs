@@ -100,6 +100,7 @@ mod tests {
                 position: at,
                 place: at,
                 normal,
+                inward: false,
                 chart: Chart::default(),
                 face: 0,
                 width: Real::ZERO,

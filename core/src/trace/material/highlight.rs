@@ -2,7 +2,7 @@
 
 use super::anisotropic::Anisotropic;
 use super::phong::Phong;
-use super::specular::{Specular, View};
+use super::specular::{Sight, Specular};
 use super::torrance_sparrow::TorranceSparrow;
 use crate::num::{Lumen, Unit, Vec3};
 
@@ -25,7 +25,7 @@ impl Specular for Highlight {
         matches!(self, Self::Anisotropic(_))
     }
 
-    fn part(&self, view: &View, towards: Vec3<Unit>) -> Lumen {
+    fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen {
         match self {
             Self::None => Lumen::ZERO,
             Self::Phong(model) => model.part(view, towards),

@@ -7,7 +7,7 @@ use super::super::environment::between;
 use super::super::surface::SurfacePoint;
 use super::super::texture::field::Texture;
 use super::respond::{Lit, Material, Medium, Response};
-use super::specular::{Specular, View};
+use super::specular::{Sight, Specular};
 use crate::Error;
 use crate::num::{Real, Rgb, Unit, Vec3, Wide};
 
@@ -184,7 +184,7 @@ impl<T: Texture, S: Specular, I: Interior> Material for Mixture<T, S, I> {
     fn respond(&self, point: &SurfacePoint, view: Vec3<Unit>, lights: impl Iterator<Item = Lit>) -> Response {
         let pigment = self.pigment.at(point);
         let normal = point.normal;
-        let view = View::new(point, normal, view);
+        let view = Sight::new(point, normal, view);
         let (mut diffuse, mut specular) = (Rgb::BLACK, Rgb::BLACK);
         for Lit { towards, light } in lights {
             diffuse = diffuse.plus(light.scaled(normal.dot(towards)));

@@ -17,5 +17,5 @@ pub use highlight::Highlight;
 pub use mixture::{Clear, Interior, Mixture};
 pub use phong::Phong;
 pub use respond::{Lit, Material, Medium, Response};
-pub use specular::{Specular, View};
+pub use specular::{Sight, Specular};
 pub use torrance_sparrow::TorranceSparrow;

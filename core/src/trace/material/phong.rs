@@ -2,8 +2,9 @@
 //!
 //! Source: B. T. Phong, "Illumination for computer generated pictures", 1975; the course unit V, section 5.9.
 
+use super::super::power::power;
 use super::super::snell::mirrored;
-use super::specular::{Specular, View, times};
+use super::specular::{Sight, Specular};
 use crate::num::{Lumen, Unit, Vec3};
 
 /// A highlight as small as its exponent is large.
@@ -16,17 +17,9 @@ pub struct Phong {
 
 impl Specular for Phong {
     #[inline]
-    fn part(&self, view: &View, towards: Vec3<Unit>) -> Lumen {
+    fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen {
         let cos = mirrored(view.direction, view.normal).dot(towards).clamp(Unit::ZERO, Unit::ONE);
-        let (mut result, mut square, mut rest) = (Unit::ONE, cos, self.shininess);
-        while rest > 0 {
-            if rest & 1 == 1 {
-                result = times(result, square);
-            }
-            square = times(square, square);
-            rest >>= 1;
-        }
-        Lumen::from_bits((result.to_bits() as u32 + (1 << 13)) >> 14)
+        Lumen::from_bits((power(cos, self.shininess).to_bits() as u32 + (1 << 13)) >> 14)
     }
 }
 

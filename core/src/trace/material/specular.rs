@@ -6,7 +6,7 @@ use crate::num::{Lumen, Unit, Vec3, unit};
 /// From where a point is looked at: unit vectors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct View {
+pub struct Sight {
     /// The normal that light sees, against the ray.
     pub normal: Vec3<Unit>,
     /// The direction of the ray.
@@ -24,17 +24,17 @@ pub trait Specular {
     }
 
     /// The part of the light from the unit direction `towards`, above the surface, that is seen.
-    fn part(&self, view: &View, towards: Vec3<Unit>) -> Lumen;
+    fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen;
 }
 
 /// No highlight.
 impl Specular for () {
-    fn part(&self, _: &View, _: Vec3<Unit>) -> Lumen {
+    fn part(&self, _: &Sight, _: Vec3<Unit>) -> Lumen {
         Lumen::ZERO
     }
 }
 
-impl View {
+impl Sight {
     /// Of a point with this normal, looked at in this direction.
     pub(super) fn new(point: &SurfacePoint, normal: Vec3<Unit>, direction: Vec3<Unit>) -> Self {
         let grain = point.chart.along_u;
@@ -63,12 +63,6 @@ impl View {
     }
 }
 
-/// The product of two numbers in `[0, 1]`, to the nearest.
-#[inline]
-pub(super) fn times(a: Unit, b: Unit) -> Unit {
-    Unit::from_bits(((i64::from(a.to_bits()) * i64::from(b.to_bits()) + (1 << 29)) >> 30) as i32)
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
@@ -84,7 +78,7 @@ pub(crate) mod tests {
     }
 
     /// Views from above a surface, each with a light above it: at random, and near the mirrored direction.
-    pub(crate) fn views() -> Vec<(View, Vec3<Unit>)> {
+    pub(crate) fn views() -> Vec<(Sight, Vec3<Unit>)> {
         let mut word = 5_u64;
         let mut random = || {
             word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -115,15 +109,23 @@ pub(crate) mod tests {
             }
             let chart = crate::trace::Chart { along_u: Vec3::X, ..Default::default() };
             let origin = Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO);
-            let point =
-                SurfacePoint { position: origin, place: origin, normal, chart, face: 0, width: Real::ZERO };
-            all.push((View::new(&point, normal, direction), towards));
+            let width = Real::ZERO;
+            let point = SurfacePoint {
+                position: origin,
+                place: origin,
+                normal,
+                inward: false,
+                chart,
+                face: 0,
+                width,
+            };
+            all.push((Sight::new(&point, normal, direction), towards));
         }
         all
     }
 
     /// `h` as the definition has it.
-    pub(crate) fn half_of(view: &View, towards: Vec3<Unit>) -> [f64; 3] {
+    pub(crate) fn half_of(view: &Sight, towards: Vec3<Unit>) -> [f64; 3] {
         let (d, l) = (floats(view.direction), floats(towards));
         let h: [f64; 3] = core::array::from_fn(|k| l[k] - d[k]);
         h.map(|c| c / dot(h, h).sqrt())

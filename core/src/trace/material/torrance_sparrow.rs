@@ -10,7 +10,8 @@
 //! R. L. Cook, K. E. Torrance, 1982. Cochran, Lewis, Hart, section 4.
 
 use super::super::environment::between;
-use super::specular::{Specular, View, times};
+use super::super::power::times;
+use super::specular::{Sight, Specular};
 use crate::Error;
 use crate::num::{Lumen, Real, Unit, Vec3, Wide, exp_minus, reciprocal};
 
@@ -56,7 +57,7 @@ impl TorranceSparrow {
 }
 
 impl Specular for TorranceSparrow {
-    fn part(&self, view: &View, towards: Vec3<Unit>) -> Lumen {
+    fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen {
         let half = view.half(towards);
         let clamped = |u: Unit| u.clamp(Unit::ZERO, Unit::ONE);
         let [a, light] = [half, towards].map(|v| clamped(view.normal.dot(v)));
@@ -85,7 +86,7 @@ mod tests {
     use super::super::specular::tests::{dot, floats, half_of, views};
     use super::*;
 
-    fn exact(view: &View, towards: Vec3<Unit>, s: f64, f: f64) -> f64 {
+    fn exact(view: &Sight, towards: Vec3<Unit>, s: f64, f: f64) -> f64 {
         let (n, l, h) = (floats(view.normal), floats(towards), half_of(view, towards));
         let v = floats(view.direction).map(|c| -c);
         let (a, nv, nl, vh) = (dot(n, h), dot(n, v), dot(n, l), dot(v, h));
@@ -123,7 +124,7 @@ mod tests {
         let (mut tried, mut worst) = (0, 0.0_f64);
         for (view, towards) in views() {
             let minus = |v: Vec3<Unit>| Vec3::new(-v.x, -v.y, -v.z);
-            let back = View { direction: minus(towards), ..view };
+            let back = Sight { direction: minus(towards), ..view };
             let (nl, nv) = (floats(view.normal), floats(view.normal));
             let (nl, nv) = (dot(nl, floats(towards)), -dot(nv, floats(view.direction)));
             let there = model.part(&view, towards).to_num::<f64>() / nl;
@@ -150,7 +151,7 @@ mod tests {
                     -Unit::from_num((1.0_f64 - slant * slant).sqrt()),
                 );
                 let view =
-                    View { normal: up, direction, tangent: Vec3::new(Unit::ONE, Unit::ZERO, Unit::ZERO) };
+                    Sight { normal: up, direction, tangent: Vec3::new(Unit::ONE, Unit::ZERO, Unit::ZERO) };
                 let (n, mut sum) = (100, 0.0);
                 // equal solid angles
                 for i in 0..n {

@@ -134,6 +134,7 @@ impl<S: Surface> Surface for Moved<S> {
             position: ray.at(crossing.t),
             place: Vec3::default(),
             normal: Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE),
+            inward: false,
             chart: Chart::default(),
             face: crossing.face,
             width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),

@@ -123,6 +123,7 @@ impl<S: Shape> Surface for Placed<S> {
             position,
             place,
             normal: self.site.normal([normal.x, normal.y, normal.z].map(Near::to_bits)),
+            inward: false,
             chart,
             face: crossing.face,
             width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),

@@ -13,7 +13,8 @@
 //! any other is halved, front to back, until it is shorter than `2^-20`.
 //!
 //! Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE Computer Graphics and
-//! Applications 1(1), 1981; Duff, "Interval Arithmetic and Recursive Subdivision for Implicit Functions", SIGGRAPH 1992.
+//! Applications 1(1), 1981; Duff, "Interval Arithmetic and Recursive Subdivision for Implicit Functions",
+//! SIGGRAPH 1992.
 //!
 //! Formats: `s` and places 28 fractional bits, logarithms and exponents 24, `N` and its derivatives 30.
 
@@ -321,8 +322,8 @@ impl Shape for Superellipsoid {
         Wide::from_bits(power.saturating_sub(Wide::ONE.to_bits()))
     }
 
-    /// The gradient of `N`, so scaled that its greatest component is 1. A coordinate of 0 has the component 0:
-    /// what both sides of an edge there have in the middle.
+    /// The gradient of `N`, so scaled that its greatest component is 1. A coordinate of 0 has the component
+    /// 0: what both sides of an edge there have in the middle.
     fn normal(&self, place: Vec3<Near>, _: u8) -> Vec3<Near> {
         let place = [place.x, place.y, place.z].map(Near::to_bits);
         let (norm, rho, [x, y, z]) = self.logarithms(place.map(i32::unsigned_abs), 28);

@@ -88,6 +88,7 @@ pub(super) fn point(
         position,
         place: position,
         normal,
+        inward: false,
         chart,
         face: 0,
         width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),

@@ -4,7 +4,9 @@
 //!
 //! `N' = N + b_u (n x P_v) + b_v (P_u x n)`, `N = P_u x P_v`,
 //!
-//! as long as `b` is small. How much it leans depends on the lengths of `P_u` and `P_v`: everything is divided by
+//! as long as `b` is small. Heights go outwards: where `u` and `v` run round the outward normal to the left, as
+//! under a map that mirrors, `n` is the unit vector along `N`, which is inward, and what is wanted is
+//! `-N + b_u (n x P_v) + b_v (P_u x n)`. So what is mirrored has bumps where its original has them. How much it leans depends on the lengths of `P_u` and `P_v`: everything is divided by
 //! both here, which leaves unit tangents and slopes `b_u / |P_u|`, `b_v / |P_v|`.
 //!
 //! Source: the course unit V, section 5.8.2; J. Blinn, "Simulation of wrinkled surfaces", 1978. The printed
@@ -30,7 +32,7 @@ pub trait Bump {
 pub struct Bumpy<M, B> {
     /// What the surface is made of.
     pub material: M,
-    /// How it is raised, towards `P_u x P_v`.
+    /// How it is raised, outwards.
     pub bump: B,
 }
 
@@ -56,9 +58,11 @@ pub fn bumped_normal(point: &SurfacePoint, [b_u, b_v]: [Real; 2]) -> Vec3<Unit> 
     let is_turned = flat.dot(point.normal).is_negative();
     let normal = point.normal;
     let n = if is_turned { Vec3::new(-normal.x, -normal.y, -normal.z) } else { normal };
+    let is_mirrored = is_turned != point.inward;
     let (first, second) = (n.cross(v), u.cross(n));
     let component = |flat: Unit, first: Unit, second: Unit| {
-        i64::from(flat.to_bits())
+        let flat = i64::from(flat.to_bits());
+        (if is_mirrored { -flat } else { flat })
             + ((product(slope_u, first.to_bits()) + product(slope_v, second.to_bits())) >> 24)
     };
     let sum = [
@@ -69,7 +73,7 @@ pub fn bumped_normal(point: &SurfacePoint, [b_u, b_v]: [Real; 2]) -> Vec3<Unit> 
     // below 2^38: as many bits as fit 31
     let most = sum.iter().fold(0, |most, c| c.unsigned_abs() | most);
     let shift = (64 - most.leading_zeros()).saturating_sub(31);
-    let [x, y, z] = sum.map(|c| (if is_turned { -c } else { c } >> shift) as i32);
+    let [x, y, z] = sum.map(|c| (if point.inward { -c } else { c } >> shift) as i32);
     if x | y | z == 0 { point.normal } else { unit([x, y, z]) }
 }
 
@@ -288,14 +292,18 @@ mod tests {
             let n = normalised(flat);
             let [b_u, b_v] = [random(4.0) * length(p), random(4.0) * length(q)];
             let (first, second) = (cross(n, q), cross(p, n));
-            let exact = normalised(core::array::from_fn(|i| flat[i] + b_u * first[i] + b_v * second[i]));
+            let raised = |side: f64| {
+                normalised(core::array::from_fn(|i| side * flat[i] + b_u * first[i] + b_v * second[i]))
+            };
             let chart = Chart { along_u: vector(p), along_v: vector(q), ..Chart::default() };
-            for side in [1.0, -1.0] {
+            // seen from outside and from inside, mirrored and not: there the outward normal is against P_u x P_v
+            for (side, inward) in [(1.0, false), (-1.0, true), (-1.0, false), (1.0, true)] {
                 let [x, y, z] = n.map(|c| Unit::from_num(side * c));
-                let point = SurfacePoint { chart, normal: Vec3::new(x, y, z), ..placed([0; 3]) };
+                let point = SurfacePoint { chart, normal: Vec3::new(x, y, z), inward, ..placed([0; 3]) };
                 let got = floats(bumped_normal(&point, [b_u, b_v].map(Real::saturating_from_num)));
-                for (got, exact) in got.into_iter().zip(exact) {
-                    worst = worst.max((got - side * exact).abs());
+                let seen = if inward { -1.0 } else { 1.0 };
+                for (got, exact) in got.into_iter().zip(raised(side * seen)) {
+                    worst = worst.max((got - seen * exact).abs());
                 }
             }
         }

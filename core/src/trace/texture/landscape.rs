@@ -75,7 +75,8 @@ mod tests {
         let across = (1.0 - upright * upright).max(0.0).sqrt();
         let place = Vec3::new(Real::from_num(0.3), Real::from_num(-0.7), Real::from_num(z));
         let normal = Vec3::new(Unit::from_num(across), Unit::ZERO, Unit::from_num(upright));
-        SurfacePoint { position: place, place, normal, chart: Chart::default(), face: 0, width: Real::ZERO }
+        let (chart, width) = (Chart::default(), Real::ZERO);
+        SurfacePoint { position: place, place, normal, inward: false, chart, face: 0, width }
     }
 
     /// Against the formula in f64, over heights and slopes, with and without raggedness.

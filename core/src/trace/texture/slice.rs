@@ -83,7 +83,7 @@ impl<T> Slice<T> {
         };
         let width = real(self.steps[0].max(self.steps[1]) >> 16);
         let normal = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
-        SurfacePoint { position: place, place, normal, chart, face: 0, width }
+        SurfacePoint { position: place, place, normal, inward: false, chart, face: 0, width }
     }
 }
 

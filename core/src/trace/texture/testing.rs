@@ -8,7 +8,8 @@ pub(crate) fn placed(bits: [i32; 3]) -> SurfacePoint {
     let [x, y, z] = bits.map(Real::from_bits);
     let place = Vec3::new(x, y, z);
     let normal = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
-    SurfacePoint { position: place, place, normal, chart: Chart::default(), face: 0, width: Real::ZERO }
+    let (chart, width) = (Chart::default(), Real::ZERO);
+    SurfacePoint { position: place, place, normal, inward: false, chart, face: 0, width }
 }
 
 /// A point of the unit square in the plane, by its texture coordinates.

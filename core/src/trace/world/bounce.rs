@@ -76,7 +76,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                     return false;
                 }
                 if point.normal.dot(direction) > 0 {
-                    point.normal = negated(point.normal);
+                    (point.normal, point.inward) = (negated(point.normal), true);
                 }
                 let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
                 point.width =
@@ -172,14 +172,14 @@ impl<L: Surface, M: Material> World<'_, L, M> {
             let [from, to] = [before, behind].map(|states| self.within(states).0);
             let index = |medium: Option<(u8, Medium)>| medium.map_or(Real::ONE, |(_, medium)| medium.index);
             let eta = over(index(from), index(to));
-            let mut way = refracted(direction, normal, eta);
+            let (mut facing, mut way) = (normal, refracted(direction, normal, eta));
             if way.is_some_and(|way| way.direction.dot(point.normal) >= 0) {
-                way = refracted(direction, point.normal, eta);
+                (facing, way) = (point.normal, refracted(direction, point.normal, eta));
             }
             let fresnel = from.or(to).is_some_and(|(_, medium)| medium.fresnel);
             let share = match &way {
                 None => Unit::ONE,
-                Some(way) if fresnel => way.reflectance(negated(normal).dot(direction), eta),
+                Some(way) if fresnel => way.reflectance(negated(facing).dot(direction), eta),
                 Some(_) => Unit::ZERO,
             };
             reflected = reflected.plus(response.refracted.scaled(share));

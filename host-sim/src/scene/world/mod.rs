@@ -11,6 +11,8 @@ mod picture;
 mod placement;
 mod program;
 mod reference;
+mod reference_texture;
+mod reference_world;
 mod stuff;
 mod surroundings;
 pub(crate) mod texture;

@@ -12,7 +12,8 @@ use attractor::trace::{Crossing, Extent, Ray, Surface as _};
 use super::super::request::{Question, Request};
 use super::figure::Solid;
 use super::reference::Exact;
-use super::values::{light, values};
+use super::reference_world;
+use super::values::{PIXEL, cells, light, values};
 use super::view::WorldScene;
 use crate::fail::Fail;
 use crate::lines::Lines;
@@ -254,13 +255,14 @@ pub(crate) fn sample(
     }
 }
 
-/// The light of every pixel.
+/// The light of every pixel, beside the reference's; of a pixel in which that finds glass in glass nothing.
 fn pixels(scene: &WorldScene, request: &Request, out: &mut dyn Write) -> Result<(), Fail> {
+    let reference = reference_world::Exact::new(scene, request);
     scene.with_caster(request, |caster| {
-        writeln!(out, "i,j,r,g,b")?;
+        writeln!(out, "{PIXEL}")?;
         for j in 0..request.size.height {
-            for (i, value) in caster.row(j, 0..request.size.width).enumerate() {
-                writeln!(out, "{i},{j},{}", light(value))?;
+            for (i, value) in (0..request.size.width).zip(caster.row(j, 0..request.size.width)) {
+                writeln!(out, "{i},{j},{},{}", light(value), cells(reference.pixel(i, j).ok()))?;
             }
         }
         Ok(())

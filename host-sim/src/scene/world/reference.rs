@@ -19,7 +19,7 @@ pub(super) struct Exact {
 /// A crossing: where, into the shape or out of it, and of which face.
 pub(super) type Met = (f64, bool, usize);
 
-fn vector(v: Vec3) -> [f64; 3] {
+pub(super) fn vector(v: Vec3) -> [f64; 3] {
     [v.x, v.y, v.z].map(Real::to_num)
 }
 
@@ -69,6 +69,11 @@ impl Exact {
             }
         };
         Self { shape, placing: placing(steps) }
+    }
+
+    /// The shape, and where it stands.
+    pub(super) fn into_parts(self) -> (Box<dyn Shape>, Placing) {
+        (self.shape, self.placing)
     }
 
     /// All crossings of a ray from its origin on.

@@ -199,7 +199,9 @@ impl World {
         let mut walk = Walk::new(&self.leaves, &self.objects, &path.start, FARTHEST);
         match self.next_seen(&mut walk, &mut 0.0)? {
             Some(seen) => self.shaded(path, &seen, &walk.states),
-            None => Ok(self.surroundings.colour(normalised(path.start.ray.direction))),
+            None => {
+                Ok(self.surroundings.colour(normalised(path.start.ray.direction), path.start.cone.growth))
+            }
         }
     }
 
@@ -245,13 +247,17 @@ impl World {
         }
 
         let mut reflect = material.reflect;
+        // A bump that the ray meets from behind mirrors and bends nothing.
+        let met = if dot(normal, d) < 0.0 { normal } else { surface };
         if material.index.is_some() {
             let transmit = material.passes();
             let [index_before, index_behind] =
                 media.map(|medium| index(&self.objects, &self.materials, medium));
             let eta = index_before / index_behind;
-            // A bumped normal that the ray does not meet from above bends nothing.
-            let facing = if dot(normal, d) < 0.0 { normal } else { surface };
+            // Neither does one that would bend the ray back to its side.
+            let bent = refracted(d, met, eta);
+            let back = bent.is_some_and(|t| dot(t, surface) >= 0.0);
+            let facing = if back { surface } else { met };
             let bent = refracted(d, facing, eta);
             let share = match bent {
                 None => 1.0,
@@ -260,12 +266,11 @@ impl World {
             };
             reflect = along(reflect, share, transmit);
             if let Some(t) = bent {
-                let t = if dot(t, surface) > 0.0 { mirrored(t, surface) } else { t };
                 let weight = transmit.map(|c| (1.0 - share) * c);
                 sum = along(sum, 1.0, self.spawned(path, weight, leave(t, behind))?);
             }
         }
-        let m = mirrored(d, normal);
+        let m = mirrored(d, met);
         let m = if dot(m, surface) < 0.0 { mirrored(m, surface) } else { m };
         Ok(along(sum, 1.0, self.spawned(path, reflect, leave(m, &change.before))?))
     }
@@ -278,7 +283,7 @@ impl World {
         let start = Start { ray: Ray { direction: normalised(start.ray.direction), ..start.ray }, ..start };
         let total = [0, 1, 2].map(|k| parent.weight[k] * weight[k]);
         let light = if parent.level >= self.depth || total.iter().all(|&c| c < LIGHTEST) {
-            self.surroundings.colour(start.ray.direction)
+            self.surroundings.colour(start.ray.direction, start.cone.growth)
         } else {
             self.light(&Path { start, level: parent.level + 1, weight: total })?
         };
