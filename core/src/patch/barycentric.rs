@@ -88,7 +88,7 @@ impl<const J: usize> Barycentric<J> {
     /// `T lambda`.
     #[inline(always)]
     pub(super) fn image(&self, weights: &[Q28; J]) -> [Q28; J] {
-        // |T_ij| < 8 and sum |lambda_j| < 8: each sum is below 2^62
+        // |T_ij| < 8 and sum |lambda_j| < 15: each sum is below 2^63
         self.rows.each_ref().map(|row| (sum(row, weights) >> 28) as i32)
     }
 

@@ -3,14 +3,20 @@
 //! Two points of the barycentric space differ by a vector whose coordinates add up to 0. Such vectors with
 //! `|v|_1 <= 2` are the mixtures of `e_i - e_j`, so that the norm of a matrix on them is
 //! `max_ij |T e_i - T e_j|_1 / 2` (R. L. Dobrushin, 1956, "ergodic coefficient"), a finite maximum that
-//! integers decide. The text has no such test: its sentences "contractive operator" and "attractor" need one.
-//! Where every product of `d` maps has a norm of at most `rho < 1`,
+//! integers decide. The text has no such test: its words "contractive operator" and "attractor" need one.
+//!
+//! A word `w` of digits stands for the product `T_w`. Every address begins with a word of a finite list: from the
+//! empty word on, each is lengthened by all digits until its product has a norm of at most `rho < 1`. Where that
+//! comes to an end, with no word longer than `d`,
 //!
 //! - `T_s1 T_s2 ...` converges, at least by `rho` every `d` levels;
-//! - every point `phi` has `|phi - c_0|_1 <= r`, `r = max_w |T_w c_0 - c_0|_1 / (1 - rho)`, and
-//!   `|phi|_1 <= max_w |T_w c_0|_1 + rho r`, `|w| = d`;
-//! - `k d` levels leave an error of at most `rho^k r / 2` times the difference of the greatest and the least
+//! - every point `phi` has `|phi - c|_1 <= r`, `r = max_w |T_w c - c|_1 / (1 - rho)`, and
+//!   `|phi|_1 <= max_w |T_w c|_1 + rho r`, with any `c`: the mean of the ends or the corners tells most;
+//! - `k d` levels leave an error of at most `rho^k r` times the difference of the greatest and the least
 //!   control point.
+//!
+//! Words of unequal length prove with hundreds of products what all words of one length do not with thousands: in
+//! a rough surface a few corners contract slowly.
 //!
 //! Formats: 28 fractional bits in 64; norms and radii are rounded up, with what the rounding of products adds.
 
@@ -19,18 +25,24 @@ use crate::Error;
 use crate::num::formats::Q28;
 use crate::num::{Near, Real, Wide, product, ratio};
 
-/// The longest products that are tried, and how many of one length.
-const DEEPEST: usize = 6;
+/// The longest words, and how many products are tried for one norm.
+const DEEPEST: usize = 12;
 const MOST_PRODUCTS: usize = 4096;
 
-/// A half, and what rounding a norm upwards adds. Deeper products are not looked at where those of a depth have
-/// such norms and weights are proven to add up to no more than 5/2 in magnitude: then
-/// those of a product of two curves are below 8.
-const AMPLE_SUM: i64 = 5 << 27;
-const HALF: i64 = (1 << 27) + (1 << 10);
+/// The norms that are tried, 28 fractional bits, with what rounding upwards adds: small ones tell most about where
+/// points are. One nearer to 1 than the last would take millions of levels.
+const NORMS: [i64; 4] =
+    [(1 << 26) + (1 << 15), (1 << 27) + (1 << 15), (3 << 26) + (1 << 15), (1 << 28) - (1 << 18)];
 
-/// The greatest norm that proves something, `1 - 2^-10`: one nearer to 1 would take millions of levels.
-const MOST_NORM: i64 = (1 << 28) - (1 << 18);
+/// What an entry of a product is wrong by at most. Each factor adds half a unit, which the factors behind it make
+/// `|T_v|_1` times as much, and that is at most [`Contraction::reach`] for any word `v`: 12 factors stay within this
+/// bound if `reach` is at most a sixth of it, which is checked in the end. (Of words of `k` digits this follows from
+/// what is known of shorter ones.)
+const ERROR: i64 = 1 << 10;
+const MOST_REACH: i64 = (2 * ERROR / DEEPEST as i64) << 28;
+
+/// Weights of magnitudes below 15 in sum, which add up to 1, are below 8 each.
+const MOST_SUM: i64 = 15 << 28;
 
 /// How fast the maps of a curve or a surface contract, and how far their weights reach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,12 +58,14 @@ pub struct Contraction {
     reach: i64,
 }
 
-/// All products of up to `depth` maps of a system.
-struct Products<const J: usize> {
-    /// The greatest norm of those of `depth` maps, and of shorter ones.
+/// The words of a proof.
+struct Words {
+    /// The length of the longest.
+    depth: usize,
+    /// The greatest norm of their products, and of those of their beginnings.
     norm: i64,
     shorter: i64,
-    /// The greatest `|T_w c_0 - c_0|_1` and `|T_w c_0|_1` of those of `depth` maps.
+    /// The greatest `|T_w c - c|_1` and `|T_w c|_1`.
     displacement: i64,
     sum: i64,
 }
@@ -75,8 +89,18 @@ fn times<const J: usize>(w: &Matrix<J>, t: &Matrix<J>) -> Option<Matrix<J>> {
     Some(result)
 }
 
-/// `max_ij |W e_i - W e_j|_1 / 2`, rounded up, for entries that are known to `error` units.
-fn norm<const J: usize>(w: &Matrix<J>, error: i64) -> i64 {
+/// The mean of some points.
+pub(super) fn mean<const J: usize, const K: usize>(points: [[Q28; J]; K]) -> [Near; J] {
+    let mut mean = [Near::ZERO; J];
+    for (k, place) in mean.iter_mut().enumerate() {
+        let sum: i64 = points.iter().filter_map(|point| point.get(k)).map(|weight| i64::from(*weight)).sum();
+        *place = Near::from_bits((sum.checked_div(K as i64).unwrap_or(0)) as i32);
+    }
+    mean
+}
+
+/// `max_ij |W e_i - W e_j|_1 / 2`, rounded up.
+fn norm<const J: usize>(w: &Matrix<J>) -> i64 {
     let mut most = 0_i64;
     for i in 0..J {
         for j in 0..i {
@@ -87,13 +111,13 @@ fn norm<const J: usize>(w: &Matrix<J>, error: i64) -> i64 {
             most = most.max(w.iter().map(apart).sum());
         }
     }
-    (most >> 1).saturating_add(1).saturating_add(error.saturating_mul(J as i64))
+    (most >> 1).saturating_add(1).saturating_add(ERROR.saturating_mul(J as i64))
 }
 
 /// `|W c - c|_1` and `|W c|_1`, rounded up.
-fn displacement<const J: usize>(w: &Matrix<J>, c: &[Near; J], error: i64, size: i64) -> [i64; 2] {
+fn displacement<const J: usize>(w: &Matrix<J>, c: &[Near; J], size: i64) -> [i64; 2] {
     // an entry's error times the weights' size, and a unit for rounding
-    let off = (J as i64).saturating_mul(1 + (error.saturating_mul(size) >> 28) + 1);
+    let off = (J as i64).saturating_mul(1 + (ERROR.saturating_mul(size) >> 28) + 1);
     let mut sums = [off; 2];
     for (row, own) in w.iter().zip(c) {
         let mut image = 1_i64 << 27;
@@ -108,36 +132,20 @@ fn displacement<const J: usize>(w: &Matrix<J>, c: &[Near; J], error: i64, size: 
     sums
 }
 
-/// The greatest `|T e_k|_1` of some maps.
-fn column_norm<const J: usize>(maps: &[Barycentric<J>]) -> i64 {
-    let column = |map: &Barycentric<J>, k: usize| -> i64 {
-        map.rows().iter().filter_map(|row| row.get(k)).map(|entry| i64::from(entry.unsigned_abs())).sum()
-    };
-    maps.iter().flat_map(|map| (0..J).map(move |k| column(map, k))).max().unwrap_or(0)
-}
-
 /// Upwards: `a b` of numbers that are not negative, 28 fractional bits, saturated.
 fn above(a: i64, b: i64) -> i64 {
     let exact = i128::from(a) * i128::from(b);
     i64::try_from((exact >> 28).saturating_add(1)).unwrap_or(i64::MAX)
 }
 
-impl<const J: usize> Products<J> {
-    /// Every word of `depth` maps, depth first; none where a product leaves the format.
-    fn of(maps: &[Barycentric<J>], c: &[Near; J], size: i64, depth: usize) -> Option<Self> {
-        let column = column_norm(maps);
-        // what an entry of a product of so many maps is wrong by: e' = e |T|_1 + 1/2
-        let mut errors = [0_i64; DEEPEST];
-        for k in 1..DEEPEST {
-            let before = errors.get(k.wrapping_sub(1)).copied().unwrap_or(0);
-            if let Some(error) = errors.get_mut(k) {
-                *error = above(before, column).saturating_add(1);
-            }
-        }
-        let mut found = Self { norm: 0, shorter: ONE.into(), displacement: 0, sum: 0 };
+impl Words {
+    /// Words whose products have a norm of at most `most`, depth first; none where they are too many or too long,
+    /// or where a product leaves the format.
+    fn of<const J: usize>(maps: &[Barycentric<J>], c: &[Near; J], size: i64, most: i64) -> Option<Self> {
+        let mut found = Self { depth: 0, norm: 0, shorter: ONE.into(), displacement: 0, sum: 0 };
         let mut stack = [[[0; J]; J]; DEEPEST];
         let mut word = [0_usize; DEEPEST];
-        let mut level = 0_usize;
+        let (mut level, mut products) = (0_usize, 0_usize);
         loop {
             let next = word.get_mut(level)?;
             let Some(map) = maps.get(*next) else {
@@ -150,15 +158,19 @@ impl<const J: usize> Products<J> {
                 *word.get_mut(level)? += 1;
                 continue;
             };
+            products += 1;
+            if products > MOST_PRODUCTS {
+                return None;
+            }
             let product = match level.checked_sub(1).and_then(|above| stack.get(above)) {
                 Some(before) => times(before, map.rows())?,
                 None => *map.rows(),
             };
-            let error = errors.get(level).copied().unwrap_or(i64::MAX);
-            let norm = norm(&product, error);
-            if level + 1 == depth {
+            let norm = norm(&product);
+            if norm <= most {
+                let [displacement, sum] = displacement(&product, c, size);
+                found.depth = found.depth.max(level + 1);
                 found.norm = found.norm.max(norm);
-                let [displacement, sum] = displacement(&product, c, error, size);
                 found.displacement = found.displacement.max(displacement);
                 found.sum = found.sum.max(sum);
                 *next += 1;
@@ -166,6 +178,7 @@ impl<const J: usize> Products<J> {
                 found.shorter = found.shorter.max(norm);
                 *stack.get_mut(level)? = product;
                 level += 1;
+                word.get(level)?;
             }
         }
     }
@@ -175,45 +188,30 @@ impl Contraction {
     /// Nothing proven yet.
     pub(super) const NONE: Self = Self { depth: 0, norm: 0, radius: 0, sum: 0, reach: 0 };
 
-    /// The proof for some maps and the point `c_0` that the first one fixes.
+    /// The proof for some maps; `c` is a point in the midst of others.
     ///
     /// # Errors
-    /// [`Error::NotContractive`] if no depth up to 6 at which there are at most 4,096 products proves it;
-    /// [`Error::OutOfRange`] if weights are not proven to stay below 8 in sum, as the formats ask.
+    /// [`Error::NotContractive`] if words of up to 12 digits, and at most 4,096 products, prove nothing;
+    /// [`Error::OutOfRange`] if weights are not proven to stay below 15 in sum, as the formats ask.
     #[inline(never)]
     pub(super) fn prove<const J: usize>(maps: &[Barycentric<J>], c: &[Near; J]) -> Result<Self, Error> {
         let size: i64 = c.iter().map(|weight| i64::from(weight.to_bits().unsigned_abs())).sum();
-        let mut proven = None;
-        for depth in 1..=DEEPEST {
-            let products = maps.len().checked_pow(depth as u32);
-            if products.is_none_or(|count| count > MOST_PRODUCTS) {
-                break;
-            }
-            let Some(products) = Products::of(maps, c, size, depth) else { break };
-            if products.norm <= MOST_NORM {
-                let better = Self::from_products(depth as u32, &products, size);
-                // a deeper proof may show that weights stay nearer
-                if proven.is_none_or(|other: Self| better.sum < other.sum) {
-                    proven = Some(better);
-                }
-                if products.norm <= HALF && better.sum <= AMPLE_SUM {
-                    break;
-                }
-            }
-        }
+        let proven = NORMS.into_iter().find_map(|most| Words::of(maps, c, size, most));
+        let proven = proven.map(|words| Self::from_words(&words, size));
+        let proven = proven.filter(|proof| proof.reach <= MOST_REACH);
         proven.ok_or(Error::NotContractive { map: 0 })?.within_formats()
     }
 
-    fn from_products<const J: usize>(depth: u32, products: &Products<J>, size: i64) -> Self {
-        let left = i64::from(ONE).saturating_sub(products.norm).max(1);
-        let quotient = ratio(products.displacement.unsigned_abs(), 28, left.unsigned_abs());
+    fn from_words(words: &Words, size: i64) -> Self {
+        let left = i64::from(ONE).saturating_sub(words.norm).max(1);
+        let quotient = ratio(words.displacement.unsigned_abs(), 28, left.unsigned_abs());
         let radius = i64::try_from(quotient).unwrap_or(i64::MAX).saturating_add(1);
         // phi = T_w c + T_w (phi' - c)
-        let sum = products.sum.saturating_add(above(products.norm, radius));
+        let sum = words.sum.saturating_add(above(words.norm, radius));
         let radius = radius.min(sum.saturating_add(size));
         // T_w e_k = T_w c + T_w (e_k - c): a point, and what its norm leaves of a vector of at most 1 + |c|
-        let between = above(products.shorter, size.saturating_add(ONE.into()));
-        Self { depth, norm: products.norm, radius, sum, reach: sum.saturating_add(between) }
+        let between = above(words.shorter, size.saturating_add(ONE.into()));
+        Self { depth: words.depth as u32, norm: words.norm, radius, sum, reach: sum.saturating_add(between) }
     }
 
     /// The proof for the tensor product of two systems: `x (x) y - x' (x) y' = (x - x') (x) y + x' (x) (y - y')`.
@@ -230,24 +228,31 @@ impl Contraction {
     }
 
     fn within_formats(self) -> Result<Self, Error> {
-        if self.sum >= 8 << 28 {
+        if self.sum >= MOST_SUM {
             let (what, value) = ("sum of the magnitudes of weights", wide(self.sum));
-            return Err(Error::OutOfRange { what, index: None, value, min: Wide::ZERO, max: Wide::lit("8") });
+            return Err(Error::OutOfRange {
+                what,
+                index: None,
+                value,
+                min: Wide::ZERO,
+                max: Wide::lit("15"),
+            });
         }
         Ok(self)
     }
 
-    /// The depth `d` at which every product has a norm of at most [`Contraction::norm`].
+    /// The longest of the words with which every address begins, whose products have a norm of at most
+    /// [`Contraction::norm`].
     pub const fn depth(&self) -> u32 {
         self.depth
     }
 
-    /// The greatest norm of a product of `depth` maps on vectors that add up to 0, rounded up; below 1.
+    /// The greatest norm of the product of such a word on vectors that add up to 0, rounded up; below 1.
     pub fn norm(&self) -> Near {
         Near::from_bits(self.norm as i32)
     }
 
-    /// How far any point lies from `c_0` at most, `|phi - c_0|_1`; below 16.
+    /// How far any point lies from the mean `c` of the ends or the corners at most, `|phi - c|_1`; below 32.
     pub fn radius(&self) -> Wide {
         wide(self.radius)
     }
@@ -265,18 +270,19 @@ impl Contraction {
         Wide::from_bits(i64::try_from(most).unwrap_or(i64::MAX).saturating_mul(1 << 24))
     }
 
-    /// How far points of the part with these control points can be from the image of `c_0`, 24 fractional
+    /// How far points of the part with these control points can be from the mean of its corners, 24 fractional
     /// bits, rounded up: `r / 2` times the difference of the greatest and the least.
     #[inline(always)]
     pub(super) fn half_width(&self, spread: u32) -> u32 {
-        // radius < 2^32, spread < 2^32
-        let product = (self.radius as u64).wrapping_mul(spread.into());
-        u32::try_from(product >> 29).unwrap_or(u32::MAX).saturating_add(1)
+        // radius < 2^33: a quarter of it times 2^32 fits
+        let quarter = ((self.radius as u64) >> 2).saturating_add(1);
+        u32::try_from(quarter.saturating_mul(spread.into()) >> 27).unwrap_or(u32::MAX).saturating_add(1)
     }
 
     /// How many levels leave an error below `2^-24` for control points that differ by at most `spread`.
     pub fn levels(&self, spread: Real) -> u32 {
-        let mut off = i128::from(self.half_width(spread.to_bits().unsigned_abs())) << 28;
+        // between two points: twice the radius
+        let mut off = i128::from(self.half_width(spread.to_bits().unsigned_abs())) << 29;
         let mut levels = 0_u32;
         // a norm of at most 1 - 2^-10 ends it after 40,000 rounds
         while off >= 1 << 28 && levels < 1 << 20 {

@@ -12,7 +12,7 @@
 
 use super::address::{Address, Tail, split};
 use super::barycentric::{Barycentric, mixed, unit};
-use super::contraction::Contraction;
+use super::contraction::{Contraction, mean};
 use super::joining::agree;
 use crate::Error;
 use crate::num::formats::Q28;
@@ -85,8 +85,8 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
         for map in 1..N {
             agree("T_(i-1) c_1 = T_i c_0", map, (&at(map - 1, &last), &at(map, &first)), tolerance)?;
         }
-        let contraction = Contraction::prove(&maps, &first)?;
-        Ok(Self { maps, ends: ends.map(|end| end.map(Near::to_bits)), contraction })
+        let ends = ends.map(|end| end.map(Near::to_bits));
+        Ok(Self { maps, ends, contraction: Contraction::prove(&maps, &mean(ends))? })
     }
 
     /// The proof that it is a curve, and how fast it tends to it.

@@ -14,10 +14,10 @@
 
 use super::address::{Address, Pair, split};
 use super::barycentric::{Barycentric, mixed, unit};
-use super::contraction::Contraction;
+use super::contraction::{Contraction, mean};
 use super::curve::{ProjectedCurve, enough};
 use super::joining::agree;
-use super::scheme::Scheme;
+use super::scheme::{CORNERS, Scheme};
 use crate::Error;
 use crate::num::formats::{Q24, Q28};
 use crate::num::{Near, Real};
@@ -99,7 +99,8 @@ impl<const N: usize, const M: usize, const J: usize> Patch<N, M, J> {
                 *map = Barycentric::from_columns(columns)?;
             }
         }
-        let contraction = Contraction::prove(maps.as_flattened(), &unit(0))?;
+        let corners = CORNERS.map(|corner| unit(Self::corner_index(corner)).map(Near::to_bits));
+        let contraction = Contraction::prove(maps.as_flattened(), &mean(corners))?;
         Ok(Self { maps, contraction })
     }
 

@@ -15,8 +15,8 @@
 
 use super::address::{Address, Pair, split};
 use super::barycentric::{Barycentric, ONE, mixed, wide};
-use super::contraction::Contraction;
-use super::scheme::Scheme;
+use super::contraction::{Contraction, mean};
+use super::scheme::{CORNERS, Scheme};
 use crate::Error;
 use crate::num::formats::{Q24, Q28};
 use crate::num::{Near, Real, product};
@@ -66,8 +66,8 @@ impl Mask {
         for (map, (i, j)) in maps.iter_mut().zip([(0, 0), (0, 1), (1, 0), (1, 1)]) {
             *map = mask.map(i, j)?;
         }
-        let start = mask.stencil([false; 2]).map(Near::from_bits);
-        Ok(Self { contraction: Contraction::prove(&maps, &start)?, ..mask })
+        let middle = mean(CORNERS.map(|corner| mask.stencil(corner)));
+        Ok(Self { contraction: Contraction::prove(&maps, &middle)?, ..mask })
     }
 
     /// The mask with these 21 numbers: the entries row after row without the middle of each class, which

@@ -46,6 +46,8 @@ pub use contraction::Contraction;
 pub use curve::{Polyline, ProjectedCurve};
 pub use grid::Patch;
 pub use lattice::Mask;
+pub(crate) use scheme::CORNERS;
 pub use scheme::Scheme;
 pub use sheet::Sheet;
+pub(crate) use sheet::mean_normal;
 pub use tensor::Tensor;

@@ -37,13 +37,17 @@ pub trait Scheme<const J: usize> {
         for height in heights {
             (least, most) = (least.min(*height), most.max(*height));
         }
-        let middle = self.corner(heights, [false; 2]);
+        let sum: i64 = CORNERS.iter().map(|corner| i64::from(self.corner(heights, *corner))).sum();
+        let middle = (sum >> 2) as i32;
         let width = self.contraction().half_width(most.wrapping_sub(least).cast_unsigned());
         // parts are rounded: a unit a level, which the proof's levels halve and halve again
         let width = i32::try_from(width).unwrap_or(i32::MAX).saturating_add(ROUNDING);
         [middle.saturating_sub(width), middle.saturating_add(width)]
     }
 }
+
+/// The corners of a cell: whether at the end of `s` and of `t`.
+pub(crate) const CORNERS: [[bool; 2]; 4] = [[false, false], [false, true], [true, false], [true, true]];
 
 /// What rounding adds to bounds: control heights of a part are off by half a unit, which later maps make 8 times
 /// as much at most, in up to 31 levels.

@@ -71,8 +71,12 @@ impl<'a, S: Scheme<J>, const J: usize> Sheet<'a, S, J> {
         self.scheme.contraction()
     }
 
+    pub(crate) const fn scheme(&self) -> &'a S {
+        self.scheme
+    }
+
     /// The control heights of a cell; those of the last for one beyond it.
-    fn cell(&self, cell: [u32; 2]) -> [Q24; J] {
+    pub(crate) fn cell(&self, cell: [u32; 2]) -> [Q24; J] {
         let [_, across] = Self::sides(self.cells);
         let ([_, width], [m, l]) = (S::SIDES, S::STEPS);
         let [i, j] = cell.map(|place| place.min(self.cells.saturating_sub(1)) as usize);
@@ -117,7 +121,7 @@ impl<'a, S: Scheme<J>, const J: usize> Sheet<'a, S, J> {
 }
 
 /// From the heights of a part's corners, 24 fractional bits, and how many parts lie along a side.
-fn mean_normal([h00, h01, h10, h11]: [i64; 4], parts: u64) -> Vec3 {
+pub(crate) fn mean_normal([h00, h01, h10, h11]: [i64; 4], parts: u64) -> Vec3 {
     let slope = |rise: i64| {
         let slope = i128::from(-rise) * i128::from(parts) / 2;
         Real::from_bits(slope.clamp(-(64 << 24), 64 << 24) as i32)

@@ -25,7 +25,7 @@ impl<const N: usize, const M: usize, const L: usize, const J: usize> Tensor<N, M
     /// `u` along `s` and `v` along `t`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the products of weights are not proven to stay below 8 in sum.
+    /// [`Error::OutOfRange`] if the products of weights are not proven to stay below 15 in sum.
     pub fn new(u: ProjectedCurve<N, M>, v: ProjectedCurve<N, L>) -> Result<Self, Error> {
         const { assert!(J == M * L, "a product has as many control points as both curves together") };
         let contraction = u.contraction().times(v.contraction())?;
@@ -115,7 +115,7 @@ impl<const N: usize, const M: usize, const L: usize, const J: usize> Tensor<N, M
         let mut weights = [Near::ZERO; J];
         for (row, s) in weights.chunks_exact_mut(L).zip(along_s) {
             for (weight, t) in row.iter_mut().zip(along_t) {
-                // both sums of magnitudes are below 8, and that of the products is proven to be
+                // both sums of magnitudes are below 15, and that of the products is proven to be
                 *weight = Near::from_bits(((i64::from(s) * i64::from(t) + (1 << 27)) >> 28) as i32);
             }
         }
