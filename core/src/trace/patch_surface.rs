@@ -327,6 +327,7 @@ impl<S: Scheme<J>, const J: usize> Surface for PatchSurface<'_, S, J> {
             normal: unit(normal),
             chart,
             face: 0,
+            inward: false,
             width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),
         }
     }
