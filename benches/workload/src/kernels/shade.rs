@@ -143,6 +143,7 @@ pub(super) fn phong_rgb(watch: &mut Watch<'_>) -> Tally {
             normal: d,
             chart: Chart::default(),
             face: 0,
+            inward: false,
             width: Real::ZERO,
         };
         watch.over(&normals, |n| {
