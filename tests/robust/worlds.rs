@@ -8,6 +8,7 @@ use attractor::trace::material::{
     Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Sight, Specular,
     TorranceSparrow,
 };
+use attractor::trace::refracted_direction;
 use attractor::trace::solid::{
     Cube, Function, HalfSpace, Implicit, Moved, NearRay, Placed, Plane, Polygon, Polyhedron, Shape, Sphere,
     Square, Superellipsoid, TaperedCylinder, Torus,
@@ -198,6 +199,8 @@ fn materials_at_any_point() {
             let view = Sight { normal, direction: view, tangent: normal };
             let _ = Highlight::Phong(Phong { shininess: 7 }).part(&view, lit.towards);
         }
+        // whatever the index
+        let _ = refracted_direction(view, normal, u);
         let response = material.respond(&point, view, lit.into_iter());
         assert_eq!(response.refracted, material.passes());
         assert_eq!(material.normal(&point), normal);

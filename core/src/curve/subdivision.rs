@@ -104,9 +104,8 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     ///
     /// Result: all points in order; a point beyond the range of [`Real`] saturates. Cost of a subdivision,
     /// with the point that it yields: 140 Cortex-M4 instructions (kernel `elbow`) for an elbow that stops by
-    /// parameter, 173 (kernel `elbow by length`) by length; 174 (kernel `one variable`) for one variable and
-    /// 228 (kernel `two variable`) for two by norm; 129 (kernel `line to line`) for a function that stops by
-    /// parameter.
+    /// parameter, 173 (kernel `elbow by length`) by length; 174 (kernel `one variable`) for one variable by
+    /// norm, a third more for two; 129 (kernel `line to line`) for a function that stops by parameter.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than two knots, [`Error::OutOfRange`] for neighbours that are 128 or more
