@@ -189,7 +189,7 @@ impl Site {
                 norm = norm.max(entry(0) + entry(1) + entry(2));
             }
             let radius = i64::from(radius.to_bits() >> 12) + 1;
-            let square = norm.saturating_mul(radius * radius >> 16) >> 16;
+            let square = norm.saturating_mul((radius * radius) >> 16) >> 16;
             // and what was rounded there
             farthest = farthest.min(square + (square >> 8) + i64::from(slack as i32 >> 4));
         }
