@@ -15,6 +15,7 @@
 //! | [ifs] | affine iterated function systems: chaos game, bounds, a catalogue of attractors |
 //! | [curve] | curves by refinement: Koch, Hilbert and their relatives; random curves: elbows, Carpenter's subdivision |
 //! | [escape] | dwell of the Mandelbrot set and of filled Julia sets, backward iteration, deep zoom |
+//! | [codec] | images compressed by fractals: decoders in one pass or by sweeps |
 //! | [trace] | a scanline ray caster: height fields, and worlds of shapes, materials, textures and lamps |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!
@@ -29,6 +30,7 @@
 //! | `defmt` | `defmt::Format` for values, descriptions and set-ups that borrow nothing; numbers of `fixed` are printed by their `Debug` |
 //! | `serde` | `Serialize` and `Deserialize` for values and descriptions; a type whose constructor checks something is read back through it, so that none is invalid |
 //! | `micromath` | a camera from f32 angles |
+//! | `embedded-io` | images from its readers |
 //!
 //! Read back through their constructors: [`plane::Window`], [`escape::View`], [`escape::DeepView`],
 //! [`escape::Mandelbrot`], [`escape::Julia`], [`escape::JuliaSet`], [`ifs::Ifs`]. Not read back, as they keep
@@ -55,6 +57,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod codec;
 pub mod curve;
 pub mod draw;
 mod error;
