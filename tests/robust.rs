@@ -8,6 +8,7 @@
 //! What takes time is counted where it can be: items, evaluations, words drawn, pixels; never seconds.
 //! That no public name of core is left out says `every_name`.
 
+mod codec;
 mod curves;
 mod deep;
 mod draw;

@@ -116,6 +116,22 @@ pub enum Error {
         /// Position of the first byte that does not belong.
         position: usize,
     },
+    /// Bytes end before what they are does.
+    Ended {
+        /// What it is.
+        what: &'static str,
+        /// How many bytes of the part in question there are.
+        position: usize,
+    },
+    /// Bytes are not those that were written: their checksum is another.
+    Checksum {
+        /// What they are.
+        what: &'static str,
+        /// What it says.
+        stated: u32,
+        /// What it is.
+        computed: u32,
+    },
     /// A direction or an extent is zero.
     Degenerate {
         /// What is.
@@ -188,6 +204,10 @@ impl fmt::Display for Error {
                 "map {map} has a vertical scaling no smaller than its horizontal one: no derivative exists"
             ),
             Self::Malformed { what, position } => write!(f, "this is no {what}: look at byte {position}"),
+            Self::Ended { what, position } => write!(f, "this {what} ends too early: after byte {position}"),
+            Self::Checksum { what, stated, computed } => {
+                write!(f, "this {what} is damaged: its checksum is {computed:08x}, it says {stated:08x}")
+            }
             Self::Degenerate { what } => write!(f, "{what} is zero"),
             Self::Unsupported { what, allowed } => {
                 write!(f, "this {what} is not to be had here: there are {allowed}")
@@ -249,6 +269,11 @@ mod tests {
             ),
             (Error::NotJoined { knot: 1 }, "the maps on both sides of knot 1 disagree there"),
             (Error::Malformed { what: "number", position: 4 }, "this is no number: look at byte 4"),
+            (Error::Ended { what: "image", position: 12 }, "this image ends too early: after byte 12"),
+            (
+                Error::Checksum { what: "image", stated: 0xcbf4_3926, computed: 7 },
+                "this image is damaged: its checksum is 00000007, it says cbf43926",
+            ),
             (Error::Degenerate { what: "direction of the light" }, "direction of the light is zero"),
             (
                 Error::Unsupported { what: "arithmetic", allowed: "Word26 and Word29" },

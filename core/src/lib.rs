@@ -17,6 +17,7 @@
 //! | [escape] | dwell of the Mandelbrot set and of filled Julia sets, backward iteration, deep zoom |
 //! | [terrain] | surfaces by subdivision: mountains through given heights, patches, seams, any resolution |
 //! | [patch] | curves and surfaces by control points: projected systems, tensor products, patches, refinable lattices |
+//! | [codec] | images compressed by fractals: decoders in one pass or by sweeps |
 //! | [trace] | a scanline ray caster: height fields, terrain, and worlds of shapes, materials, textures and lamps |
 //! | [draw] | points, paths and fields on a display, palettes, dithering, rows for DMA |
 //!
@@ -31,6 +32,7 @@
 //! | `defmt` | `defmt::Format` for values, descriptions and set-ups that borrow nothing; numbers of `fixed` are printed by their `Debug` |
 //! | `serde` | `Serialize` and `Deserialize` for values and descriptions; a type whose constructor checks something is read back through it, so that none is invalid |
 //! | `micromath` | a camera from f32 angles |
+//! | `embedded-io` | images from its readers |
 //!
 //! Read back through their constructors: [`plane::Window`], [`escape::View`], [`escape::DeepView`],
 //! [`escape::Mandelbrot`], [`escape::Julia`], [`escape::JuliaSet`], [`ifs::Ifs`]. Not read back, as they keep
@@ -57,6 +59,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod codec;
 pub mod curve;
 pub mod draw;
 mod error;

@@ -70,6 +70,7 @@ mod srgb;
 mod testing;
 #[cfg(any(test, feature = "embedded-graphics"))]
 mod transform;
+mod ycocg;
 
 pub use cursor::RowCursor;
 pub use cycle::{Cycled, Ramp};
@@ -87,3 +88,4 @@ pub use path::Stroke;
 pub use points::{ColoredDots, Dots};
 pub use rows::Strips;
 pub use srgb::Srgb;
+pub use ycocg::YCoCg;

@@ -8,6 +8,7 @@ mod backward;
 mod bounds;
 mod calculus;
 mod camera;
+pub mod codec;
 mod compose;
 pub mod copier;
 mod double_double;

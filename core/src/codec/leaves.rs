@@ -1,0 +1,34 @@
+//! The partition of a stream, leaf by leaf: what its maps are, and what it says of each.
+
+use core::cell::Cell;
+
+use super::header::Profile;
+use super::leaf::{Leaf, Setting};
+use super::opened::Opened;
+use super::planes::{BAND, Planes};
+use super::sample::Sample;
+use crate::Error;
+
+impl<I: Iterator<Item = u8>> Opened<I> {
+    /// Shows each leaf in turn: its plane, what it says, how it was said, its column and row in the plane.
+    /// [`Shape::place`](super::Shape::place) says where its domain lies.
+    ///
+    /// # Errors
+    /// As [`Opened::stream`] and [`Stream::next_band`](super::Stream::next_band), of any profile.
+    pub fn leaves<S: Sample>(
+        self,
+        memory: &mut [S],
+        mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2]),
+    ) -> Result<(), Error> {
+        self.checked::<S>(self.header().profile == Profile::Streaming, 0, memory.len())?;
+        let (header, crc, source) = self.into_parts();
+        let mut planes = Planes::new(header, 0, Cell::from_mut(memory).as_slice_of_cells());
+        let mut decoder = planes.decoder(source, crc);
+        let mut row = 0;
+        while row < header.size.height {
+            planes.decode(row, &mut decoder, false, &mut seen)?;
+            row += BAND;
+        }
+        Planes::<S>::end(&mut decoder)
+    }
+}

@@ -1,0 +1,85 @@
+//! Adaptive probabilities of binary decisions, and what they are asked about.
+//!
+//! A model is the probability that the next bin is 0. It learns from each bin: with the rate `1/4` at first,
+//! ever slower down to `1/64`, so that a short stream is not spent on learning.
+//!
+//! Format: 13 bits of probability, 3 bits that count the first bins.
+
+/// The probability that a bin is 0. Size: 2 bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Model(u16);
+
+/// Rates of a model's first bins, as shifts.
+const RATES: [u8; 8] = [2, 3, 3, 4, 4, 5, 5, 5];
+
+impl Model {
+    /// Nothing known: 1/2.
+    pub const NEW: Self = Self(0x8000);
+
+    /// The probability of a 0 in 13 bits, from 32 to 8160 of 8192.
+    #[inline]
+    pub const fn zero(self) -> u32 {
+        let p = (self.0 >> 3) as u32;
+        if p < LEAST {
+            LEAST
+        } else if p > (1 << 13) - LEAST {
+            (1 << 13) - LEAST
+        } else {
+            p
+        }
+    }
+
+    /// What it is after a bin.
+    #[inline]
+    pub const fn learn(self, bin: bool) -> Self {
+        let (p, count) = (self.0 >> 3, self.0 & 7);
+        let rate = RATES[count as usize];
+        let p = if bin { p - (p >> rate) } else { p + ((8191 - p) >> rate) };
+        let count = if count < 7 { count + 1 } else { 7 };
+        Self(p << 3 | count)
+    }
+}
+
+/// The least probability of a bin, of 8192.
+const LEAST: u32 = 32;
+
+/// What reads bins, writes them or adds up what they cost: an encoder and a decoder walk the same syntax.
+pub trait Coder {
+    /// A bin under a model. A decoder takes no notice of the one that it is given.
+    fn bin(&mut self, context: usize, bin: bool) -> bool;
+
+    /// So many bits, the highest first, at most 32, each as likely 0 as 1.
+    fn raw(&mut self, count: u32, bits: u32) -> u32;
+}
+
+/// `count` bins, the highest first, each under a model of those before it.
+#[inline]
+pub(super) fn tree(coder: &mut impl Coder, context: usize, count: u32, value: u32) -> u32 {
+    let mut node = 1;
+    for i in (0..count).rev() {
+        let bin = coder.bin(context + node as usize, value >> i & 1 == 1);
+        node = node << 1 | u32::from(bin);
+    }
+    node & !(1 << count)
+}
+
+/// The most doublings of a number.
+const DOUBLINGS: u32 = 20;
+
+/// A number from 0 to `2^21 - 2` by Elias and Golomb: how often `v + 1` can be halved, in unary, then its bits
+/// below the highest, of which the first has a model.
+#[inline]
+pub fn number(coder: &mut impl Coder, context: usize, value: u32) -> u32 {
+    let value = value.saturating_add(1).min((1 << (DOUBLINGS + 1)) - 1);
+    let wanted = 31 - value.leading_zeros();
+    let mut doublings = 0;
+    while doublings < DOUBLINGS && coder.bin(context + doublings.min(9) as usize, doublings < wanted) {
+        doublings += 1;
+    }
+    if doublings == 0 {
+        return 0;
+    }
+    let first = coder.bin(context + 10 + doublings.min(9) as usize, value >> (doublings - 1) & 1 == 1);
+    let rest = coder.raw(doublings - 1, value & ((1 << (doublings - 1)) - 1));
+    ((2 | u32::from(first)) << (doublings - 1) | rest) - 1
+}

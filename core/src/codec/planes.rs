@@ -1,0 +1,186 @@
+//! The planes of a picture, decoded band by band in turn, and what they hold as a field.
+
+use core::cell::Cell;
+
+use embedded_graphics_core::geometry::Size;
+
+use super::crc::Crc;
+use super::header::Header;
+use super::leaf::{Leaf, Setting};
+use super::opened::WHAT;
+use super::plane::Plane;
+use super::range_decoder::RangeDecoder;
+use super::sample::Sample;
+use crate::Error;
+use crate::plane::Field;
+
+/// Rows of luma in a band.
+pub(super) const BAND: u32 = 32;
+
+/// All planes of a picture, and what reads them.
+#[derive(Debug)]
+pub(super) struct Planes<'a, S: Sample> {
+    header: Header,
+    planes: [Plane<'a, S>; 3],
+    leaf: Leaf,
+}
+
+impl<'a, S: Sample> Planes<'a, S> {
+    /// In lent memory of the length that was checked.
+    pub(super) fn new(header: Header, scale: i32, mut memory: &'a [Cell<S>]) -> Self {
+        let planes = header.shapes(scale).map(|shape| Plane::new(shape, &mut memory));
+        Self { header, planes, leaf: Leaf::default() }
+    }
+
+    /// Decodes the band that begins at a row of luma.
+    pub(super) fn decode<I: Iterator<Item = u8>>(
+        &mut self,
+        row: u32,
+        decoder: &mut RangeDecoder<I>,
+        again: bool,
+        mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2]),
+    ) -> Result<(), Error> {
+        for (index, plane) in (0..self.header.count()).zip(&mut self.planes) {
+            plane.begin(row >> self.header.halved(index), again);
+            let sound = plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at| {
+                seen(index, leaf, setting, at);
+            });
+            let position = decoder.taken();
+            if decoder.ended() {
+                return Err(Error::Ended { what: WHAT, position });
+            }
+            if !sound {
+                return Err(Error::Malformed { what: WHAT, position });
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads what follows the last band: no byte of the payload may be left, and the checksum must be right.
+    pub(super) fn end<I: Iterator<Item = u8>>(decoder: &mut RangeDecoder<I>) -> Result<(), Error> {
+        let position = decoder.taken();
+        if decoder.left() > 0 {
+            return Err(Error::Malformed { what: WHAT, position });
+        }
+        let (source, crc) = decoder.rest();
+        let computed = crc.value();
+        let mut stated = 0;
+        for shift in [0, 8, 16, 24] {
+            let byte = source.next().ok_or(Error::Ended { what: WHAT, position })?;
+            stated |= u32::from(byte) << shift;
+        }
+        if stated == computed { Ok(()) } else { Err(Error::Checksum { what: WHAT, stated, computed }) }
+    }
+
+    /// A decoder at the beginning of the payload.
+    pub(super) fn decoder<I: Iterator<Item = u8>>(&self, source: I, crc: Crc) -> RangeDecoder<I> {
+        RangeDecoder::new(source, self.header.payload, crc)
+    }
+
+    /// The header.
+    pub(super) const fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Size as it is drawn.
+    pub(super) const fn size(&self) -> Size {
+        let [luma, ..] = &self.planes;
+        Size::new(luma.shape().columns(), luma.shape().rows())
+    }
+
+    /// A number of rows of luma, a multiple of four, as it is drawn.
+    pub(super) const fn drawn(&self, rows: u32) -> u32 {
+        let [luma, ..] = &self.planes;
+        luma.shape().scaled(rows)
+    }
+
+    /// Luma black, chroma without colour.
+    pub(super) fn blacken(&self) {
+        for (plane, value) in self.planes.iter().zip([0, 1 << (S::BITS - 1), 1 << (S::BITS - 1)]) {
+            for sample in plane.picture() {
+                sample.set(S::cut(value));
+            }
+        }
+    }
+
+    /// So many rows that are there, of which the first is `top` in the whole picture.
+    pub(super) fn part(&self, top: u32, rows: u32) -> Part<'a, S> {
+        let [luma, orange, green] = &self.planes;
+        Part {
+            samples: [luma.picture(), orange.picture(), green.picture()],
+            columns: [luma.shape().columns(), orange.shape().columns()],
+            halved: self.header.halved(1),
+            top,
+            size: Size::new(luma.shape().columns(), rows),
+        }
+    }
+}
+
+/// Decoded rows: a field of luma, orange (`Co`) and green (`Cg`); the latter two are half the range in a grey picture.
+/// [`Luma`] has luma alone.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a, S: Sample> {
+    samples: [&'a [Cell<S>]; 3],
+    columns: [u32; 2],
+    halved: u32,
+    top: u32,
+    size: Size,
+}
+
+impl<S: Sample> Part<'_, S> {
+    /// Its first row in the whole picture.
+    pub const fn top(&self) -> u32 {
+        self.top
+    }
+
+    /// The sample of a plane at column `x` and row `y` of luma. Outside there is grey: 0, and half the range for
+    /// chroma.
+    #[inline]
+    pub fn sample(&self, plane: usize, x: u32, y: u32) -> S {
+        let [columns, chroma] = self.columns;
+        let (x, y, columns) =
+            if plane == 0 { (x, y, columns) } else { (x >> self.halved, y >> self.halved, chroma) };
+        let at = y as usize * columns as usize + x as usize;
+        let sample = self.samples.get(plane).and_then(|samples| samples.get(at));
+        sample.map_or_else(|| S::cut(if plane == 0 { 0 } else { 1 << (S::BITS - 1) }), Cell::get)
+    }
+}
+
+impl<S: Sample> Field for Part<'_, S> {
+    type Value = [S; 3];
+
+    fn size(&self) -> Size {
+        self.size
+    }
+
+    #[inline]
+    fn at(&self, x: u32, y: u32) -> [S; 3] {
+        [0, 1, 2].map(|plane| self.sample(plane, x, y))
+    }
+}
+
+/// Luma alone of a field of luma and chroma.
+///
+/// ```
+/// use attractor::codec::Luma;
+/// use attractor::plane::{Field, from_fn};
+/// use embedded_graphics::geometry::Size;
+/// let field = from_fn(Size::new(4, 1), |x, _| [x as u8, 128, 128]);
+/// assert!(Luma(field).row(0, 1..4).eq([1, 2, 3]));
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Luma<F>(pub F);
+
+impl<S: Sample, F: Field<Value = [S; 3]>> Field for Luma<F> {
+    type Value = S;
+
+    fn size(&self) -> Size {
+        self.0.size()
+    }
+
+    #[inline]
+    fn at(&self, x: u32, y: u32) -> S {
+        let [luma, ..] = self.0.at(x, y);
+        luma
+    }
+}

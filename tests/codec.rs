@@ -1,0 +1,367 @@
+//! The image codec: files of today decode for ever, as the f64 reference does, and what is no file is refused.
+//!
+//! The faults that others reported are named where they are tested.
+
+use std::cell::Cell;
+use std::fmt::Debug;
+
+use attractor::Error;
+use attractor::codec::{Luma, Profile, Sample, Streamed, check, crc32, open};
+use attractor::draw::{Grey, Picture};
+use attractor::plane::Field;
+use attractor_reference::codec::decode;
+use embedded_graphics::geometry::Size;
+
+/// Every file of version 1 that is kept, and the CRC-32 of its planes' samples, lowest byte first.
+const FILES: [(&str, &[u8], u32); 9] = [
+    ("flat-8", include_bytes!("vectors/flat-8.atfi"), 0xd87e_5807),
+    ("streaming", include_bytes!("vectors/streaming.atfi"), 0x6e54_0cdf),
+    ("iterated", include_bytes!("vectors/iterated.atfi"), 0x4184_647b),
+    ("pure", include_bytes!("vectors/pure.atfi"), 0x7ab6_60dd),
+    ("colour", include_bytes!("vectors/colour.atfi"), 0x9ef5_e7d8),
+    ("colour-halved", include_bytes!("vectors/colour-halved.atfi"), 0x9d61_e068),
+    ("heights", include_bytes!("vectors/heights.atfi"), 0xacdc_7ff0),
+    ("camera-streaming", include_bytes!("vectors/camera-streaming.atfi"), 0x227f_bb7f),
+    ("camera-iterated", include_bytes!("vectors/camera-iterated.atfi"), 0x594a_e5a3),
+];
+
+/// A file of one, by its name.
+fn file(name: &str) -> &'static [u8] {
+    FILES.iter().find(|(other, ..)| *other == name).unwrap().1
+}
+
+/// What a decoder shows: size and values. It takes the bytes from any iterator.
+fn pixels<S: Sample + Default + Debug>(
+    bytes: impl Iterator<Item = u8> + Clone,
+    scale: i32,
+    sweeps: Option<u32>,
+) -> Result<(Size, Vec<[S; 3]>), Error> {
+    let opened = open(bytes)?;
+    let mut memory = vec![S::default(); opened.samples(scale)];
+    let mut all = Vec::new();
+    let size;
+    if opened.header().profile == Profile::Streaming {
+        let mut stream = opened.stream(scale, &mut memory)?;
+        size = stream.size();
+        while let Some(band) = stream.next_band()? {
+            (0..band.size().height).for_each(|y| all.extend(band.row(y, 0..size.width)));
+        }
+    } else {
+        let mut iterated = opened.sweeps(scale, &mut memory)?;
+        size = iterated.size();
+        match sweeps {
+            None => iterated.finish()?,
+            Some(count) => (0..count).try_for_each(|_| iterated.sweep().map(|_| ()))?,
+        }
+        (0..size.height).for_each(|y| all.extend(iterated.row(y, 0..size.width)));
+    }
+    assert_eq!(all.len(), (size.width * size.height) as usize);
+    Ok((size, all))
+}
+
+/// The same in numbers, whatever the depth.
+fn numbers(bytes: &[u8], scale: i32, sweeps: Option<u32>) -> Result<(Size, Vec<[i32; 3]>), Error> {
+    let source = bytes.iter().copied();
+    if open(source.clone())?.header().deep {
+        let (size, all) = pixels::<u16>(source, scale, sweeps)?;
+        Ok((size, all.into_iter().map(|p| p.map(i32::from)).collect()))
+    } else {
+        let (size, all) = pixels::<u8>(source, scale, sweeps)?;
+        Ok((size, all.into_iter().map(|p| p.map(i32::from)).collect()))
+    }
+}
+
+fn checksum(pixels: &[[i32; 3]]) -> u32 {
+    let bytes: Vec<u8> = pixels.iter().flatten().flat_map(|v| (*v as u16).to_le_bytes()).collect();
+    crc32(&bytes)
+}
+
+#[test]
+fn files_of_version_1_decode_to_the_same_bits() {
+    assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+    let got: Vec<_> =
+        FILES.iter().map(|(name, bytes, _)| (*name, checksum(&numbers(bytes, 0, None).unwrap().1))).collect();
+    let wanted: Vec<_> = FILES.iter().map(|(name, _, crc)| (*name, *crc)).collect();
+    assert_eq!(got, wanted, "{got:#x?}");
+}
+
+#[test]
+fn the_reference_decodes_the_same_picture() {
+    let mut worst = 0.0_f64;
+    for (name, bytes, _) in FILES {
+        let (size, got) = numbers(bytes, 0, None).unwrap();
+        let expected = decode(bytes);
+        let (mut off, mut square) = (0.0_f64, 0.0);
+        for (i, pixel) in got.iter().enumerate() {
+            for (plane, (width, height, samples)) in expected.planes.iter().enumerate() {
+                let (x, y) = (i % size.width as usize, i / size.width as usize);
+                let halved = usize::from(*width < size.width as usize || *height < size.height as usize);
+                let difference = f64::from(pixel[plane]) - samples[(y >> halved) * width + (x >> halved)];
+                off = off.max(difference.abs());
+                square += difference * difference;
+            }
+        }
+        let mean = (square / (got.len() * expected.planes.len()) as f64).sqrt();
+        println!("{name}: {off} at most, {mean:.4} in the mean");
+        // what lies near a half may be rounded the other way, and sweeps carry that on
+        let most = if name.contains("iterated") { 4.0 } else { 1.0 };
+        assert!(off <= most && mean < 0.35, "{name}: {off}, {mean}");
+        worst = worst.max(mean);
+    }
+    assert!(worst > 0.0, "nothing was compared");
+}
+
+#[test]
+fn a_stream_is_a_field_whose_rows_come_in_any_order() {
+    for name in ["streaming", "camera-streaming", "flat-8", "colour-halved"] {
+        let bytes = file(name);
+        let (size, expected) = pixels::<u8>(bytes.iter().copied(), 0, None).unwrap();
+        let mut memory = vec![0_u8; open(bytes.iter().copied()).unwrap().samples(0)];
+        let field = Streamed::new(bytes, 0, &mut memory).unwrap();
+        assert_eq!(field.size(), size);
+        let (width, height) = (size.width, size.height);
+        let mut rows: Vec<u32> = (0..height).collect();
+        rows.extend([height - 1, 0, height / 2, 0, height - 1]);
+        for y in rows {
+            let row: Vec<_> = field.row(y, 0..width).collect();
+            assert_eq!(row, expected[(y * width) as usize..][..width as usize], "{name}: row {y}");
+        }
+        assert_eq!(field.at(width - 1, 0), expected[width as usize - 1]);
+        assert_eq!(field.row(0, 3..width + 9).nth(2), expected.get(5).copied());
+        assert_eq!(field.error(), None);
+        // on a display, in part and dithered
+        let picture = Picture::<_, _, embedded_graphics::pixelcolor::Gray8>::new(Luma(&field), Grey);
+        let column: Vec<_> = (0..height).map(|y| picture.colors(y, 1..2).unwrap().next().unwrap()).collect();
+        for (y, color) in column.iter().enumerate() {
+            use embedded_graphics::pixelcolor::GrayColor as _;
+            assert_eq!(color.luma(), expected[y * width as usize + 1][0]);
+        }
+    }
+}
+
+#[test]
+fn sweeps_begin_black_and_come_closer_to_their_fixed_point() {
+    for name in ["iterated", "camera-iterated", "pure"] {
+        let at = |sweeps| numbers(file(name), 0, Some(sweeps)).unwrap().1;
+        let fixed = at(16);
+        let distance = |sweeps| {
+            let pairs = at(sweeps);
+            pairs.iter().zip(&fixed).map(|(a, b)| f64::from(a[0] - b[0]).powi(2)).sum::<f64>()
+                / pairs.len() as f64
+        };
+        assert!(at(0).iter().all(|pixel| *pixel == [0, 128, 128]));
+        let distances: Vec<f64> = (0..6).map(distance).collect();
+        println!("{name}: mean square distances {distances:.3?}");
+        let closer = distances.windows(2).all(|pair| pair[1] < 0.25 * pair[0]);
+        assert!(distances[0] > 1000.0 && closer, "{distances:?}");
+    }
+}
+
+#[test]
+fn each_scale_has_its_size_and_resembles_the_picture() {
+    for (name, ..) in FILES {
+        let (size, whole) = numbers(file(name), 0, None).unwrap();
+        let peak: i32 = if name == "heights" { 65535 } else { 255 };
+        for scale in [-2, -1, 1, 2] {
+            let (drawn, pixels) = numbers(file(name), scale, None).unwrap();
+            let side = |v: u32| if scale > 0 { v << scale } else { (v + (1 << -scale) - 1) >> -scale };
+            assert_eq!(drawn, Size::new(side(size.width), side(size.height)), "{name} {scale}");
+            // the nearest pixel of the whole
+            let mut square = 0.0;
+            for (i, pixel) in (0..).zip(&pixels) {
+                let at = |v: u32, most: u32| (if scale > 0 { v >> scale } else { v << -scale }).min(most - 1);
+                let (x, y) = (at(i % drawn.width, size.width), at(i / drawn.width, size.height));
+                square += f64::from(pixel[0] - whole[(y * size.width + x) as usize][0]).powi(2);
+            }
+            let psnr = 10.0 * (f64::from(peak).powi(2) * pixels.len() as f64 / square).log10();
+            println!("{name} x 2^{scale}: {psnr:.1} dB to the nearest pixel");
+            assert!(psnr > 18.0, "{name} {scale}: {psnr}");
+        }
+    }
+}
+
+/// Bytes that are counted as they are taken.
+#[derive(Clone)]
+struct Counted<'a, I>(I, &'a Cell<u32>);
+
+impl<I: Iterator<Item = u8>> Iterator for Counted<'_, I> {
+    type Item = u8;
+    fn next(&mut self) -> Option<u8> {
+        self.1.set(self.1.get() + 1);
+        self.0.next()
+    }
+}
+
+/// Every prefix of a stream is an error that says so (lzma-rust2 103).
+#[test]
+fn a_file_cut_off_anywhere_says_that_it_ends_too_early() {
+    let mut cut = 0;
+    for name in ["streaming", "iterated", "pure", "colour-halved", "heights"] {
+        let bytes = file(name);
+        for length in 0..bytes.len() {
+            let part = &bytes[..length];
+            assert!(matches!(check(part), Err(Error::Ended { .. })), "{name} {length}");
+            let end = numbers(part, 0, Some(1)).unwrap_err();
+            assert!(matches!(end, Error::Ended { .. }), "{name} {length}: {end}");
+            cut += 1;
+        }
+    }
+    assert!(cut > 3000);
+}
+
+#[test]
+fn a_file_with_any_bit_flipped_is_refused_and_its_decoder_ends() {
+    let (mut refused, mut kinds) = (0, std::collections::BTreeSet::new());
+    for name in ["flat-8", "streaming", "iterated", "pure", "colour"] {
+        let mut bytes = file(name).to_vec();
+        for bit in 0..8 * bytes.len() {
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            let error = check(&bytes).unwrap_err();
+            kinds.insert(format!("{error:?}").split([' ', '{']).next().unwrap().to_owned());
+            // whoever decodes all the same comes to an end; a picture of another size takes its time
+            if bit >= 80 && bit % 3 == 0 || bit < 48 {
+                assert!(numbers(&bytes, 0, Some(1)).is_err(), "{name}, bit {bit}");
+            }
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            refused += 1;
+        }
+    }
+    println!("{refused} flipped: {kinds:?}");
+    assert!(refused > 20_000 && kinds.len() >= 5, "{kinds:?}");
+}
+
+/// A header with a right checksum: `change` alters the bytes before it is made.
+fn forged(name: &str, change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
+    let mut bytes = file(name).to_vec();
+    bytes.truncate(bytes.len() - 4);
+    change(&mut bytes);
+    let crc = crc32(&bytes);
+    bytes.extend(crc.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn what_no_header_says_is_refused_by_name() {
+    let refused = |change: &dyn Fn(&mut Vec<u8>)| check(&forged("streaming", change)).unwrap_err();
+    assert_eq!(refused(&|b| b[0] = b'a'), Error::Malformed { what: "image", position: 0 });
+    assert_eq!(refused(&|b| b[3] = 0), Error::Malformed { what: "image", position: 3 });
+    assert!(matches!(
+        refused(&|b| b[4] = 2),
+        Error::Unsupported { what: "version of an image", allowed: "1" }
+    ));
+    for flags in [3, 12, 32, 64, 128] {
+        assert_eq!(refused(&|b| b[5] = flags), Error::Malformed { what: "image", position: 5 });
+    }
+    // no area, and 65,530 squared, which takes no work (weezl 75, astc-encoder 670)
+    for (at, side, what) in
+        [(6, 0_u16, "width"), (8, 0, "height"), (6, 65_530, "width"), (8, 65_530, "height")]
+    {
+        let error = refused(&|b| b[at..at + 2].copy_from_slice(&side.to_le_bytes()));
+        assert!(matches!(error, Error::OutOfRange { what: named, .. } if named == what), "{error}");
+    }
+    assert_eq!(refused(&|b| b[11] = 24), Error::Malformed { what: "image", position: 11 });
+    assert_eq!(refused(&|b| b[12] = 9), Error::Malformed { what: "image", position: 12 });
+    assert_eq!(refused(&|b| b[13] = 1), Error::Malformed { what: "image", position: 13 });
+    assert!(matches!(refused(&|b| b.push(0)), Error::LengthMismatch { what: "bytes of an image", .. }));
+    assert!(matches!(refused(&|b| b[14..18].fill(255)), Error::Malformed { position: 17, .. }));
+    let mut damaged = file("streaming").to_vec();
+    *damaged.last_mut().unwrap() ^= 1;
+    assert!(matches!(check(&damaged), Err(Error::Checksum { .. })));
+    assert!(matches!(numbers(&damaged, 0, None), Err(Error::Checksum { .. })));
+    // no sweeps in a picture that needs them
+    let none = forged("iterated", |b| b[12] = 0);
+    assert_eq!(check(&none), Err(Error::Malformed { what: "image", position: 12 }));
+    // the largest size there is tells what it needs and takes nothing
+    let large = forged("streaming", |b| b[6..10].copy_from_slice(&[0, 64, 0, 64]));
+    let opened = open(large.iter().copied()).unwrap();
+    let needed = opened.samples(0);
+    assert_eq!(needed, 16384 * 32 + 8192 * 48 + 16384 + 4096);
+    let error = opened.stream(0, &mut [0_u8; 100]).err();
+    assert_eq!(error, Some(Error::BufferLength { what: "samples", given: 100, needed }));
+}
+
+#[test]
+fn memory_one_sample_short_or_of_another_kind_is_refused() {
+    for (name, bytes, _) in FILES {
+        let opened = || open(bytes.iter().copied()).unwrap();
+        let (deep, streaming) = (opened().header().deep, opened().header().profile == Profile::Streaming);
+        for scale in -2..=2 {
+            let needed = opened().samples(scale);
+            let short = Some(Error::BufferLength { what: "samples", given: needed - 1, needed });
+            let got = match (deep, streaming) {
+                (false, true) => opened().stream(scale, &mut vec![0_u8; needed - 1]).err(),
+                (false, false) => opened().sweeps(scale, &mut vec![0_u8; needed - 1]).err(),
+                (true, _) => opened().stream(scale, &mut vec![0_u16; needed - 1]).err(),
+            };
+            assert_eq!(got, short, "{name} {scale}");
+        }
+        let mut memory = vec![0_u8; 1 << 20];
+        let wrong = if streaming {
+            opened().sweeps(0, &mut memory).err()
+        } else {
+            opened().stream(0, &mut memory).err()
+        };
+        assert!(matches!(wrong, Some(Error::Unsupported { .. })), "{name}");
+        let wrong = opened().stream(3, &mut vec![0_u16; 1 << 20]).err();
+        assert!(
+            matches!(wrong, Some(Error::Unsupported { .. } | Error::OutOfRange { what: "scale", .. })),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn an_endless_reader_is_read_to_the_end_of_the_picture_and_no_further() {
+    for (name, bytes, _) in FILES {
+        let taken = Cell::new(0);
+        let endless = Counted(bytes.iter().copied().chain(std::iter::repeat(0xa5)), &taken);
+        let size = match open(endless.clone()).unwrap().header().deep {
+            false => pixels::<u8>(endless, 0, Some(1)).unwrap().0,
+            true => pixels::<u16>(endless, 0, Some(1)).unwrap().0,
+        };
+        // the header twice, the rest once
+        let header = bytes.len() as u32 - open(bytes.iter().copied()).unwrap().header().payload - 4;
+        assert_eq!(taken.get(), bytes.len() as u32 + header, "{name}, {size}");
+    }
+    // nothing but noise, for ever
+    for seed in 0..200_u32 {
+        let mut state = seed;
+        let noise = std::iter::from_fn(move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            Some((state >> 24) as u8)
+        });
+        let head = file("streaming")[..14].to_vec();
+        let endless = head.into_iter().chain([255, 255, 255, 127]).chain(noise);
+        assert!(pixels::<u8>(endless, 0, None).is_err(), "{seed}");
+    }
+}
+
+/// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf refers
+/// to itself; all samples stay samples and all ends.
+#[test]
+fn forged_payloads_decode_or_are_refused() {
+    let (mut drawn, mut refused) = (0, 0);
+    for (name, ..) in FILES {
+        for seed in 0..60_u32 {
+            let mut state = seed.wrapping_mul(2_654_435_761);
+            let bytes = forged(name, |bytes| {
+                for byte in bytes.iter_mut().skip(17) {
+                    state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                    if seed % 3 != 0 || state >> 29 == 0 {
+                        *byte = (state >> 24) as u8;
+                    }
+                }
+                if seed % 2 == 0 {
+                    bytes[11] = (seed % 24) as u8;
+                }
+            });
+            match numbers(&bytes, (seed % 5) as i32 - 2, Some(2)) {
+                Ok(_) => drawn += 1,
+                Err(Error::Malformed { .. }) => refused += 1,
+                Err(error) => panic!("{name} {seed}: {error}"),
+            }
+        }
+    }
+    println!("{drawn} drawn, {refused} refused");
+    assert!(drawn > 20 && refused > 100, "{drawn} {refused}");
+}

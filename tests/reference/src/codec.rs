@@ -1,0 +1,381 @@
+//! The image format, decoded in f64 from docs/IMAGE-FORMAT.md: what is said is read exactly, what is shown is
+//! computed as the formulas have it, with cosines instead of tables, and rounded to samples once.
+
+use std::f64::consts::PI;
+
+/// A decoded picture: planes with their sizes, and the sample's greatest value.
+#[derive(Debug, Clone)]
+pub struct Decoded {
+    /// Width, height and samples, row after row.
+    pub planes: Vec<(usize, usize, Vec<f64>)>,
+    /// 255 or 65535.
+    pub peak: f64,
+}
+
+struct Reader<'a> {
+    bytes: &'a [u8],
+    range: u64,
+    code: u64,
+    models: std::collections::HashMap<(&'static str, usize, usize), (u32, u32)>,
+}
+
+impl Reader<'_> {
+    fn next(&mut self) -> u64 {
+        let Some((first, rest)) = self.bytes.split_first() else { return 0 };
+        self.bytes = rest;
+        u64::from(*first)
+    }
+
+    fn fill(&mut self) {
+        while self.range < 1 << 24 {
+            self.range *= 256;
+            self.code = self.code * 256 + self.next();
+        }
+    }
+
+    /// A bin under the model named so.
+    fn bin(&mut self, what: &'static str, of: usize, index: usize) -> bool {
+        let (p, count) = *self.models.entry((what, of, index)).or_insert((4096, 0));
+        let bound = self.range / 8192 * u64::from(p.clamp(32, 8160));
+        let one = self.code >= bound;
+        if one {
+            self.code -= bound;
+            self.range -= bound;
+        } else {
+            self.range = bound;
+        }
+        self.fill();
+        let rate = [2, 3, 3, 4, 4, 5, 5, 5][count as usize];
+        let p = if one { p - (p >> rate) } else { p + ((8191 - p) >> rate) };
+        self.models.insert((what, of, index), (p, (count + 1).min(7)));
+        one
+    }
+
+    fn raw(&mut self, count: u32) -> u64 {
+        (0..count).fold(0, |bits, _| {
+            self.range /= 2;
+            let one = self.code >= self.range;
+            if one {
+                self.code -= self.range;
+            }
+            self.fill();
+            2 * bits + u64::from(one)
+        })
+    }
+
+    fn tree(&mut self, what: &'static str, of: usize, count: u32) -> usize {
+        let node = (0..count).fold(1, |node, _| 2 * node + usize::from(self.bin(what, of, node)));
+        node - (1 << count)
+    }
+
+    fn number(&mut self, what: &'static str, of: usize) -> i64 {
+        let mut doublings = 0;
+        while doublings < 20 && self.bin(what, of, doublings.min(9)) {
+            doublings += 1;
+        }
+        if doublings == 0 {
+            return 0;
+        }
+        let first = u64::from(self.bin(what, of, 10 + doublings.min(9)));
+        let rest = self.raw(doublings as u32 - 1);
+        ((2 + first) * (1 << (doublings - 1)) + rest - 1) as i64
+    }
+}
+
+#[derive(Clone)]
+struct Leaf {
+    x: usize,
+    y: usize,
+    n: usize,
+    /// Place in the halved picture, isometry, contrast.
+    domain: Option<(usize, usize, usize, f64)>,
+    mean: f64,
+    /// `(v, u)` and value.
+    coefficients: Vec<(usize, usize, f64)>,
+}
+
+struct Plane {
+    width: usize,
+    height: usize,
+    largest: usize,
+    chroma: usize,
+    q: f64,
+    peak: f64,
+    samples: Vec<f64>,
+    /// Base of what was decoded, the depth and whether there is a domain, by pixel.
+    base: Vec<f64>,
+    seen: Vec<Option<(usize, bool)>>,
+    across: usize,
+    /// Leaves in their order, so that sweeps can be done again.
+    leaves: Vec<Leaf>,
+}
+
+/// Places of the coefficients of `s` frequencies an axis.
+fn zigzag(s: usize) -> Vec<(usize, usize)> {
+    let diagonal = |d: usize| {
+        let mut places: Vec<_> = (0..=d).map(|v| (v, d - v)).filter(|(v, u)| *v < s && *u < s).collect();
+        if d % 2 == 0 {
+            places.reverse();
+        }
+        places
+    };
+    (0..2 * s - 1).flat_map(diagonal).collect()
+}
+
+fn class(i: usize) -> usize {
+    [1, 2, 3, 4, 6, 10, 15, 21, 28, 45, 64, 128].iter().filter(|first| i >= **first).count()
+}
+
+impl Plane {
+    fn at(&self, x: usize, y: usize) -> usize {
+        y * self.across + x
+    }
+
+    /// The leaf read at a place.
+    fn leaf(
+        &mut self,
+        reader: &mut Reader<'_>,
+        x: usize,
+        y: usize,
+        k: usize,
+        window: Option<usize>,
+        pure: bool,
+    ) {
+        let n = 1 << k;
+        let band = y / self.largest * self.largest;
+        let left = if x == 0 { None } else { self.seen[self.at(x - 1, y)] };
+        let above = if y == 0 { None } else { self.seen[self.at(x, y - 1)] };
+        let with_domain = [left, above].iter().filter(|leaf| leaf.is_some_and(|(_, domain)| domain)).count();
+        let kind = self.chroma * 4 + k;
+        let mut domain = None;
+        if reader.bin("domain", kind, with_domain) {
+            let rows = window.map_or(self.height / 2, |window| (window + self.largest) / 2);
+            let (columns, rows) = (self.width / n, rows / (n / 2));
+            let far = k > 2 && columns > 0 && rows > 0;
+            let near = !far || reader.bin("near", k, 0);
+            let isometry = reader.tree("isometry", 0, 3);
+            let top = window.map_or(0, |window| band as i64 / 2 - window as i64 / 2);
+            let (px, py) = if near {
+                let step = if n == 4 { 1 } else { n as i64 / 4 };
+                let column = reader.tree("column", k, 4) as i64 - 8;
+                let row = reader.tree("row", k, 4) as i64 - if window.is_some() { 14 } else { 8 };
+                let from = |v: usize| v as i64 / 2 - n as i64 / 4;
+                (from(x) + step * column, from(y) + step * row)
+            } else {
+                let last = columns * rows - 1;
+                let place = (reader.raw(usize::BITS - last.leading_zeros()) as usize).min(last);
+                ((place % columns * n / 2) as i64, top + (place / columns * n / 2) as i64)
+            };
+            let contrast = reader.tree("contrast", k, 4);
+            let sign = if contrast >= 8 { -1.0 } else { 1.0 };
+            domain = Some((px as usize, py as usize, isometry, sign * (contrast % 8 + 1) as f64 / 8.0));
+        }
+        let mut steps = reader.number("mean", kind);
+        if steps != 0 && reader.bin("sign", kind, 0) {
+            steps = -steps;
+        }
+        let mut coefficients = Vec::new();
+        if !pure {
+            let scan = zigzag(n.min(16));
+            let kind = 2 * k + usize::from(domain.is_some());
+            let last = (reader.number("last", self.chroma * 100 + kind) as usize).min(scan.len() - 1);
+            let mut before = 0;
+            for i in 1..=last {
+                let of = kind * 20 + class(i);
+                if i < last && !reader.bin("significant", of, before) {
+                    continue;
+                }
+                let large = reader.bin("large", of, 0);
+                let size = if large { 2 + reader.number("magnitude", kind % 2) } else { 1 }.min(8191);
+                let value = if reader.raw(1) == 1 { -size } else { size } as f64 * self.q;
+                coefficients.push((scan[i].0, scan[i].1, value));
+                before = (before + 1).min(2);
+            }
+        }
+        // what the neighbours' edges let expect
+        let mut edge = Vec::new();
+        if y > 0 {
+            edge.extend((0..n).map(|j| self.base[self.at(x + j, y - 1)]));
+        }
+        if x > 0 {
+            edge.extend((0..n).map(|i| self.base[self.at(x - 1, y + i)]));
+        }
+        let expected = if edge.is_empty() {
+            (self.peak + 1.0) / 2.0
+        } else {
+            edge.iter().sum::<f64>() / edge.len() as f64
+        };
+        let leaf = Leaf { x, y, n, domain, mean: expected + steps as f64 * self.q / n as f64, coefficients };
+        self.keep(leaf);
+    }
+
+    fn keep(&mut self, leaf: Leaf) {
+        for i in 0..leaf.n {
+            for j in 0..leaf.n {
+                let at = self.at(leaf.x + j, leaf.y + i);
+                self.base[at] = (leaf.mean + leaf.pixel(i, j)).round().clamp(0.0, self.peak);
+                self.seen[at] = Some((leaf.n, leaf.domain.is_some()));
+            }
+        }
+        self.leaves.push(leaf);
+    }
+
+    fn halved(&self, x: usize, y: usize) -> f64 {
+        let four =
+            [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(a, b)| self.samples[(2 * y + b) * self.width + 2 * x + a]);
+        (four.iter().sum::<f64>() / 4.0 + 0.5).floor()
+    }
+
+    /// Draws a leaf, sample by sample.
+    fn draw(&mut self, leaf: &Leaf) {
+        let n = leaf.n;
+        let mut order: Vec<(usize, usize)> = (0..n * n).map(|k| (k / n, k % n)).collect();
+        if !leaf.coefficients.is_empty() {
+            let folded = |k: usize| if k % 2 == 0 { k / 2 } else { n - 1 - k / 2 };
+            order = order.into_iter().map(|(i, j)| (folded(i), folded(j))).collect();
+        }
+        let mean = leaf.domain.map_or(0.0, |(px, py, ..)| {
+            (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).sum::<f64>() / (n * n) as f64
+        });
+        for (i, j) in order {
+            let copied = leaf.domain.map_or(0.0, |(px, py, isometry, contrast)| {
+                let (mut row, mut column) = if isometry & 4 == 0 { (i, j) } else { (j, i) };
+                if isometry & 1 != 0 {
+                    column = n - 1 - column;
+                }
+                if isometry & 2 != 0 {
+                    row = n - 1 - row;
+                }
+                contrast * (self.halved(px + column, py + row) - mean)
+            });
+            let (x, y) = (leaf.x + j, leaf.y + i);
+            if x < self.width && y < self.height {
+                let value = leaf.mean + leaf.pixel(i, j) + copied;
+                self.samples[y * self.width + x] = (value + 0.5).floor().clamp(0.0, self.peak);
+            }
+        }
+    }
+
+    fn square(
+        &mut self,
+        reader: &mut Reader<'_>,
+        x: usize,
+        y: usize,
+        k: usize,
+        window: Option<usize>,
+        pure: bool,
+    ) {
+        let n = 1 << k;
+        if x >= self.width || y >= self.height {
+            let mut empty = Leaf { x, y, n, domain: None, mean: 0.0, coefficients: Vec::new() };
+            let mut edge = Vec::new();
+            if y > 0 {
+                edge.extend((0..n).map(|j| self.base[self.at(x + j, y - 1)]));
+            }
+            if x > 0 {
+                edge.extend((0..n).map(|i| self.base[self.at(x - 1, y + i)]));
+            }
+            empty.mean = edge.iter().sum::<f64>() / edge.len() as f64;
+            self.keep(empty);
+            return;
+        }
+        if k > 2 {
+            let left = if x == 0 { None } else { self.seen[self.at(x - 1, y)] };
+            let above = if y == 0 { None } else { self.seen[self.at(x, y - 1)] };
+            let smaller = [left, above].iter().filter(|leaf| leaf.is_some_and(|(side, _)| side < n)).count();
+            if reader.bin("divided", self.chroma * 4 + k, smaller) {
+                for (dx, dy) in [(0, 0), (n / 2, 0), (0, n / 2), (n / 2, n / 2)] {
+                    self.square(reader, x + dx, y + dy, k - 1, window, pure);
+                }
+                return;
+            }
+        }
+        self.leaf(reader, x, y, k, window, pure);
+        if window.is_some()
+            && let Some(leaf) = self.leaves.last().cloned()
+        {
+            self.draw(&leaf);
+        }
+    }
+}
+
+impl Leaf {
+    /// The transform at row `i` and column `j`.
+    fn pixel(&self, i: usize, j: usize) -> f64 {
+        let n = self.n as f64;
+        let wave = |k: usize, i: usize| {
+            let scale = if k == 0 { 0.5_f64.sqrt() } else { 1.0 };
+            scale * (PI * (2 * i + 1) as f64 * k as f64 / (2.0 * n)).cos()
+        };
+        self.coefficients.iter().map(|(v, u, value)| 2.0 / n * value * wave(*v, i) * wave(*u, j)).sum()
+    }
+}
+
+/// Decodes a whole, undamaged file.
+///
+/// # Panics
+/// For any other bytes.
+pub fn decode(file: &[u8]) -> Decoded {
+    assert_eq!(&file[..5], b"ATFI\x01");
+    let pair = |at: usize| usize::from(file[at]) + 256 * usize::from(file[at + 1]);
+    let flags = file[5];
+    let (width, height, q8) = (pair(6), pair(8), ((256 + u64::from(file[10])) << file[11]) >> 4);
+    let (reach, chroma) = (usize::from(file[12]), u64::from(file[13]));
+    let digits = 1 + file[14..].iter().position(|byte| *byte < 128).unwrap();
+    let length = (0..digits).map(|k| usize::from(file[14 + k] & 127) << (7 * k)).sum::<usize>();
+    let payload = &file[14 + digits..][..length];
+    let (profile, kind) = (flags & 3, flags >> 2 & 3);
+    let peak = if flags & 16 == 0 { 255.0 } else { 65535.0 };
+    let mut planes: Vec<Plane> = (0..if kind == 0 { 1 } else { 3 })
+        .map(|plane| {
+            let halved = usize::from(plane > 0 && kind == 2);
+            let (width, height, largest) =
+                ((width + halved) >> halved, (height + halved) >> halved, 32 >> halved);
+            let across = width.div_ceil(largest) * largest;
+            let all = across * height.div_ceil(largest) * largest;
+            let start = if plane == 0 { 0.0 } else { (peak + 1.0) / 2.0 };
+            let q8 = if plane == 0 { q8 } else { (q8 * chroma / 16).max(1) };
+            Plane {
+                width,
+                height,
+                largest,
+                chroma: usize::from(plane > 0),
+                q: q8 as f64 / 256.0,
+                peak,
+                samples: vec![start; width * height],
+                base: vec![0.0; all],
+                seen: vec![None; all],
+                across,
+                leaves: Vec::new(),
+            }
+        })
+        .collect();
+    let mut reader = Reader { bytes: payload, range: (1 << 32) - 1, code: 0, models: Default::default() };
+    for _ in 0..4 {
+        reader.code = 256 * reader.code + reader.next();
+    }
+    for band in 0..height.div_ceil(32) {
+        for plane in &mut planes {
+            let window = (profile == 0).then_some(reach * 8 * plane.largest / 32);
+            let y = band * plane.largest;
+            // the leaf to the left of a band's first is none
+            for x in (0..plane.width).step_by(plane.largest) {
+                let k = plane.largest.ilog2() as usize;
+                plane.square(&mut reader, x, y, k, window, profile == 2);
+            }
+        }
+    }
+    if profile != 0 {
+        for _ in 0..reach {
+            for plane in &mut planes {
+                for leaf in plane.leaves.clone() {
+                    plane.draw(&leaf);
+                }
+            }
+        }
+    }
+    Decoded {
+        planes: planes.into_iter().map(|plane| (plane.width, plane.height, plane.samples)).collect(),
+        peak,
+    }
+}
