@@ -1,12 +1,12 @@
 //! An environment map: an image all round, infinitely far away.
 //!
-//! Longitude is the angle from the x axis towards the y axis, the image's width from 0 to a turn; latitude its
-//! height, from straight down at the lower edge to straight up at the upper one. What a cone of directions of
-//! angle `w` sees is the mean over `w / (2 pi cos latitude)` of the width and `w / pi` of the height. Straight up
-//! and down there is no longitude: a cone sees all of them, a line that of the x axis.
+//! Longitude is the angle from the x axis towards the y axis, the image's width from 0 to a turn; latitude
+//! its height, from straight down at the lower edge to straight up at the upper one. What a cone of
+//! directions of angle `w` sees is the mean over `w / (2 pi cos latitude)` of the width and `w / pi` of the
+//! height. Straight up and down there is no longitude: a cone sees all of them, a line that of the x axis.
 //!
-//! Source: the course unit V, section 5.8 (environment mapping: the mean over the region of the environment that a
-//! pixel's area is reflected to).
+//! Source: the course unit V, section 5.8 (environment mapping: the mean over the region of the environment
+//! that a pixel's area is reflected to).
 //!
 //! Format: angles 32 fractional bits of a turn, parts of the image 24.
 
@@ -28,8 +28,8 @@ impl<'a> Panorama<'a> {
 }
 
 impl Surroundings for Panorama<'_> {
-    /// Error: below `2^-13` away from the poles, for an image of 16 times 8 texels (row `Panorama::light`); of a
-    /// wider one as much more as its texels are smaller.
+    /// Error: below `2^-13` away from the poles, for an image of 16 times 8 texels (row `Panorama::light`);
+    /// of a wider one as much more as its texels are smaller.
     fn light(&self, direction: Vec3<Unit>, width: Unit) -> Rgb {
         let [x, y, z] = [direction.x, direction.y, direction.z].map(Unit::to_bits);
         let level = sqrt((product(x, x) as u64).wrapping_add(product(y, y) as u64)).min(1 << 30);

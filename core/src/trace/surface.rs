@@ -17,7 +17,8 @@ use crate::num::{Real, Unit, Vec3, Wide};
 pub struct Crossing {
     /// The ray's parameter, 0 or more.
     pub t: Real,
-    /// Whether the ray goes in: against the outward normal of a solid, or of the upper side of an open surface.
+    /// Whether the ray goes in: against the outward normal of a solid, or of the upper side of an open
+    /// surface.
     pub enters: bool,
     /// Which face of the shape it is.
     pub face: u8,

@@ -12,8 +12,8 @@ use crate::Error;
 use crate::num::{Real, Rgb, Unit, Vec3, Wide};
 
 /// A material by its components. `T` is what colours it, `S` its model of highlights, `I` what is inside:
-/// nothing that light passes, unless it is [`Clear`]. What a type rules out takes no code: a world without glass
-/// has none of refraction's.
+/// nothing that light passes, unless it is [`Clear`]. What a type rules out takes no code: a world without
+/// glass has none of refraction's.
 ///
 /// ```
 /// use attractor::num::{Lumen, Real, Rgb, Unit};

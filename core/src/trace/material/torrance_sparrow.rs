@@ -137,7 +137,8 @@ mod tests {
         assert!(worst < 1e-3 && tried > 2000, "{worst} {tried}");
     }
 
-    /// No more light leaves than arrives: the integral over the light's directions is at most the reflectance.
+    /// No more light leaves than arrives: the integral over the light's directions is at most the
+    /// reflectance.
     #[test]
     fn no_light_is_made() {
         let up = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);

@@ -4,10 +4,11 @@
 //!
 //! `N' = N + b_u (n x P_v) + b_v (P_u x n)`, `N = P_u x P_v`,
 //!
-//! as long as `b` is small. Heights go outwards: where `u` and `v` run round the outward normal to the left, as
-//! under a map that mirrors, `n` is the unit vector along `N`, which is inward, and what is wanted is
-//! `-N + b_u (n x P_v) + b_v (P_u x n)`. So what is mirrored has bumps where its original has them. How much it leans depends on the lengths of `P_u` and `P_v`: everything is divided by
-//! both here, which leaves unit tangents and slopes `b_u / |P_u|`, `b_v / |P_v|`.
+//! as long as `b` is small. Heights go outwards: where `u` and `v` run round the outward normal to the left,
+//! as under a map that mirrors, `n` is the unit vector along `N`, which is inward, and what is wanted is
+//! `-N + b_u (n x P_v) + b_v (P_u x n)`. So what is mirrored has bumps where its original has them. How much
+//! it leans depends on the lengths of `P_u` and `P_v`: everything is divided by both here, which leaves unit
+//! tangents and slopes `b_u / |P_u|`, `b_v / |P_v|`.
 //!
 //! Source: the course unit V, section 5.8.2; J. Blinn, "Simulation of wrinkled surfaces", 1978. The printed
 //! cross product of the text has become a sum.
@@ -36,11 +37,11 @@ pub struct Bumpy<M, B> {
     pub bump: B,
 }
 
-/// The unit normal of a surface raised by a bump, on the side of the point's normal; that one itself where there
-/// are no texture coordinates.
+/// The unit normal of a surface raised by a bump, on the side of the point's normal; that one itself where
+/// there are no texture coordinates.
 ///
-/// Domain: all; slopes beyond 64 count as 64. Error: below `2^-22` in each component for tangents of lengths from
-/// 1/4 on, at an angle of 30 degrees or more, and slopes up to 4
+/// Domain: all; slopes beyond 64 count as 64. Error: below `2^-22` in each component for tangents of lengths
+/// from 1/4 on, at an angle of 30 degrees or more, and slopes up to 4
 /// (`a_bumpy_normal_is_that_of_the_formula_on_both_sides`).
 pub fn bumped_normal(point: &SurfacePoint, [b_u, b_v]: [Real; 2]) -> Vec3<Unit> {
     let tangents = [point.chart.along_u, point.chart.along_v].map(|p| [p.x, p.y, p.z].map(Real::to_bits));
@@ -296,7 +297,8 @@ mod tests {
                 normalised(core::array::from_fn(|i| side * flat[i] + b_u * first[i] + b_v * second[i]))
             };
             let chart = Chart { along_u: vector(p), along_v: vector(q), ..Chart::default() };
-            // seen from outside and from inside, mirrored and not: there the outward normal is against P_u x P_v
+            // seen from outside and from inside, mirrored and not: there the outward normal is against P_u x
+            // P_v
             for (side, inward) in [(1.0, false), (-1.0, true), (-1.0, false), (1.0, true)] {
                 let [x, y, z] = n.map(|c| Unit::from_num(side * c));
                 let point = SurfacePoint { chart, normal: Vec3::new(x, y, z), inward, ..placed([0; 3]) };

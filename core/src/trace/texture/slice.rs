@@ -11,7 +11,8 @@ use super::field::Texture;
 use crate::num::{Real, Unit, Vec3};
 use crate::plane::{Bounds2, Field, LinearRgb, Window};
 
-/// A texture where a plane cuts it, as a field of the plane. Texture coordinates go from 0 to 1 over the window.
+/// A texture where a plane cuts it, as a field of the plane. Texture coordinates go from 0 to 1 over the
+/// window.
 ///
 /// ```
 /// use attractor::num::{Real, Rgb, Unit};
