@@ -504,22 +504,30 @@ fn a_bump_tilts_what_is_lit_and_a_frame_turns_the_grain() {
 
 #[test]
 fn a_bump_sends_no_light_through_a_mirror_and_none_back_from_clear_glass() {
-    let mut world = empty(compass());
-    // A slope that falls away from the ray: mirrored there it goes down, and is mirrored once more.
     let bump = |slope: f64| Some(Pattern::plain([slope, 0.0]));
-    world.one(Plane, Placing::IDENTITY, Material { bump: bump(-0.2), ..Material::mirror() });
-    let (d, n) = (normalised([1.0, 0.0, -0.1]), normalised([0.2, 0.0, 1.0]));
+    let mirroring = |slope: f64| {
+        let mut world = empty(compass());
+        world.one(Plane, Placing::IDENTITY, Material { bump: bump(slope), ..Material::mirror() });
+        world
+    };
+    // A slope that falls away from the ray: mirrored there it goes down, and is mirrored once more.
+    let (d, n) = (normalised([1.0, 0.0, -0.1]), normalised([0.08, 0.0, 1.0]));
     let m = along(d, -2.0 * dot(d, n), n);
-    assert!(m[2] < -0.1);
-    assert_close(direction(world.seen([-1.0, 0.0, 0.1], d)), [m[0], 0.0, -m[2]], 1e-14);
-    // A slope that stands against the ray, before an index of 1/2: bent there the ray goes up again.
+    assert!(dot(d, n) < 0.0 && m[2] < -0.05);
+    assert_close(direction(mirroring(-0.08).seen([-1.0, 0.0, 0.1], d)), [m[0], 0.0, -m[2]], 1e-14);
+    // One that falls away further is seen from behind: the plane itself mirrors.
+    assert_close(direction(mirroring(-0.2).seen([-1.0, 0.0, 0.1], d)), [d[0], 0.0, -d[2]], 1e-14);
+    // A slope that stands against the ray, before an index of 1/2: bent there the ray would go up again, and at
+    // the plane it is reflected totally.
     let mut world = empty(compass());
     let glass = Material { fresnel: false, bump: bump(20.0), ..Material::glass(0.5) };
     world.one(Plane, Placing::IDENTITY, glass);
     let (d, n) = (normalised([1.0, 0.0, -0.02]), normalised([-20.0, 0.0, 1.0]));
     let t = super::refraction::refracted(d, n, 2.0).expect("almost straight on");
-    assert!(t[2] > 0.005);
-    assert_close(direction(world.seen([-1.0, 0.0, 0.02], d)), [t[0], 0.0, -t[2]], 1e-14);
+    assert!(t[2] > 0.005 && super::refraction::refracted(d, [0.0, 0.0, 1.0], 2.0).is_none());
+    let m = along(d, -2.0 * dot(d, n), n);
+    assert!(m[2] > 0.05);
+    assert_close(direction(world.seen([-1.0, 0.0, 0.02], d)), m, 1e-14);
 }
 
 #[test]
