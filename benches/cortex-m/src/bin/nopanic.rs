@@ -29,6 +29,7 @@ fn main() -> ! {
     let _ = bb(copies());
     let _ = bb(julia_sets());
     let _ = bb(textures());
+    let _ = bb(shapes());
     #[cfg(feature = "deliberate-panic")]
     bb([1, 2, 3][bb(0_usize)]);
     semihosting::process::exit(0)
@@ -283,4 +284,53 @@ fn numbers() {
     let v = num::Vec3::new(bb(num::Real::ONE), bb(num::Real::ONE), bb(num::Real::ONE));
     bb((v.minus(v), v.towards(v)));
     bb(v.normalised());
+}
+
+/// Every shape: placed, crossed, told what a ray met, and asked on which side a place is.
+fn shapes() -> Result<(), Error> {
+    use attractor::num::{Affine3, Near, Vec3};
+    use attractor::trace::solid::{
+        Cube, HalfSpace, Implicit, Moved, Placed, Plane, Polygon, Polyhedron, Shape, Sphere, Square,
+        Superellipsoid, TaperedCylinder, Torus,
+    };
+    use attractor::trace::{Ball, Ray, Surface};
+    use core::ops::ControlFlow;
+
+    fn seen(surface: &impl Surface, ray: &Ray) {
+        surface.cross(ray, bb(Unit::DELTA), &mut |crossing| {
+            bb(surface.point(ray, bb(Unit::DELTA), &crossing, true));
+            bb(ControlFlow::Continue(()))
+        });
+        let place = ray.origin();
+        bb((surface.value(place), surface.is_clear_of(place), surface.extent(), surface.ball()));
+        bb((surface.error(), surface.faces(), surface.most_crossings(), surface.is_closed()));
+    }
+
+    fn met(shape: impl Shape, map: &Affine3, ray: &Ray) -> Result<(), Error> {
+        seen(&Placed::new(shape, map)?, ray);
+        Ok(())
+    }
+
+    let (one, at) = (bb(Real::ONE), bb(Vec3::<Real>::X));
+    let map = Affine3::rotate(at, bb(Angle::ZERO))?
+        .then(&Affine3::scale(at))
+        .then(&Affine3::translate(at))
+        .then(&bb(Affine3::IDENTITY));
+    let ray = Ray::new(at, bb(Vec3::<Real>::Y));
+    met(Sphere, &map, &ray)?;
+    met(Plane, &map, &ray)?;
+    met(Square, &map, &ray)?;
+    met(Cube, &map, &ray)?;
+    met(TaperedCylinder::new(one)?, &map, &ray)?;
+    met(Torus::new(bb(Near::ONE))?, &map, &ray)?;
+    met(Superellipsoid::new(one, one)?, &map, &ray)?;
+    let planes = [HalfSpace::new(bb(Vec3::new(Wide::ONE, Wide::ONE, Wide::ZERO)), bb(Wide::ONE))?; 4];
+    met(Polyhedron::new(&planes)?, &map, &ray)?;
+    met(Polygon::<8>::new(&bb([at; 3]))?, &map, &ray)?;
+    let box_of =
+        bb([Vec3::new(-Near::ONE, -Near::ONE, -Near::ONE), Vec3::new(Near::ONE, Near::ONE, Near::ONE)]);
+    met(Implicit::new(|place: Vec3<Near>| place.z, box_of, one)?, &map, &ray)?;
+    seen(&Moved::new(Placed::new(Sphere, &map)?, &map)?, &ray);
+    bb(Ball::round(at, ray.origin()).centre());
+    Ok(())
 }

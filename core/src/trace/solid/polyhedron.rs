@@ -112,7 +112,7 @@ impl<'a> Polyhedron<'a> {
             let (what, min, max) = ("corner of a polyhedron", Wide::from_num(-2), Wide::from_num(2));
             return Err(Error::OutOfRange { what, index: None, value: Wide::MAX, min, max });
         }
-        let middle = sum.map(|c| (c / corners) as i32);
+        let middle = sum.map(|c| c.checked_div(corners).unwrap_or(0) as i32);
         if planes.iter().any(|p| p.along(middle) > p.distance - (1 << 8)) {
             return Err(empty);
         }

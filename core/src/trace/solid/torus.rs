@@ -94,7 +94,7 @@ impl Quartic {
     #[inline(never)]
     fn root(&self, bracket: Bracket) -> Q30 {
         let Bracket { mut low, mut high, start, enters } = bracket;
-        let mut s = start.clamp(low, high);
+        let mut s = start.max(low).min(high);
         // roots that nearly coincide take up to twenty steps, others four
         for _ in 0..32 {
             let (value, slope) = self.at(s);
@@ -109,7 +109,7 @@ impl Quartic {
             let size = step.unsigned_abs();
             // what is left behind is about the square of the step over the slope
             if size < 16 || size < 1 << 20 && size * size < u64::from(slope.unsigned_abs()) << 4 {
-                return next.clamp(low.into(), high.into()) as i32;
+                return next.max(low.into()).min(high.into()) as i32;
             }
             s = if next <= i64::from(low) || next >= i64::from(high) {
                 ((i64::from(low) + i64::from(high)) >> 1) as i32
@@ -153,7 +153,7 @@ impl Cubic {
             let slope = self.slope(s);
             let (mantissa, zeros) = reciprocal(slope as u32);
             let step = product(value, mantissa) >> (32 - zeros.max(1)) << 1;
-            s = (i64::from(s) - step).clamp(0, limit.into()) as i32;
+            s = (i64::from(s) - step).max(0).min(limit.into()) as i32;
             let size = step.unsigned_abs();
             if size < 1 << 24 && size * size < u64::from(slope as u32) << 8 {
                 break;
