@@ -149,13 +149,13 @@ pub fn spanned(grid: &Grid, inner: Inner, u: f64, v: f64) -> [f64; 3] {
     }
 }
 
-/// The two numbers of a random field at a point, in units of `2^-16`: three multiplications by odd numbers,
+/// The two numbers of a random field at a point, in units of `2^-16`: three multiplications by an odd number,
 /// the upper word added to the lower one modulo 2 after each; each half of the result is an index of nine
 /// bits from above and a sign from below.
 pub fn deviates(seed: u64, u: i32, v: i32) -> [f64; 2] {
     let mixed = |mut h: u128| {
-        for factor in [0x9e37_79b9_7f4a_7c15, 0xd6e8_feb8_6659_fd93, 0xd6e8_feb8_6659_fd93_u128] {
-            h = h * factor % (1 << 64);
+        for _ in 0..3 {
+            h = h * 0x9e37_79b1 % (1 << 64);
             h ^= h >> 32;
         }
         h
