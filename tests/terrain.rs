@@ -305,11 +305,11 @@ fn transform(values: &mut [[f64; 2]]) {
     let [mut even, mut odd] = [0, 1].map(|k| values.iter().skip(k).step_by(2).copied().collect::<Vec<_>>());
     transform(&mut even);
     transform(&mut odd);
-    for k in 0..n / 2 {
+    for (k, (even, odd)) in even.iter().zip(&odd).enumerate() {
         let (sine, cosine) = (-TAU * k as f64 / n as f64).sin_cos();
-        let [re, im] = [odd[k][0] * cosine - odd[k][1] * sine, odd[k][0] * sine + odd[k][1] * cosine];
-        values[k] = [even[k][0] + re, even[k][1] + im];
-        values[k + n / 2] = [even[k][0] - re, even[k][1] - im];
+        let [re, im] = [odd[0] * cosine - odd[1] * sine, odd[0] * sine + odd[1] * cosine];
+        values[k] = [even[0] + re, even[1] + im];
+        values[k + n / 2] = [even[0] - re, even[1] - im];
     }
 }
 

@@ -107,14 +107,12 @@ pub fn spanned(grid: &Grid, inner: Inner, u: f64, v: f64) -> [f64; 3] {
             };
             let sum = |f: [f64; 4], g: [f64; 4]| {
                 let mut sum = 0.0;
-                for a in 0..2_usize {
-                    for b in 0..2_usize {
-                        let (i, j) = (i + a as i64, j + b as i64);
-                        let along_u = (at(i + 1, j) - at(i - 1, j)) / 2.0;
-                        let along_v = (at(i, j + 1) - at(i, j - 1)) / 2.0;
-                        sum += at(i, j) * f[a] * g[b];
-                        sum += along_u * f[2 + a] * g[b] + along_v * f[a] * g[2 + b];
-                    }
+                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let (i, j) = (i + a as i64, j + b as i64);
+                    let along_u = (at(i + 1, j) - at(i - 1, j)) / 2.0;
+                    let along_v = (at(i, j + 1) - at(i, j - 1)) / 2.0;
+                    sum += at(i, j) * f[a] * g[b];
+                    sum += along_u * f[2 + a] * g[b] + along_v * f[a] * g[2 + b];
                 }
                 sum
             };
