@@ -41,6 +41,7 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "carpenter-1",
     "carpenter-2",
     "mountain-line",
+    "extrapolation",
     "coastline",
     "cantor",
     "plant",
@@ -76,6 +77,15 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "figure-7-jittered",
     "clouds",
     "lava",
+    "edge-midpoints",
+    "centre-midpoints",
+    "no-hole",
+    "mountain-bilinear",
+    "mountain-ferguson",
+    "mountain-b-spline",
+    "island",
+    "jacksboro",
+    "flight",
 ];
 
 /// The text of a built-in scene.
@@ -92,6 +102,14 @@ pub(crate) fn nearest(name: &str) -> Option<&'static str> {
     };
     let (known, _) = SCENES.iter().min_by_key(|(known, _)| (distance(known), known.len()))?;
     (distance(known) <= name.chars().count().div_ceil(3)).then_some(*known)
+}
+
+/// A built-in data file that is no text.
+pub(crate) fn bytes(file: &str) -> Option<&'static [u8]> {
+    match file {
+        "../data/jacksboro-elevation-m.png" => Some(include_bytes!("../data/jacksboro-elevation-m.png")),
+        _ => None,
+    }
 }
 
 /// The text of a built-in data file.

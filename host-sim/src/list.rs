@@ -17,7 +17,7 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
   curve        curve = \"koch\" | ... or generator = [[x, y], ...] or turtle = \"F+F--F+F\" with angle = degrees;
                order = 5 or adaptive = true (down to a pixel), [base = [[x, y], ...]], [fill], [palette];
                letters of a turtle: F or A a copy of the curve, B walked from its end, a and b the same on the other side, + left, - right
-  random-curve law = \"elbow\" | \"line-to-line\" | \"one-variable\" | \"two-variable\", [knots = [[x, y], ...] | coast = \"iceland\"], [seed],
+  random-curve law = \"elbow\" | \"line-to-line\" | \"one-variable\" | \"two-variable\", [knots = [[x, y], ...] | coast = \"iceland\"], [extrapolate], [seed],
                [beta], [deviation], [offset], [ratio], [length | norm | parameter: where to stop], [fill], [palette]
   l-system     axiom = \"X\", rules = { X = \"F[+X]F[-X]+X\", F = \"FF\" }, angle = degrees, order = 5, [heading = 0: degrees, 90 is up], [palette];
                letters: F and G draw a step, f moves a step, + left, - right, | round, [ remember, ] return; other letters only rewrite
@@ -37,6 +37,11 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
                [shininess] | [roughness], [reflectance] | [roughness], [across]; [reflect]; [index], [transmit], [fresnel], [priority];
                [bump] and [frame] = { texture, strength }; [texture.NAME] as below; [environment] kind = \"plain\" | \"sky\" | \"checkerboard\" | \"image\";
                [samples = 1], [filter = \"box\" | \"gaussian\"], [seed], [depth = 5], [interpenetration = \"refuse\" | \"priority\"]; colours \"#rrggbb\" or [r, g, b]
+  terrain      knots (rows from south to north) or [elevation] png, step, [window = [column, row, columns, rows]], [base], [void], [voids = \"refuse\" | \"fill\"];
+               [offset], [similarity] (both from the data if left out), [seed], [surface = 0], [origin], levels, [inner = \"bilinear\" | \"ferguson\" | \"b-spline\"],
+               [over = [[-1, 1], [-1, 1]]], [camera], [flight] eye, look_at, time; [sun] towards, color; [sky] zenith, horizon, nadir; [haze], [ambient], [samples = 2];
+               [ground] color or [sand], [grass], [rock], [snow], [shore], [snow_line], [steep], [passage], [ragged], [grain]; [plain] [level], [color], [reflect];
+               or mesh = \"edges\" | \"lattice\" | \"triangles\" ([near] eye, length), [palette]
   texture      [texture] kind = \"checker\" | \"noise\" | \"turbulence\" | \"wood\" | \"marble\" | \"facets\" | \"image\", [colors], [knots], [grain], [octaves], [seed], ...;
                [centre], [width = 4], [height = 0: the third coordinate, time]
 Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain

@@ -3,6 +3,7 @@
 mod accuracy;
 mod bad_curves;
 mod bad_input;
+mod bad_terrain;
 mod bad_world;
 mod common;
 mod export;

@@ -2,9 +2,9 @@
 
 use attractor::Error;
 use attractor::curve::{
-    Displacement, Elbow, Generator, LSystem, LineToLine, MAX_LETTERS, OneVariable, Orientation, Part, Stop,
-    Subdivision, TwoVariable, catalogue, dimension_of_ratio, dimension_of_spectrum, displaced, koch,
-    turn_over,
+    Backwards, Displacement, Elbow, Generator, LSystem, LineToLine, MAX_LETTERS, OneVariable, Orientation,
+    Part, Stop, Subdivision, TwoVariable, catalogue, dimension_of_ratio, dimension_of_spectrum, displaced,
+    koch, turn_over,
 };
 use attractor::num::{Angle, Real, Unit, Wide};
 use attractor::num::{Deviate, Parameter, RandomFunction};
@@ -84,6 +84,9 @@ fn subdivide(law: &(impl Displacement + Clone), knots: &[Point2], stop: Stop, pi
     let most = (knots.len() - 1) * (1 << 12) + 2;
     let count = walk(curve.clone().take(20_000), most);
     assert!(count >= knots.len(), "{count} points for {} knots", knots.len());
+    let mut back = Backwards::<'_, _, 12>::new(law, knots, stop).unwrap();
+    assert_eq!(back.parameter(), Parameter::from_num(knots.len() - 1));
+    assert_eq!(walk(back.by_ref().take(20_000), most), count);
     let mut last = curve.parameter();
     let mut halves = curve.clone();
     while halves.next().is_some() {

@@ -21,6 +21,9 @@ const MISSING: &[(&str, &str)] = &[
     ("marble", LONG),
     ("cloth", LONG),
     ("figure-7-jittered", LONG),
+    ("island", "its lattice of 257 x 257 heights takes more RAM than there is"),
+    ("flight", "its elevations are too many knots for a module"),
+    ("jacksboro", "its elevations are too many knots for a module"),
 ];
 /// Up to 16 rays a pixel, and as many again as there are bounces.
 const LONG: &str = "the emulator would take minutes for it";

@@ -32,6 +32,7 @@
 //! # Ok::<(), attractor::Error>(())
 //! ```
 
+mod backwards;
 mod carpenter;
 pub mod catalogue;
 pub mod coast;
@@ -45,6 +46,7 @@ mod refined;
 mod subdivision;
 mod turtle;
 
+pub use backwards::Backwards;
 pub use carpenter::{LineToLine, OneVariable, TwoVariable};
 pub use dimension::{dimension_of_ratio, dimension_of_spectrum};
 pub use displacement::{Displacement, Part, displaced};

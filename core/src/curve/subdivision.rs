@@ -32,9 +32,9 @@ pub enum Stop {
 
 /// Where a part ends, and how often it has been halved.
 #[derive(Debug, Clone, Copy, Default)]
-struct End {
-    point: Point2,
-    level: u32,
+pub(super) struct End {
+    pub(super) point: Point2,
+    pub(super) level: u32,
 }
 
 /// The path of a random curve through knots, with at most `LEVELS <= 31` halvings between two. Size on a
@@ -74,20 +74,20 @@ struct End {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Subdivision<'a, D, const LEVELS: usize> {
-    law: &'a D,
+    pub(super) law: &'a D,
     /// Knots that are not reached yet.
-    knots: &'a [Point2],
+    pub(super) knots: &'a [Point2],
     /// The last point.
-    from: Point2,
+    pub(super) from: Point2,
     /// Its parameter.
-    at: Q32,
+    pub(super) at: Q32,
     /// The ends of the parts that wait, each beginning where the one before it ends; the last of them is
     /// next.
-    ends: [End; LEVELS],
-    waiting: usize,
+    pub(super) ends: [End; LEVELS],
+    pub(super) waiting: usize,
     /// The end of the first part, between the step to its beginning and the line along it.
-    end: Option<End>,
-    span: Real,
+    pub(super) end: Option<End>,
+    pub(super) span: Real,
     levels: u32,
     /// The norm or the length below which a part is short; 0 for none.
     limit: UQ24,
@@ -96,7 +96,7 @@ pub struct Subdivision<'a, D, const LEVELS: usize> {
     /// The piece of the curve that is wanted, if not all of it.
     piece: [Q32; 2],
     partial: bool,
-    drawing: bool,
+    pub(super) drawing: bool,
 }
 
 impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
@@ -183,7 +183,7 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
     }
 
     #[inline(always)]
-    fn is_short(&self, end: &End) -> bool {
+    pub(super) fn is_short(&self, end: &End) -> bool {
         if end.level >= self.levels {
             return true;
         }
@@ -243,7 +243,7 @@ impl<'a, D: Displacement, const LEVELS: usize> Subdivision<'a, D, LEVELS> {
 
 /// Half the parameter of a part that has been halved `level <= 31` times.
 #[inline(always)]
-const fn half(level: u32) -> UQ32 {
+pub(super) const fn half(level: u32) -> UQ32 {
     (1_u32 << 31) >> (level & 31)
 }
 

@@ -3,7 +3,7 @@
 use super::law::{Law, centre, edge};
 use super::random::Randomness;
 use crate::num::Coordinate;
-use crate::num::formats::Q24;
+use crate::num::formats::{Q24, Q28};
 
 /// The square between four points of a lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -32,8 +32,12 @@ impl Cell {
     /// The new heights when a cell at this level is halved.
     #[inline(always)]
     pub(crate) fn halved(&self, level: u32, law: &Law, random: &impl Randomness) -> Middles {
-        let half = Self::half(level);
-        let offset = law.at(level);
+        self.halved_by(Self::half(level), law.at(level), random)
+    }
+
+    /// The same for half its side and the offset of its level.
+    #[inline(always)]
+    pub(super) fn halved_by(&self, half: i32, offset: Q28, random: &impl Randomness) -> Middles {
         let [a, b, c, d] = self.corners;
         // the last knot is at 32767: nothing wraps
         let at = |du: i32, dv: i32| {
@@ -54,7 +58,12 @@ impl Cell {
     /// One of its quarters.
     #[inline(always)]
     pub(crate) fn part(&self, level: u32, middles: &Middles, east: bool, north: bool) -> Self {
-        let half = Self::half(level);
+        self.part_by(Self::half(level), middles, east, north)
+    }
+
+    /// The same for half its side.
+    #[inline(always)]
+    pub(super) fn part_by(&self, half: i32, middles: &Middles, east: bool, north: bool) -> Self {
         let ([a, b, c, d], [s, n, w, e], m) = (self.corners, middles.edges, middles.centre);
         let corners = match (east, north) {
             (false, false) => [a, s, w, m],

@@ -84,16 +84,18 @@ impl<'a, R: Randomness> PlaneToLine<'a, R> {
         let j = (v >> 16).min(self.heights.rows() - 2);
         let mut cell = self.knot_cell(i, j);
         let (mut u, mut v) = ((u - (i << 16)) as i32, (v - (j << 16)) as i32);
-        let mut level = 0;
-        // the point is a corner when both are multiples of the side
-        while level < LEVELS && (u | v) & (2 * Cell::half(level) - 1) != 0 {
-            let half = Cell::half(level);
-            let (east, north) = (u >= half, v >= half);
-            let middles = cell.halved(level, &self.law, &self.random);
-            cell = cell.part(level, &middles, east, north);
-            u -= if east { half } else { 0 };
-            v -= if north { half } else { 0 };
-            level += 1;
+        let mut side = 1 << 16;
+        for offset in self.law.offsets() {
+            // the point is a corner when both are multiples of the side
+            if (u | v) & (side - 1) == 0 {
+                break;
+            }
+            side >>= 1;
+            let (east, north) = (u >= side, v >= side);
+            let middles = cell.halved_by(side, *offset, &self.random);
+            cell = cell.part_by(side, &middles, east, north);
+            u -= if east { side } else { 0 };
+            v -= if north { side } else { 0 };
         }
         let [a, b, c, d] = cell.corners;
         let [south, north] = if u == 0 { [a, c] } else { [b, d] };

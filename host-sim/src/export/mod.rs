@@ -10,6 +10,7 @@ mod module;
 mod palette;
 mod surface;
 mod system;
+mod terrain;
 mod texture;
 mod world;
 
@@ -31,7 +32,12 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
             let reason = "a directory is for --all; one scene goes to standard output";
             return Err(Fail::new(format_args!("--output {}: {reason}", output.display())));
         }
-        let text = source(&scene::load(name)?, args.gallery);
+        let scene = scene::load(name)?;
+        if !is_exported(&scene) {
+            let reason = "an elevation model has too many knots for a module: a window takes a part";
+            return Err(Fail::new(format_args!("{}: {reason}", scene.name)));
+        }
+        let text = source(&scene, args.gallery);
         std::io::stdout().lock().write_all(text.as_bytes())?;
         return Ok(());
     }
@@ -42,7 +48,10 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
     );
     let mut files = Vec::new();
     for (name, _) in builtin::SCENES {
-        files.push((identifier(name), source(&scene::load(name)?, args.gallery)));
+        let scene = scene::load(name)?;
+        if is_exported(&scene) {
+            files.push((identifier(name), source(&scene, args.gallery)));
+        }
     }
     files.sort();
     index.extend(files.iter().map(|(name, _)| format!("pub mod {name};\n")));
@@ -56,6 +65,14 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
         writeln!(out, "{}", path.display())?;
     }
     Ok(())
+}
+
+/// Whether a module is not too long.
+fn is_exported(scene: &Scene) -> bool {
+    match &scene.kind {
+        Kind::Terrain(scene) => scene.picture().knots.len() <= terrain::MOST,
+        _ => true,
+    }
 }
 
 /// The name of a built-in scene as that of a module.
@@ -83,6 +100,7 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::Julia(scene) => escape::julia(scene, &mut module),
         Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
         Kind::Texture(scene) => texture::slice(scene, &mut module),
+        Kind::Terrain(scene) => terrain::terrain(scene, &mut module, gallery),
         Kind::World(scene) => world::world(scene, &mut module),
     }
     module

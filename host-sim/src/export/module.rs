@@ -9,7 +9,7 @@ use attractor::fixed::traits::Fixed;
 use attractor::plane::Point2;
 
 /// Where the names come from that a module may use.
-const NAMES: [(&str, &str); 17] = [
+const NAMES: [(&str, &str); 18] = [
     ("attractor", "Error"),
     ("attractor::curve", "Elbow Generator LSystem LineToLine OneVariable Stop TwoVariable"),
     (
@@ -22,8 +22,12 @@ const NAMES: [(&str, &str); 17] = [
     ),
     ("attractor::fif", "Fif Knot Pyramid"),
     ("attractor::ifs", "Affine Ifs"),
-    ("attractor::num", "Affine3 Angle Complex Limbs Lumen Near Parameter Real Rgb Scaling Unit Vec3 Wide"),
+    (
+        "attractor::num",
+        "Affine3 Angle Complex Coordinate Limbs Lumen Near Parameter RandomField Real Rgb Scaling Unit Vec3 Wide",
+    ),
     ("attractor::plane", "Bounds2 Field Point2 Window"),
+    ("attractor::terrain", "Heights InnerGeometry Law Magnification PlaneToLine"),
     (
         "attractor::trace",
         "Camera Environment Extent Filter HeightField Light Finish Panorama RayCaster Sampling Sky Tiles",
@@ -39,7 +43,7 @@ const NAMES: [(&str, &str); 17] = [
          Texels Turbulence Wood",
     ),
     ("attractor::trace::world", "Lamp Leaf Object Op World WorldCaster"),
-    ("attractor_gallery", "Method Named Pencil Shading"),
+    ("attractor_gallery", "Floor Ground Lines Method Named Pencil Shading TerrainPicture"),
     ("attractor::curve", "catalogue"),
     ("embedded_graphics::geometry", "Size"),
     ("embedded_graphics::pixelcolor", "Rgb888"),

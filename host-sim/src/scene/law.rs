@@ -2,7 +2,7 @@
 
 use attractor::Error;
 use attractor::curve::{Displacement, Elbow, LineToLine, OneVariable, Part, TwoVariable};
-use attractor::num::{Real, Unit};
+use attractor::num::{Parameter, Real, Unit};
 use attractor::plane::Point2;
 use serde::Deserialize;
 use toml::Spanned;
@@ -59,6 +59,23 @@ impl Displacement for Law {
             Self::LineToLine(law, _) => law.midpoint(part),
             Self::OneVariable(law) => law.midpoint(part),
             Self::TwoVariable(law, _) => law.midpoint(part),
+        }
+    }
+}
+
+impl Law {
+    /// The knot that makes `to` the midpoint between `from` and it; none for a law that is not Carpenter's.
+    pub(super) fn extrapolated(
+        &self,
+        from: Point2,
+        to: Point2,
+        at: Parameter,
+    ) -> Option<Result<Point2, Error>> {
+        match self {
+            Self::Elbow(..) => None,
+            Self::LineToLine(law, _) => Some(law.extrapolated(from, to, at)),
+            Self::OneVariable(law) => Some(law.extrapolated(from, to, at)),
+            Self::TwoVariable(law, _) => Some(law.extrapolated(from, to, at)),
         }
     }
 }

@@ -28,6 +28,7 @@ mod request;
 pub(crate) mod slice;
 mod standpoint;
 mod system;
+pub(crate) mod terrain;
 mod trail;
 pub(crate) mod world;
 
@@ -95,10 +96,11 @@ pub(crate) enum Kind {
     JuliaSet(julia_set::JuliaSetScene),
     World(Box<world::WorldScene>),
     Texture(Box<slice::SliceScene>),
+    Terrain(Box<terrain::TerrainScene>),
 }
 
 /// What the key `kind` may say.
-const KINDS: [&str; 12] = [
+const KINDS: [&str; 13] = [
     "fif-curve",
     "fif-surface",
     "curve",
@@ -110,6 +112,7 @@ const KINDS: [&str; 12] = [
     "julia",
     "julia-set",
     "world",
+    "terrain",
     "texture",
 ];
 
@@ -158,6 +161,7 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
         "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
         "world" => Kind::World(Box::new(world::WorldScene::load(source)?)),
+        "terrain" => Kind::Terrain(Box::new(terrain::TerrainScene::load(source)?)),
         "texture" => Kind::Texture(Box::new(slice::SliceScene::load(source)?)),
         _ => {
             let reason = format!("allowed is {}", KINDS.join(", "));
@@ -183,6 +187,7 @@ impl Scene {
             Kind::Julia(_) => "julia",
             Kind::JuliaSet(_) => "julia-set",
             Kind::World(_) => "world",
+            Kind::Terrain(_) => "terrain",
             Kind::Texture(_) => "texture",
         }
     }
@@ -203,8 +208,8 @@ impl Scene {
             Kind::FifSurface(_) => {
                 return Err(Fail::new("a surface is not measured, only its profiles as fif-curve"));
             }
-            Kind::World(_) | Kind::Texture(_) => {
-                return Err(Fail::new("a world or a texture is not measured"));
+            Kind::World(_) | Kind::Terrain(_) | Kind::Texture(_) => {
+                return Err(Fail::new("a world, a terrain or a texture is not measured"));
             }
             Kind::LSystem(_) => {
                 let reason = "an L-system tends to no one set: its picture grows with the order; write it as a curve, a copier or an ifs";
@@ -220,13 +225,14 @@ impl Scene {
     /// Moves about on a display of this size; the message says why not.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window moves about"))]
     pub(crate) fn go(&mut self, size: Size, motion: Motion) -> Result<(), Fail> {
-        let lit = matches!(self.kind, Kind::FifSurface(_) | Kind::World(_));
+        let lit = matches!(self.kind, Kind::FifSurface(_) | Kind::World(_) | Kind::Terrain(_));
         let reason = match &mut self.kind {
             _ if matches!(motion, Motion::Light { .. }) && !lit => "there is no light to move",
             Kind::Mandelbrot(scene) => return scene.go(size, motion),
             Kind::Julia(scene) => return scene.go(size, motion),
             Kind::FifSurface(scene) => return scene.go(size, motion),
             Kind::World(scene) => return scene.go(size, motion),
+            Kind::Terrain(scene) => return scene.go(size, motion),
             Kind::Texture(scene) => return scene.go(size, motion),
             _ => "this kind of scene shows all there is",
         };
@@ -247,6 +253,7 @@ impl Scene {
             Kind::Julia(scene) => scene.place(size).ok(),
             Kind::FifSurface(scene) => scene.place(),
             Kind::World(scene) => scene.place(),
+            Kind::Terrain(scene) => scene.place(),
             Kind::Texture(scene) => Some(scene.place()),
             _ => None,
         }
@@ -270,6 +277,7 @@ impl Scene {
             Kind::Julia(scene) => scene.draw(request, target, watch),
             Kind::JuliaSet(scene) => scene.draw(request, target, watch),
             Kind::World(scene) => scene.draw(request, target, watch),
+            Kind::Terrain(scene) => scene.draw(request, target, watch),
             Kind::Texture(scene) => scene.draw(request, target, watch),
         }
     }
@@ -300,6 +308,7 @@ impl Scene {
             Kind::Mandelbrot(scene) => scene.sample(request, out),
             Kind::Julia(scene) => scene.sample(request, out),
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
+            Kind::Terrain(scene) => scene.sample(points, out),
             Kind::World(scene) => world::sample(scene, request, question, points, &mut stdout().lock()),
             Kind::Texture(scene) => scene.sample(request, question, &mut stdout().lock()),
         }

@@ -61,7 +61,7 @@ impl Orbit {
     }
 
     /// Where that is.
-    fn eye(&self) -> [f32; 3] {
+    pub(super) fn eye(&self) -> [f32; 3] {
         let [x, y, z] = self.look_at;
         let (level, up) = (self.distance * self.lift.cos(), self.distance * self.lift.sin());
         [x + level * self.turn.cos(), y + level * self.turn.sin(), z + up]

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 
 use attractor::Error;
 use attractor::curve::{Stop, Subdivision, coast, koch};
-use attractor::num::Real;
+use attractor::num::{Parameter, Real};
 use attractor::plane::{PathElement, Point2};
 use attractor_gallery::{Pencil, RandomCurvePicture, Watch, ground_words};
 use embedded_graphics::draw_target::DrawTarget;
@@ -37,6 +37,7 @@ struct File {
     law: Spanned<Name>,
     knots: Option<Points>,
     coast: Option<Spanned<String>>,
+    extrapolate: Option<Spanned<u32>>,
     beta: Option<Num>,
     deviation: Option<Num>,
     offset: Option<Num>,
@@ -79,7 +80,7 @@ impl RandomCurve {
                 seed: file.seed,
             },
         )?;
-        let knots = match (&file.knots, &file.coast) {
+        let mut knots = match (&file.knots, &file.coast) {
             (Some(list), None) => polyline::points(source, "knots", list)?,
             (None, Some(name)) if name.get_ref() == "iceland" => coast::ICELAND.to_vec(),
             (None, None) => koch::SEGMENT.to_vec(),
@@ -88,6 +89,9 @@ impl RandomCurve {
                 return Err(source.fail(name.span(), "coast", "knots are given as well"));
             }
         };
+        if let Some(times) = &file.extrapolate {
+            extrapolate(source, times, &law, &mut knots)?;
+        }
         let (stop, limit) = stop(source, &file)?;
         let scene = {
             let closed = knots.first() == knots.last();
@@ -169,6 +173,28 @@ impl RandomCurve {
         let path = self.picture().path(request.size);
         vertices(path.map_err(|error| self.place.fail_at(request.size, error))?, points, out)
     }
+}
+
+/// Continues a curve by so many knots, figure 12: each makes the one before it a midpoint.
+fn extrapolate(
+    source: &Source,
+    times: &Spanned<u32>,
+    law: &Law,
+    knots: &mut Vec<Point2>,
+) -> Result<(), Fail> {
+    let refused = |reason: String| source.fail(times.span(), "extrapolate", reason);
+    if !(1..=16).contains(times.get_ref()) {
+        return Err(refused("allowed is 1 to 16".to_owned()));
+    }
+    for _ in 0..*times.get_ref() {
+        let [.., from, to] = knots.as_slice() else { return Ok(()) };
+        let at = Parameter::saturating_from_num(knots.len() - 1);
+        let knot = law
+            .extrapolated(*from, *to, at)
+            .ok_or_else(|| refused("an elbow depends on its level and has no next knot".to_owned()))?;
+        knots.push(knot.map_err(|error| refused(error.to_string()))?);
+    }
+    Ok(())
 }
 
 type Limit<'a> = Option<(&'static str, &'a Num)>;

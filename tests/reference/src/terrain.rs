@@ -107,14 +107,12 @@ pub fn spanned(grid: &Grid, inner: Inner, u: f64, v: f64) -> [f64; 3] {
             };
             let sum = |f: [f64; 4], g: [f64; 4]| {
                 let mut sum = 0.0;
-                for a in 0..2_usize {
-                    for b in 0..2_usize {
-                        let (i, j) = (i + a as i64, j + b as i64);
-                        let along_u = (at(i + 1, j) - at(i - 1, j)) / 2.0;
-                        let along_v = (at(i, j + 1) - at(i, j - 1)) / 2.0;
-                        sum += at(i, j) * f[a] * g[b];
-                        sum += along_u * f[2 + a] * g[b] + along_v * f[a] * g[2 + b];
-                    }
+                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let (i, j) = (i + a as i64, j + b as i64);
+                    let along_u = (at(i + 1, j) - at(i - 1, j)) / 2.0;
+                    let along_v = (at(i, j + 1) - at(i, j - 1)) / 2.0;
+                    sum += at(i, j) * f[a] * g[b];
+                    sum += along_u * f[2 + a] * g[b] + along_v * f[a] * g[2 + b];
                 }
                 sum
             };
@@ -149,13 +147,13 @@ pub fn spanned(grid: &Grid, inner: Inner, u: f64, v: f64) -> [f64; 3] {
     }
 }
 
-/// The two numbers of a random field at a point, in units of `2^-16`: three multiplications by odd numbers,
+/// The two numbers of a random field at a point, in units of `2^-16`: three multiplications by an odd number,
 /// the upper word added to the lower one modulo 2 after each; each half of the result is an index of nine
 /// bits from above and a sign from below.
 pub fn deviates(seed: u64, u: i32, v: i32) -> [f64; 2] {
     let mixed = |mut h: u128| {
-        for factor in [0x9e37_79b9_7f4a_7c15, 0xd6e8_feb8_6659_fd93, 0xd6e8_feb8_6659_fd93_u128] {
-            h = h * factor % (1 << 64);
+        for _ in 0..3 {
+            h = h * 0x9e37_79b1 % (1 << 64);
             h ^= h >> 32;
         }
         h

@@ -11,6 +11,7 @@ mod fif;
 mod paths;
 mod seed;
 mod sets;
+mod terrain;
 mod worlds;
 
 use attractor::curve::catalogue::LARGEST;
@@ -75,6 +76,7 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(random_curve!("carpenter-1", carpenter_1)),
     both_roomy(random_curve!("carpenter-2", carpenter_2)),
     random_curve!("mountain-line", mountain_line),
+    random_curve!("extrapolation", extrapolation),
     random_curve!("coastline", coastline),
     l_system!("cantor", cantor),
     l_system!("plant", plant),
@@ -91,4 +93,10 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(field_world!("figure-7", figure_7)),
     both_roomy(texture!("clouds", clouds)),
     both_roomy(texture!("lava", lava)),
+    both_roomy(lines!("edge-midpoints", edge_midpoints)),
+    both_roomy(lines!("centre-midpoints", centre_midpoints)),
+    both_roomy(lines!("no-hole", no_hole)),
+    both_roomy(terrain!("mountain-bilinear", mountain_bilinear)),
+    both_roomy(terrain!("mountain-ferguson", mountain_ferguson)),
+    both_roomy(terrain!("mountain-b-spline", mountain_b_spline)),
 ];

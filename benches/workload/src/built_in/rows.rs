@@ -239,3 +239,26 @@ macro_rules! texture {
         both!($name, |stage, C, S| worlds::texture::<C, _>(stage, of::$scene::picture))
     };
 }
+
+/// A landscape under the ray caster.
+macro_rules! terrain {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| terrain::land::<
+            C,
+            { of::$scene::PICTURE.heights() },
+            { of::$scene::PICTURE.words() },
+            { of::$scene::PICTURE.ranges() },
+        >(stage, &of::$scene::PICTURE))
+    };
+}
+
+/// A surface by its lines.
+macro_rules! lines {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| terrain::lines::<C>(
+            stage,
+            &of::$scene::PICTURE,
+            (of::$scene::LINES, of::$scene::PENCIL)
+        ))
+    };
+}

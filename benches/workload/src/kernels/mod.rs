@@ -17,6 +17,7 @@ mod picture;
 mod shade;
 mod shapes;
 mod solid;
+mod terrain;
 mod texture;
 mod trace;
 mod watch;
@@ -170,5 +171,9 @@ const TABLE: &[Kernel] = &[
     roomy(alone("torus", "ray, all crossings", solid::torus)),
     roomy(alone("superellipsoid", "ray, first crossing", solid::superellipsoid)),
     roomy(alone("star", "ray, first crossing; exponents below 1", solid::star)),
+    alone("terrain height", "height at level 12", terrain::height),
+    alone("terrain row", "height of 65 x 65", terrain::row),
+    roomy(alone("terrain ray", "ray, first crossing, 64 x 64 cells", terrain::ray)),
+    roomy(alone("terrain ray alone", "ray, first crossing, by bounds alone", terrain::ray_alone)),
     roomy(beside("mirror picture", "pixel; floats: the paper's way", picture::core, picture::paper::<f32>, picture::paper::<f64>)),
 ];

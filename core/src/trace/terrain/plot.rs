@@ -40,7 +40,7 @@ impl Rule {
     /// The plane before a cell, or behind the last.
     #[inline(always)]
     pub(super) fn plane(&self, index: u32) -> Q24 {
-        self.origin.wrapping_add((i64::from(index) * self.pitch >> 16) as i32)
+        self.origin.wrapping_add(((i64::from(index) * self.pitch) >> 16) as i32)
     }
 
     /// The first and the last plane.

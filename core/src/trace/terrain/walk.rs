@@ -167,7 +167,7 @@ fn cross_leaf(
     let (from, to) = (inside(t_in), inside(t_out));
     let (z_in, z_out) = (i64::from(z.at(t_in)), i64::from(z.at(t_out)));
     let mut found = |part: i32, is_above: bool| {
-        let along = (i64::from(t_out) - i64::from(t_in)) * i64::from(part) >> 30;
+        let along = ((i64::from(t_out) - i64::from(t_in)) * i64::from(part)) >> 30;
         changed((t_in.wrapping_add(along as i32), place, is_above))
     };
     // the ray above the patch

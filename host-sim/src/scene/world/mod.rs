@@ -1,6 +1,6 @@
 //! `kind = "world"`: objects, lights and materials under a ray tracer, in colour.
 
-mod color;
+pub(super) mod color;
 mod figure;
 mod file;
 mod lamp;

@@ -1,0 +1,60 @@
+//! Carpenter's figure 6: midlines cross in the centre, on and on.
+//!
+//! Written by `attractor export --gallery centre-midpoints`.
+
+use attractor::Error;
+use attractor::num::{Lumen, RandomField, Real, Rgb, Unit, Vec3};
+use attractor::terrain::{Heights, InnerGeometry, Law, PlaneToLine};
+use attractor::trace::Sky;
+use attractor_gallery::{Ground, Lines, Named, Pencil, TerrainPicture};
+
+/// The heights of the knots, rows from south to north.
+#[rustfmt::skip]
+pub static KNOTS: [Real; 4] = [
+    Real::lit("0"),
+    Real::lit("0.25"),
+    Real::lit("0.3"),
+    Real::lit("0.1"),
+];
+
+/// The function of the surface.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn function() -> Result<PlaneToLine<'static>, Error> {
+    let knots = Heights::new(2, 2, &KNOTS)?.with_origin(0, 0)?;
+    let random = RandomField::new(4).numbered(0);
+    let (offset, similarity) = const { (Unit::lit("0.16"), Unit::lit("1")) };
+    PlaneToLine::new(knots, Law::new(offset, similarity)?, random)
+}
+
+/// How often a cell between four knots is halved.
+pub const LEVELS: u32 = 4;
+
+/// The landscape.
+#[rustfmt::skip]
+pub const PICTURE: TerrainPicture<'static> = TerrainPicture {
+    knots: &KNOTS,
+    columns: 2,
+    origin: [0, 0],
+    roughness: (Unit::lit("0.16"), Unit::lit("1")),
+    seed: (4, 0),
+    levels: LEVELS,
+    inner: InnerGeometry::BSpline,
+    over: [[Real::lit("-1"), Real::lit("1")], [Real::lit("-1"), Real::lit("1")]],
+    ground: Ground { sand: Rgb::new(Lumen::lit("0.61514"), Lumen::lit("0.49826"), Lumen::lit("0.30142")), grass: Rgb::new(Lumen::lit("0.12456"), Lumen::lit("0.22145"), Lumen::lit("0.04822")), rock: Rgb::new(Lumen::lit("0.22145"), Lumen::lit("0.17937"), Lumen::lit("0.14172")), snow: Rgb::new(Lumen::lit("0.91557"), Lumen::lit("0.93065"), Lumen::lit("0.96117")), shore: Real::lit("0.02"), snow_line: Real::lit("0.5"), steep: Unit::lit("0.7"), passage: Unit::lit("0.1"), ragged: (Real::lit("6"), Unit::lit("0.1")) },
+    plain: None,
+    sun: (Vec3::lit("-3", "-1", "2"), Rgb::new(Lumen::lit("1"), Lumen::lit("0.94"), Lumen::lit("0.84"))),
+    ambient: Unit::lit("0.15"),
+    sky: Sky { zenith: Rgb::new(Lumen::lit("0.05173"), Lumen::lit("0.17279"), Lumen::lit("0.47636")), horizon: Rgb::new(Lumen::lit("0.59077"), Lumen::lit("0.69118"), Lumen::lit("0.79944")), nadir: Rgb::new(Lumen::lit("0.25195"), Lumen::lit("0.23645"), Lumen::lit("0.22145")) },
+    haze: Unit::lit("0"),
+    view: (Vec3::lit("0", "1", "0"), Vec3::lit("0", "0", "0"), Real::lit("40")),
+    samples: 2,
+};
+
+/// Its lines.
+#[rustfmt::skip]
+pub const LINES: Lines = Lines::Lattice;
+
+/// What they are drawn with.
+pub const PENCIL: Pencil = Pencil { palette: Named::Ocean, closed: false };
