@@ -76,6 +76,13 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "figure-7-jittered",
     "clouds",
     "lava",
+    "patch-takagi",
+    "patch-spirals",
+    "patch-bezier",
+    "patch-rock",
+    "patch-joinings",
+    "patch-diagonal",
+    "patch-mountain",
 ];
 
 /// The text of a built-in scene.

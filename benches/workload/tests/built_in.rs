@@ -21,7 +21,16 @@ const MISSING: &[(&str, &str)] = &[
     ("marble", LONG),
     ("cloth", LONG),
     ("figure-7-jittered", LONG),
+    ("patch-takagi", DESCRIBED),
+    ("patch-spirals", DESCRIBED),
+    ("patch-bezier", DESCRIBED),
+    ("patch-rock", DESCRIBED),
+    ("patch-joinings", DESCRIBED),
+    ("patch-diagonal", DESCRIBED),
+    ("patch-mountain", DESCRIBED),
 ];
+/// Curves and surfaces by control points.
+const DESCRIBED: &str = "its module describes it, and has no picture yet";
 /// Up to 16 rays a pixel, and as many again as there are bounces.
 const LONG: &str = "the emulator would take minutes for it";
 

@@ -9,7 +9,7 @@ use attractor::fixed::traits::Fixed;
 use attractor::plane::Point2;
 
 /// Where the names come from that a module may use.
-const NAMES: [(&str, &str); 17] = [
+const NAMES: [(&str, &str); 18] = [
     ("attractor", "Error"),
     ("attractor::curve", "Elbow Generator LSystem LineToLine OneVariable Stop TwoVariable"),
     (
@@ -23,6 +23,7 @@ const NAMES: [(&str, &str); 17] = [
     ("attractor::fif", "Fif Knot Pyramid"),
     ("attractor::ifs", "Affine Ifs"),
     ("attractor::num", "Affine3 Angle Complex Limbs Lumen Near Parameter Real Rgb Scaling Unit Vec3 Wide"),
+    ("attractor::patch", "Barycentric Mask Patch ProjectedCurve Sheet Tensor standard_curve"),
     ("attractor::plane", "Bounds2 Field Point2 Window"),
     (
         "attractor::trace",

@@ -22,6 +22,8 @@ pub(crate) mod law;
 pub(crate) mod mandelbrot;
 mod motion;
 mod orbit;
+pub(crate) mod patch_curve;
+pub(crate) mod patch_surface;
 mod polyline;
 pub(crate) mod random_curve;
 mod request;
@@ -95,10 +97,12 @@ pub(crate) enum Kind {
     JuliaSet(julia_set::JuliaSetScene),
     World(Box<world::WorldScene>),
     Texture(Box<slice::SliceScene>),
+    PatchCurve(Box<patch_curve::PatchCurve>),
+    PatchSurface(Box<patch_surface::PatchSurfaceScene>),
 }
 
 /// What the key `kind` may say.
-const KINDS: [&str; 12] = [
+const KINDS: [&str; 14] = [
     "fif-curve",
     "fif-surface",
     "curve",
@@ -111,6 +115,8 @@ const KINDS: [&str; 12] = [
     "julia-set",
     "world",
     "texture",
+    "patch-curve",
+    "patch-surface",
 ];
 
 /// The only key that is read before the kind is known.
@@ -158,6 +164,8 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "julia" => Kind::Julia(julia::JuliaScene::load(source)?),
         "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
         "world" => Kind::World(Box::new(world::WorldScene::load(source)?)),
+        "patch-curve" => Kind::PatchCurve(Box::new(patch_curve::PatchCurve::load(source)?)),
+        "patch-surface" => Kind::PatchSurface(Box::new(patch_surface::PatchSurfaceScene::load(source)?)),
         "texture" => Kind::Texture(Box::new(slice::SliceScene::load(source)?)),
         _ => {
             let reason = format!("allowed is {}", KINDS.join(", "));
@@ -184,6 +192,8 @@ impl Scene {
             Kind::JuliaSet(_) => "julia-set",
             Kind::World(_) => "world",
             Kind::Texture(_) => "texture",
+            Kind::PatchCurve(_) => "patch-curve",
+            Kind::PatchSurface(_) => "patch-surface",
         }
     }
 
@@ -205,6 +215,9 @@ impl Scene {
             }
             Kind::World(_) | Kind::Texture(_) => {
                 return Err(Fail::new("a world or a texture is not measured"));
+            }
+            Kind::PatchCurve(_) | Kind::PatchSurface(_) => {
+                return Err(Fail::new("curves and surfaces by control points are not measured"));
             }
             Kind::LSystem(_) => {
                 let reason = "an L-system tends to no one set: its picture grows with the order; write it as a curve, a copier or an ifs";
@@ -228,6 +241,7 @@ impl Scene {
             Kind::FifSurface(scene) => return scene.go(size, motion),
             Kind::World(scene) => return scene.go(size, motion),
             Kind::Texture(scene) => return scene.go(size, motion),
+            Kind::PatchSurface(scene) => return scene.go(size, motion),
             _ => "this kind of scene shows all there is",
         };
         Err(Fail::new(format_args!("{}: {reason}", self.name)))
@@ -248,6 +262,7 @@ impl Scene {
             Kind::FifSurface(scene) => scene.place(),
             Kind::World(scene) => scene.place(),
             Kind::Texture(scene) => Some(scene.place()),
+            Kind::PatchSurface(scene) => scene.place(),
             _ => None,
         }
     }
@@ -271,6 +286,8 @@ impl Scene {
             Kind::JuliaSet(scene) => scene.draw(request, target, watch),
             Kind::World(scene) => scene.draw(request, target, watch),
             Kind::Texture(scene) => scene.draw(request, target, watch),
+            Kind::PatchCurve(scene) => scene.draw(request, target, watch),
+            Kind::PatchSurface(scene) => scene.draw(request, target, watch),
         }
     }
 
@@ -302,6 +319,8 @@ impl Scene {
             Kind::JuliaSet(scene) => scene.sample(request, points, out),
             Kind::World(scene) => world::sample(scene, request, question, points, &mut stdout().lock()),
             Kind::Texture(scene) => scene.sample(request, question, &mut stdout().lock()),
+            Kind::PatchCurve(scene) => scene.sample(points, out),
+            Kind::PatchSurface(scene) => scene.sample(points, out),
         }
     }
 }
