@@ -86,6 +86,13 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "island",
     "jacksboro",
     "flight",
+    "patch-takagi",
+    "patch-spirals",
+    "patch-bezier",
+    "patch-rock",
+    "patch-joinings",
+    "patch-diagonal",
+    "patch-mountain",
 ];
 
 /// The text of a built-in scene.

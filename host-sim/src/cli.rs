@@ -64,6 +64,8 @@ pub(crate) enum Command {
     Dimension(Dimension),
     /// Measure the spectral exponent of a graph or a random curve, with theory beside it
     Spectrum(Spectrum),
+    /// Fit a surface by control points to a grid of elevations, and write it as a scene file
+    Fit(crate::reconstruction::Fit),
     /// Show scenes in a window, row by row as they are computed (feature `window`)
     Window(Window),
 }

@@ -28,6 +28,10 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
                [grey] palette, lift, cycle, inside: the colours on displays without colour
   julia        c = [\"re\", \"im\"], and as mandelbrot
   julia-set    c = [\"re\", \"im\"], [points], [method = \"cover\" | \"plain\"], [palette]
+  patch-curve  control_points = [[x, y], ...]; curve = \"bezier\" | \"b-spline\" | \"takagi\" | \"type-a\" ... \"type-f\" or maps = [[a, b], [c, d]];
+               [levels = 11], [palette]
+  patch-surface model = \"standard\" | \"tensor\" | \"lattice\", numbers = [72, 8 or 21], heights, [cells = 1], [height = 0.5];
+               [camera] eye, look_at, [up], [field_of_view]; [light] direction; [samples = 1]; `attractor fit` writes it
   world        [camera] eye, look_at, [up], [field_of_view]; [[light]] towards or at, [color];
                [[object]] [name], shape = \"plane\" | \"square\" | \"polygon\" (points) | \"sphere\" | \"cube\" | \"polyhedron\" (planes = [[nx, ny, nz, d], ...]) |
                \"tapered-cylinder\" ([cap]) | \"torus\" (tube) | \"superellipsoid\" (n, m) | \"height-field\" (f, g) |
@@ -55,6 +59,7 @@ Commands
   attractor accuracy [--csv]              errors measured beside the bounds promised
   attractor dimension SCENE [--boundary]  the dimension of attractors, curves and graphs, theory beside it
   attractor spectrum SCENE                the spectral exponent of graphs and random curves, theory beside it
+  attractor fit DEM.png --parameters N -o SCENE.toml   the surface by control points that is nearest to elevations
   attractor window SCENE                  in a window (feature `window`)
   attractor help COMMAND                  all options, with examples
 ";

@@ -19,6 +19,7 @@ mod list;
 mod number;
 mod output;
 mod palette;
+mod reconstruction;
 mod sample;
 mod scene;
 mod source;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Some(Command::Accuracy(args)) => accuracy::run(args),
         Some(Command::Dimension(args)) => dimension::run(args),
         Some(Command::Spectrum(args)) => spectrum::run(args),
+        Some(Command::Fit(args)) => reconstruction::run(args),
         Some(Command::Window(args)) => window::run(args),
     };
     let done = done.and_then(|()| Ok(io::stdout().flush()?));

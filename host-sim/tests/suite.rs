@@ -8,6 +8,7 @@ mod bad_world;
 mod common;
 mod export;
 mod exported;
+mod fits;
 mod measure;
 mod pictures;
 mod rooms;

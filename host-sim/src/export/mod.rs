@@ -8,6 +8,7 @@ mod escape;
 mod function;
 mod module;
 mod palette;
+mod patch;
 mod surface;
 mod system;
 mod terrain;
@@ -99,6 +100,8 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::Mandelbrot(scene) => escape::mandelbrot(scene, &mut module),
         Kind::Julia(scene) => escape::julia(scene, &mut module),
         Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
+        Kind::PatchCurve(scene) => patch::curve(scene, &mut module, gallery),
+        Kind::PatchSurface(scene) => patch::surface(scene, &mut module),
         Kind::Texture(scene) => texture::slice(scene, &mut module),
         Kind::Terrain(scene) => terrain::terrain(scene, &mut module, gallery),
         Kind::World(scene) => world::world(scene, &mut module),

@@ -9,7 +9,7 @@ use attractor::fixed::traits::Fixed;
 use attractor::plane::Point2;
 
 /// Where the names come from that a module may use.
-const NAMES: [(&str, &str); 18] = [
+const NAMES: [(&str, &str); 19] = [
     ("attractor", "Error"),
     ("attractor::curve", "Elbow Generator LSystem LineToLine OneVariable Stop TwoVariable"),
     (
@@ -26,6 +26,7 @@ const NAMES: [(&str, &str); 18] = [
         "attractor::num",
         "Affine3 Angle Complex Coordinate Limbs Lumen Near Parameter RandomField Real Rgb Scaling Unit Vec3 Wide",
     ),
+    ("attractor::patch", "Barycentric Mask Patch ProjectedCurve Sheet Tensor standard_curve"),
     ("attractor::plane", "Bounds2 Field Point2 Window"),
     ("attractor::terrain", "Heights InnerGeometry Law Magnification PlaneToLine"),
     (

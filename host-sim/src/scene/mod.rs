@@ -22,6 +22,8 @@ pub(crate) mod law;
 pub(crate) mod mandelbrot;
 mod motion;
 mod orbit;
+pub(crate) mod patch_curve;
+pub(crate) mod patch_surface;
 mod polyline;
 pub(crate) mod random_curve;
 mod request;
@@ -97,10 +99,12 @@ pub(crate) enum Kind {
     World(Box<world::WorldScene>),
     Texture(Box<slice::SliceScene>),
     Terrain(Box<terrain::TerrainScene>),
+    PatchCurve(Box<patch_curve::PatchCurve>),
+    PatchSurface(Box<patch_surface::PatchSurfaceScene>),
 }
 
 /// What the key `kind` may say.
-const KINDS: [&str; 13] = [
+const KINDS: [&str; 15] = [
     "fif-curve",
     "fif-surface",
     "curve",
@@ -114,6 +118,8 @@ const KINDS: [&str; 13] = [
     "world",
     "terrain",
     "texture",
+    "patch-curve",
+    "patch-surface",
 ];
 
 /// The only key that is read before the kind is known.
@@ -162,6 +168,8 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "julia-set" => Kind::JuliaSet(julia_set::JuliaSetScene::load(source)?),
         "world" => Kind::World(Box::new(world::WorldScene::load(source)?)),
         "terrain" => Kind::Terrain(Box::new(terrain::TerrainScene::load(source)?)),
+        "patch-curve" => Kind::PatchCurve(Box::new(patch_curve::PatchCurve::load(source)?)),
+        "patch-surface" => Kind::PatchSurface(Box::new(patch_surface::PatchSurfaceScene::load(source)?)),
         "texture" => Kind::Texture(Box::new(slice::SliceScene::load(source)?)),
         _ => {
             let reason = format!("allowed is {}", KINDS.join(", "));
@@ -189,6 +197,8 @@ impl Scene {
             Kind::World(_) => "world",
             Kind::Terrain(_) => "terrain",
             Kind::Texture(_) => "texture",
+            Kind::PatchCurve(_) => "patch-curve",
+            Kind::PatchSurface(_) => "patch-surface",
         }
     }
 
@@ -210,6 +220,9 @@ impl Scene {
             }
             Kind::World(_) | Kind::Terrain(_) | Kind::Texture(_) => {
                 return Err(Fail::new("a world, a terrain or a texture is not measured"));
+            }
+            Kind::PatchCurve(_) | Kind::PatchSurface(_) => {
+                return Err(Fail::new("curves and surfaces by control points are not measured"));
             }
             Kind::LSystem(_) => {
                 let reason = "an L-system tends to no one set: its picture grows with the order; write it as a curve, a copier or an ifs";
@@ -234,6 +247,7 @@ impl Scene {
             Kind::World(scene) => return scene.go(size, motion),
             Kind::Terrain(scene) => return scene.go(size, motion),
             Kind::Texture(scene) => return scene.go(size, motion),
+            Kind::PatchSurface(scene) => return scene.go(size, motion),
             _ => "this kind of scene shows all there is",
         };
         Err(Fail::new(format_args!("{}: {reason}", self.name)))
@@ -255,6 +269,7 @@ impl Scene {
             Kind::World(scene) => scene.place(),
             Kind::Terrain(scene) => scene.place(),
             Kind::Texture(scene) => Some(scene.place()),
+            Kind::PatchSurface(scene) => scene.place(),
             _ => None,
         }
     }
@@ -279,6 +294,8 @@ impl Scene {
             Kind::World(scene) => scene.draw(request, target, watch),
             Kind::Terrain(scene) => scene.draw(request, target, watch),
             Kind::Texture(scene) => scene.draw(request, target, watch),
+            Kind::PatchCurve(scene) => scene.draw(request, target, watch),
+            Kind::PatchSurface(scene) => scene.draw(request, target, watch),
         }
     }
 
@@ -311,6 +328,8 @@ impl Scene {
             Kind::Terrain(scene) => scene.sample(points, out),
             Kind::World(scene) => world::sample(scene, request, question, points, &mut stdout().lock()),
             Kind::Texture(scene) => scene.sample(request, question, &mut stdout().lock()),
+            Kind::PatchCurve(scene) => scene.sample(points, out),
+            Kind::PatchSurface(scene) => scene.sample(points, out),
         }
     }
 }

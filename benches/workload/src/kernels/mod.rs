@@ -13,6 +13,7 @@ mod fif;
 mod filled;
 mod ifs;
 mod num;
+mod patch;
 mod picture;
 mod shade;
 mod shapes;
@@ -115,6 +116,10 @@ const TABLE: &[Kernel] = &[
     roomy(alone("filled copy 64", "pixel at 1000", filled::word64::<true>)),
     roomy(alone("plain copy 1e-101", "pixel at 1000", filled::perturbed::<false>)),
     roomy(alone("filled copy 1e-101", "pixel at 1000", filled::perturbed::<true>)),
+    roomy(alone("patch tensor 3 x 3", "point at 12 digits", patch::tensor_3)),
+    roomy(alone("patch tensor 4 x 4", "point at 12 digits", patch::tensor_4)),
+    roomy(alone("patch general", "point at 12 digits", patch::general)),
+    roomy(alone("patch lattice", "point at 12 digits", patch::lattice)),
     alone("dwell of a pixel", "pixel of the home view", deep::dwell),
     alone("fractional dwell", "pixel of the home view", deep::smooth),
     alone("distance estimate", "pixel of the home view", deep::distance),

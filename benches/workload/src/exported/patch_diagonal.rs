@@ -1,0 +1,120 @@
+//! A patch between two parabolas and two Takagi curves, its diagonal drawn up (figure 4).
+//!
+//! Written by `attractor export --gallery patch-diagonal`.
+
+use attractor::Error;
+use attractor::num::{Near, Real};
+use attractor::patch::{Patch, Sheet};
+
+/// The numbers of its maps.
+#[rustfmt::skip]
+pub static NUMBERS: [Near; 72] = [
+    Near::lit("0.375"),
+    Near::lit("-0.125"),
+    Near::lit("-0.125"),
+    Near::lit("0.375"),
+    Near::lit("0.25"),
+    Near::lit("-0.25"),
+    Near::lit("-0.25"),
+    Near::lit("0.25"),
+    Near::lit("0"),
+    Near::lit("0.375"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("-0.125"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("-0.125"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0.375"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0.25"),
+    Near::lit("-0.25"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("-0.25"),
+    Near::lit("0.25"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("0"),
+    Near::lit("-0.00625"),
+    Near::lit("0.375"),
+    Near::lit("-0.09375"),
+    Near::lit("0.1875"),
+    Near::lit("-0.1875"),
+    Near::lit("-0.03125"),
+    Near::lit("-0.125"),
+    Near::lit("-0.06875"),
+    Near::lit("-0.09375"),
+    Near::lit("0.375"),
+    Near::lit("0.15375"),
+    Near::lit("-0.1875"),
+    Near::lit("0.1875"),
+    Near::lit("0.09125"),
+    Near::lit("-0.125"),
+    Near::lit("-0.03125"),
+    Near::lit("-0.03125"),
+    Near::lit("-0.125"),
+    Near::lit("0.09125"),
+    Near::lit("0.1875"),
+    Near::lit("-0.1875"),
+    Near::lit("0.15375"),
+    Near::lit("0.375"),
+    Near::lit("-0.09375"),
+    Near::lit("-0.06875"),
+    Near::lit("-0.125"),
+    Near::lit("-0.03125"),
+    Near::lit("-0.1875"),
+    Near::lit("0.1875"),
+    Near::lit("-0.09375"),
+    Near::lit("0.375"),
+    Near::lit("-0.00625"),
+];
+
+/// The control heights.
+#[rustfmt::skip]
+pub static HEIGHTS: [Real; 9] = [
+    Real::lit("0"),
+    Real::lit("0.5"),
+    Real::lit("0"),
+    Real::lit("0.5"),
+    Real::lit("0.9"),
+    Real::lit("0.5"),
+    Real::lit("0"),
+    Real::lit("0.5"),
+    Real::lit("0"),
+];
+
+/// Cells along a side.
+pub const CELLS: u32 = 1;
+
+/// How high 1 is, on a square from -1 to 1.
+pub const HEIGHT: Real = Real::lit("0.9");
+
+/// What refines the heights.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn scheme() -> Result<Patch<2, 3, 9>, Error> {
+    Patch::standard(&NUMBERS)
+}
+
+/// The surface over the unit square.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn sheet(scheme: &Patch<2, 3, 9>) -> Result<Sheet<'_, Patch<2, 3, 9>, 9>, Error> {
+    Sheet::new(scheme, &HEIGHTS, CELLS)
+}
