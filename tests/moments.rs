@@ -218,6 +218,45 @@ fn variances_of_slopes_of_f_and_g_are_exact_fractions() {
     }
 }
 
+/// What of a surface's normal is a fractal function in its own right: functions with the same knots and
+/// scalings are closed under addition and multiplication by a number, so that along a line of constant `y` the
+/// normal `(-f G(y), -F g(y), 1)` has three components that are fractal functions of `x` with the scalings of
+/// `f`, of `F`, and a constant; its mean over an interval is that of the functions.
+#[test]
+fn along_a_line_each_component_of_the_normal_is_a_fractal_function() {
+    let wide = Wide::from_num::<f64>;
+    let knots = |ys: [f64; 3]| [0, 1, 2].map(|i| Knot::new(wide([0.0, 0.5, 2.0][i]), wide(ys[i])));
+    let scalings = [0.5, -0.625].map(Scaling::from_num);
+    let of = |ys: [f64; 3]| Fif::<2, 2>::interpolating(&knots(ys), &scalings).unwrap();
+    let (one, two) = ([0.25, 0.75, -0.5], [1.0, -0.25, 0.125]);
+    let combined = [0, 1, 2].map(|i| 1.5 * one[i] - 0.75 * two[i]);
+    let (f, h, sum) = (of(one), of(two), of(combined));
+    let factor = attractor::fif::Factor::<2, 3>::from_slope(&f, wide(0.25)).unwrap();
+    let surface = attractor::fif::Surface::new(&factor, &factor);
+    let mut worst = 0.0_f64;
+    for y in [0.125, 0.8125, 1.75].map(wide) {
+        let (value, slope) = (factor.value().at(y), factor.slope().at(y));
+        // f with its knots times G(y), and the integral of f with its knots times g(y)
+        let times = |v: Real| of(one.map(|y| y * v.to_num::<f64>()));
+        let across = times(value);
+        let along = times(slope).integral::<3>(wide(0.25 * slope.to_num::<f64>())).unwrap();
+        for i in 0..=64 {
+            let x = wide(f64::from(i) / 32.0);
+            let (p, q) = surface.partials(x, y);
+            worst = worst.max(units(p, across.at(x).to_num()).max(units(q, along.at(x).to_num())));
+            let both = 1.5 * f.at(x).to_num::<f64>() - 0.75 * h.at(x).to_num::<f64>();
+            assert!(units(sum.at(x), both) < 4.0, "{x}");
+        }
+        // the mean of the normal between two places is that of the functions: by their integrals
+        let (from, to) = (wide(0.375), wide(1.5));
+        let area = across.integral::<3>(Wide::ZERO).unwrap();
+        let mean = (area.at_wide(to) - area.at_wide(from)).to_num::<f64>() / 1.125;
+        let normal = surface.mean_normal((from, to), (y, y));
+        assert!((normal.x.to_num::<f64>() + mean).abs() < two_to(-20), "{normal:?} {mean}");
+    }
+    assert!(worst < 8.0 && worst > 0.0, "{worst}");
+}
+
 #[test]
 fn what_has_no_moments_is_refused() {
     let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));

@@ -99,7 +99,7 @@ fn pictures_from_any_camera() {
         // the same, filtered, where the factors have slopes
         let (mut third, mut fourth) = (vec![Spread::ZERO; 1600], vec![Spread::ZERO; 1600]);
         if let (Ok(mx), Ok(my)) = (Moments::new(&x, &px, &mut third), Moments::new(&y, &py, &mut fourth)) {
-            let quality = [Quality::Twofold, Quality::Fivefold, Quality::Eightfold][at[0] as usize % 3];
+            let quality = [Quality::Coarse, Quality::Fine, Quality::Finest][at[0] as usize % 3];
             let filtered = FilteredCaster::new(picture.clone(), &mx, &my, quality).expect("its own moments");
             part_of_a_row(&filtered, at[0], at[1], (at[2] % 64) as usize);
             part_of_a_row(&filtered, size.height / 2, size.width.saturating_sub(99) / 2, 0);

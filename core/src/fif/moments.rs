@@ -9,7 +9,7 @@ use super::function::Fif;
 use super::map::Map;
 use super::polynomial::{Polynomial, part_of, twice_high};
 use super::pyramid::{Cell, Pyramid};
-use super::stretch::{Pool, Stretch, times};
+use super::stretch::{Pool, Run, Stretch, times};
 use super::value::{FRACTION_Q55, ONE_UQ63};
 use super::variance::{FRACTION_OF_SQUARES, Variance};
 use crate::Error;
@@ -278,9 +278,9 @@ impl<'a> Moments<'a> {
     }
 
     /// The same from the three to five cells of one level that cover the interval, or fewer where the pyramid
-    /// is not so deep: what pictures take.
+    /// is not so deep: what pictures take. The means alone unless `ALL`.
     #[inline(never)]
-    pub(crate) fn covered(&self, from: u32, to: u32) -> Option<Stretch> {
+    pub(crate) fn covered<const ALL: bool>(&self, from: u32, to: u32) -> Option<Stretch> {
         let (from, to) = (from.min(1 << 31), to.min(1 << 31));
         let width = to.checked_sub(from).filter(|width| *width > 0)?;
         // cells of at most half the interval
@@ -288,19 +288,26 @@ impl<'a> Moments<'a> {
         if !self.halved {
             return self.between(from, to, level.saturating_mul(2));
         }
-        let shift = 31 - level;
-        let (mut cell, last) = (from >> shift, (to - 1) >> shift);
-        let first = (1_usize << level) - 1;
-        let part = self.at(first + cell as usize)?;
-        let mut pool = Pool::around(part.slope, part.value);
-        let end = |cell: u32| (cell + 1) << shift;
-        pool.add(&part, end(cell).min(to) - from);
-        while cell < last {
-            cell += 1;
-            let part = self.at(first + cell as usize)?;
-            pool.add(&part, end(cell).min(to) - (cell << shift));
+        // 15 at least
+        let shift = 31_u32.wrapping_sub(level);
+        let (left, right) = (from >> (shift & 31), (to - 1) >> (shift & 31));
+        let first = (1_usize << (level & 31)) - 1;
+        let nodes = first + left as usize..first + right as usize + 1;
+        let cells = self.pyramid.all().get(nodes.clone())?.iter();
+        let mut cells = cells.zip(self.spreads.get(nodes)?).map(|(cell, spread)| together(cell, spread));
+        let one = cells.next()?;
+        let count = right - left;
+        // how much of a cell lies before a place
+        let part = |u: u32, cell: u32| u.wrapping_sub(cell << (shift & 31)) >> (shift.wrapping_sub(15) & 31);
+        if count == 0 {
+            return Some(one);
         }
-        pool.stretch()
+        let mut run = Run::<ALL>::beginning(&one, Run::<ALL>::WHOLE - part(from, left));
+        for _ in 1..count {
+            run.add(&cells.next()?, Run::<ALL>::WHOLE);
+        }
+        run.add(&cells.next()?, part(to, right));
+        run.stretch()
     }
 }
 

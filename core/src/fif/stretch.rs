@@ -24,6 +24,86 @@ pub struct Stretch {
     pub covariance: Real,
 }
 
+/// Sums over neighbouring cells of one level, of which the first and the last may count in part: as [`Pool`], at a
+/// third of its cost. `ALL`: the squares too, not the means alone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run<const ALL: bool> {
+    from: [i32; 2],
+    /// In cells, 15 fractional bits.
+    weight: u32,
+    means: [i32; 2],
+    squares: [i32; 3],
+}
+
+/// `a b` with 24 fractional bits, saturated at ±64.
+#[inline(always)]
+fn short_times(a: i32, b: i32) -> i32 {
+    let product = product(a, b);
+    let high = (product >> 32) as i32;
+    let limit = ((high >> 31) | 1) << 30;
+    if (-(1 << 22)..1 << 22).contains(&high) { (product >> 24) as i32 } else { limit }
+}
+
+impl<const ALL: bool> Run<ALL> {
+    /// A whole cell.
+    pub(super) const WHOLE: u32 = 1 << 15;
+
+    /// Begins with a cell of which `weight` counts.
+    #[inline(always)]
+    pub(super) fn beginning(cell: &Stretch, weight: u32) -> Self {
+        let from = [cell.slope, cell.value].map(Real::to_bits);
+        let mut run = Self { from, weight: 0, means: [0; 2], squares: [0; 3] };
+        run.add(cell, weight);
+        run
+    }
+
+    /// Adds the next cell, or the part `weight` of it.
+    #[inline(always)]
+    pub(super) fn add(&mut self, cell: &Stretch, weight: u32) {
+        let part = |v: i32| {
+            if weight == Self::WHOLE { v } else { (product(v, weight as i32) >> 15) as i32 }
+        };
+        self.weight += weight;
+        let slope = cell.slope.to_bits().saturating_sub(self.from[0]);
+        let value = cell.value.to_bits().saturating_sub(self.from[1]);
+        self.means[0] = self.means[0].saturating_add(part(slope));
+        self.means[1] = self.means[1].saturating_add(part(value));
+        if ALL {
+            let central = [cell.slope_variance, cell.value_variance, cell.covariance].map(Real::to_bits);
+            let around = [short_times(slope, slope), short_times(value, value), short_times(slope, value)];
+            for ((sum, c), a) in self.squares.iter_mut().zip(central).zip(around) {
+                *sum = sum.saturating_add(part(c.saturating_add(a)));
+            }
+        }
+    }
+
+    /// What they are together; none without weight.
+    #[inline(always)]
+    pub(super) fn stretch(&self) -> Option<Stretch> {
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(self.weight)?);
+        // 15 of 62 bits are the weight's
+        let shift = 47_u32.wrapping_sub(zeros) & 63;
+        let over = |sum: i32| {
+            let quotient = product(sum, mantissa) >> shift;
+            quotient.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+        };
+        let [slope, value] = self.means.map(over);
+        let mut all = Stretch {
+            slope: Real::from_bits(self.from[0].saturating_add(slope)),
+            value: Real::from_bits(self.from[1].saturating_add(value)),
+            ..Stretch::default()
+        };
+        if ALL {
+            let [slopes, values, both] = self.squares.map(over);
+            let less = |v: i32, a: i32, b: i32| Real::from_bits(v.saturating_sub(short_times(a, b)));
+            all.slope_variance = less(slopes, slope, slope).max(Real::ZERO);
+            all.value_variance = less(values, value, value).max(Real::ZERO);
+            all.covariance = less(both, slope, value);
+        }
+        Some(all)
+    }
+}
+
 /// Sums over the parts of an interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pool {

@@ -30,7 +30,7 @@ const NAMES: [(&str, &str); 18] = [
     ("attractor::terrain", "Heights InnerGeometry Law Magnification PlaneToLine"),
     (
         "attractor::trace",
-        "Camera Environment Extent Filter HeightField Light Finish Panorama RayCaster Sampling Sky Tiles",
+        "Camera Environment Extent Filter HeightField Light Finish Panorama Quality RayCaster Sampling Sky Tiles",
     ),
     ("attractor::trace::material", "Anisotropic Clear Medium Mixture Phong TorranceSparrow"),
     (

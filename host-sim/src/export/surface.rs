@@ -62,12 +62,12 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
     );
     if let Some(quality) = scene.filter {
         let quality = match quality {
-            Quality::Twofold => "Quality::Twofold",
-            Quality::Fivefold => "Quality::Fivefold",
-            Quality::Eightfold => "Quality::Eightfold",
+            Quality::Coarse => "Quality::Coarse",
+            Quality::Fine => "Quality::Fine",
+            Quality::Finest => "Quality::Finest",
             other => unreachable!("no scene is filtered by {other:?}"),
         };
-        let doc = "How fine its normals are integrated: for [`FilteredCaster::new`].";
+        let doc = "How fine the normals of a pixel are integrated.";
         module.constant(doc, "QUALITY", "Quality", quality);
     }
     palette::plain(scene.palette, module, gallery);

@@ -66,9 +66,9 @@ struct Filtering {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Level {
-    Twofold,
-    Fivefold,
-    Eightfold,
+    Coarse,
+    Fine,
+    Finest,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -161,9 +161,9 @@ impl FifSurface {
             environment: environment.compile(source)?,
             samples,
             filter: file.filter.map(|filter| match filter.quality {
-                Level::Twofold => Quality::Twofold,
-                Level::Fivefold => Quality::Fivefold,
-                Level::Eightfold => Quality::Eightfold,
+                Level::Coarse => Quality::Coarse,
+                Level::Fine => Quality::Fine,
+                Level::Finest => Quality::Finest,
             }),
             depth: file.depth.as_ref().map(|depth| *depth.get_ref()),
             palette: file.palette.unwrap_or(Named::Dusk),

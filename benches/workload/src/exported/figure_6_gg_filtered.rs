@@ -6,7 +6,7 @@ use attractor::Error;
 use attractor::draw::{Gradient, gradients};
 use attractor::fif::{Fif, Knot};
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
-use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, RayCaster, Sampling};
+use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, Quality, RayCaster, Sampling};
 use attractor_gallery::Named;
 use embedded_graphics::geometry::Size;
 
@@ -87,8 +87,8 @@ pub fn caster<'a>(surface: HeightField<'a>, size: Size, seed: u32) -> Result<Ray
     caster.with_sampling(Sampling::Jittered { n: 4, seed }, Filter::Box)
 }
 
-/// How fine its normals are integrated: for [`FilteredCaster::new`].
-pub const QUALITY: Quality = Quality::Fivefold;
+/// How fine the normals of a pixel are integrated.
+pub const QUALITY: Quality = Quality::Coarse;
 
 /// Where its colours come from.
 pub const PALETTE: Gradient<9> = gradients::DUSK;

@@ -99,7 +99,7 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn add(&self, slopes: &Slopes, shown: &mut Shown) -> bool {
         shown.boxes += 1;
-        if let (Quality::Twofold, Finish::Diffuse { .. }) = (self.quality, self.finish)
+        if let (Quality::Coarse, Finish::Diffuse { .. }) = (self.quality, self.finish)
             && let Some(lit) = self.second_order(slopes)
         {
             shown.matt += i64::from(lit);

@@ -126,7 +126,9 @@ impl<'a> FilteredCaster<'a> {
         let (mut shown, mut turned) = (Shown::default(), true);
         footprint.each(|at| {
             turned = turned
-                && footprint.slopes(&self.ground, at).is_some_and(|slopes| view.add(&slopes, &mut shown));
+                && footprint
+                    .slopes::<true>(&self.ground, at)
+                    .is_some_and(|slopes| view.add(&slopes, &mut shown));
         });
         turned.then(|| view.tone(&shown))
     }

@@ -14,18 +14,16 @@ use crate::fif::Moments;
 use crate::num::{product, reciprocal, reciprocal_of, rough_sqrt};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
-///
-/// Named by the cost of a pixel against that of one plain sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Quality {
     /// Two boxes, diffuse light to second order.
-    Twofold,
+    Coarse,
     /// Six boxes.
-    Fivefold,
+    Fine,
     /// Ten boxes.
-    Eightfold,
+    Finest,
 }
 
 impl Quality {
@@ -33,9 +31,9 @@ impl Quality {
     #[inline(always)]
     const fn parts(self) -> [i32; 2] {
         match self {
-            Self::Twofold => [2, 1],
-            Self::Fivefold => [3, 2],
-            Self::Eightfold => [5, 2],
+            Self::Coarse => [2, 1],
+            Self::Fine => [3, 2],
+            Self::Finest => [5, 2],
         }
     }
 }
@@ -67,14 +65,14 @@ impl<'a> Ground<'a> {
 
     /// From the middle so far to both sides; none where more than half of a side leaves the domain.
     #[inline(always)]
-    fn around(&self, middle: i32, half: i32) -> Option<crate::fif::Stretch> {
+    fn around<const ALL: bool>(&self, middle: i32, half: i32) -> Option<crate::fif::Stretch> {
         let (from, to) = (middle.saturating_sub(half), middle.saturating_add(half));
         let (from, to) = (from.checked_sub(self.origin)?, to.checked_sub(self.origin)?);
         if from < -(half >> 1) || to.saturating_sub(self.width) > half >> 1 {
             return None;
         }
-        let end = |x: i32| self.part(x.clamp(0, self.width)).clamp(0, 1 << 31) as u32;
-        self.moments.covered(end(from), end(to))
+        let end = |x: i32| self.part(x.max(0).min(self.width)).clamp(0, 1 << 31) as u32;
+        self.moments.covered::<ALL>(end(from), end(to))
     }
 }
 
@@ -105,7 +103,7 @@ pub(super) fn into([p, q]: Slope, [x, y, z]: [i32; 3]) -> i64 {
 fn steepness(slope: Slope, direction: [i32; 3]) -> (i32, u32) {
     let [p, q] = slope.map(|s| i64::from(s.unsigned_abs()));
     let least = (p + q + (1 << 24)) >> 1; // a 32nd of 28 bits
-    let steep = into(slope, direction).clamp(least, i64::from(i32::MAX));
+    let steep = into(slope, direction).max(least).min(i64::from(i32::MAX));
     reciprocal_of(NonZeroU32::new(steep as u32).unwrap_or(NonZeroU32::MIN))
 }
 
@@ -132,7 +130,7 @@ impl Sight {
     #[inline(always)]
     pub(super) fn meet(&self, t: i32, slope: Slope, above: i32, reach: i32) -> Place {
         let off = over(i64::from(above), steepness(slope, self.direction), 28);
-        let t = t.wrapping_add(off.clamp(-reach, reach));
+        let t = t.wrapping_add(off.max(reach.wrapping_neg()).min(reach));
         let [x, y, _] = self.at(t);
         Place { t, at: [x, y], slope }
     }
@@ -192,11 +190,11 @@ impl Footprint {
         }
     }
 
-    /// The surface over a box.
+    /// The surface over a box; its means alone unless `ALL`.
     #[inline(always)]
-    pub(super) fn slopes(&self, ground: &[Ground<'_>; 2], at: [i32; 2]) -> Option<Slopes> {
+    pub(super) fn slopes<const ALL: bool>(&self, ground: &[Ground<'_>; 2], at: [i32; 2]) -> Option<Slopes> {
         let [x, y] = ground;
-        Some(Slopes { x: x.around(at[0], self.half[0])?, y: y.around(at[1], self.half[1])? })
+        Some(Slopes { x: x.around::<ALL>(at[0], self.half[0])?, y: y.around::<ALL>(at[1], self.half[1])? })
     }
 }
 
@@ -221,7 +219,7 @@ impl Quality {
         reach: i32,
     ) -> Option<Footprint> {
         let whole = Footprint::new(first, sight, edges, [1, 1]);
-        let slopes = whole.slopes(ground, first.at)?;
+        let slopes = whole.slopes::<false>(ground, first.at)?;
         let [_, _, z] = sight.at(first.t);
         let place = sight.meet(first.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach);
         Some(Footprint::new(place, sight, edges, self.parts()))
