@@ -18,7 +18,8 @@ use super::footprint::Quality;
 use super::slopes::{Slope, Slopes};
 use crate::num::{Unit, Vec3, product, reciprocal_of, reciprocal_sqrt_of};
 use crate::trace::environment::Environment;
-use crate::trace::finish::{Finish, power, times};
+use crate::trace::finish::Finish;
+use crate::trace::power::{power, times};
 
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
