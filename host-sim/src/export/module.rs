@@ -137,7 +137,7 @@ fn import(path: &str, names: &[&str]) -> String {
         [one] => format!("use {path}::{one};\n"),
         all => format!("use {path}::{{{}}};\n", all.join(", ")),
     };
-    if line.len() <= WIDTH + 1 {
+    if line.len() <= WIDTH {
         return line;
     }
     let mut lines = vec![String::from("   ")];
