@@ -18,6 +18,8 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "figure-6-gg",
     "figure-6-ff-diffuse",
     "figure-6-gg-phong",
+    "figure-6-gg-filtered",
+    "figure-6-gg-phong-filtered",
     "sunspots",
     "sierpinski",
     "fern",

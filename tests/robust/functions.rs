@@ -2,7 +2,7 @@
 
 use std::cell::Cell as Counter;
 
-use attractor::fif::{Cell, Factor, Fif, Knot, Pyramid, Surface};
+use attractor::fif::{Cell, Factor, Fif, Knot, Moments, Pyramid, Spread, Surface};
 use attractor::num::{Angle, Real, Scaling, Wide};
 use attractor::plane::Point2;
 use proptest::collection::vec;
@@ -191,6 +191,29 @@ fn bounds_between_any_arguments() {
             }
         }
         assert!(pyramid.level(u32::MAX).is_empty() && pyramid.level(levels).len() == f.maps().pow(levels));
+        true
+    });
+}
+
+#[test]
+fn moments_of_any_function() {
+    fuzz((function(30, 30), vec(wide(), 8)), 35, |((knots, scaling), xs)| {
+        let Ok(f) = Fif::<6, 1>::interpolating(&knots, &scaling) else { return false };
+        let Ok(f) = f.integral::<2>(Wide::ZERO) else { return false };
+        let levels = depth(f.maps());
+        let mut memory = vec![Cell::ZERO; Pyramid::cells(f.maps(), levels)];
+        let mut spreads = vec![Spread::ZERO; memory.len()];
+        let pyramid = Pyramid::new(&f, levels, &mut memory).expect("the memory is long enough");
+        // a slope may leave the format
+        let Ok(moments) = Moments::new(&f, &pyramid, &mut spreads) else { return false };
+        assert!(moments.spreads().iter().all(|s| s.slope >= 0 && s.value >= 0));
+        assert_eq!(moments.pyramid().depth(), levels);
+        for pair in xs.windows(2) {
+            if let Some(stretch) = moments.over(pair[0], pair[1]) {
+                assert!(stretch.slope_variance >= 0 && stretch.value_variance >= 0);
+            }
+            f.spread_at(pair[0].to_bits() as u32 % 99, pair[1].to_bits() as u64).expect("a spread");
+        }
         true
     });
 }

@@ -1,10 +1,11 @@
 //! Height fields from any camera, in any light, with any samples.
 
-use attractor::fif::{Cell, Fif, Pyramid};
+use attractor::fif::{Cell, Fif, Moments, Pyramid, Spread};
 use attractor::num::{Real, Unit, Vec3};
 use attractor::plane::Field;
 use attractor::trace::{
-    Camera, Environment, Filter, Finish, HeightField, Light, Ray, RayCaster, Sampling, Statistics, meets,
+    Camera, Environment, Filter, FilteredCaster, Finish, Found, HeightField, Light, Quality, Ray, RayCaster,
+    Sampling, Statistics, meets,
 };
 use embedded_graphics::geometry::Size;
 use proptest::prelude::*;
@@ -94,6 +95,16 @@ fn pictures_from_any_camera() {
         for y in [0, size.height / 2, size.height - 1] {
             part_of_a_row(&picture, y, 0, 0);
             part_of_a_row(&picture, y, size.width.saturating_sub(48), 0);
+        }
+        // the same, filtered, where the factors have slopes
+        let (mut third, mut fourth) = (vec![Spread::ZERO; 1600], vec![Spread::ZERO; 1600]);
+        if let (Ok(mx), Ok(my)) = (Moments::new(&x, &px, &mut third), Moments::new(&y, &py, &mut fourth)) {
+            let quality = [Quality::Coarse, Quality::Fine, Quality::Finest][at[0] as usize % 3];
+            let filtered = FilteredCaster::new(picture.clone(), &mx, &my, quality).expect("its own moments");
+            part_of_a_row(&filtered, at[0], at[1], (at[2] % 64) as usize);
+            part_of_a_row(&filtered, size.height / 2, size.width.saturating_sub(99) / 2, 0);
+            let found = filtered.found(at[0] % size.width, at[1] % size.height);
+            assert!(found != Found::Filtered || filtered.caster().size() == size);
         }
         let hit = picture.hit(at[0] % size.width, at[1] % size.height);
         assert!(hit.is_none_or(|h| h.level <= levels && h.t >= 0));

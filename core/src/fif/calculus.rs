@@ -63,6 +63,14 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// disagree at a knot by more than `2^-22`, [`Error::OutOfRange`] if it leaves the format,
     /// [`Error::Capacity`] if its degree is above `E`.
     pub fn derivative<const E: usize>(&self) -> Result<Fif<N, E>, Error> {
+        self.slopes()?.joined()
+    }
+
+    /// The derivative between the knots, where it may jump.
+    ///
+    /// # Errors
+    /// As [`Fif::derivative`], but for the joints.
+    pub(crate) fn slopes<const E: usize>(&self) -> Result<Fif<N, E>, Error> {
         let degree = self.degree().saturating_sub(1);
         if degree > E {
             return Err(Error::Capacity { what: POWERS, needed: degree, capacity: E });
@@ -85,7 +93,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             let map = Map { scaling, q, start: map.start, width: map.width, per_width: map.per_width };
             let _ = maps.push(map); // as in the integral
         }
-        Fif::from_maps(maps, self.x0, self.width, self.per_width)?.joined()
+        Fif::from_maps(maps, self.x0, self.width, self.per_width)
     }
 
     /// The mean value over the domain, `sum of a_n mean(q_n) / (1 - sum of a_n alpha_n)`, 55 fractional bits.

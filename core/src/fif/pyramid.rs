@@ -147,6 +147,11 @@ impl<'a> Pyramid<'a> {
         self.cells
     }
 
+    /// Where a level begins among all cells, and how many cells it has.
+    pub(super) const fn place(&self, level: u32) -> (usize, usize) {
+        level_at(self.starts.len(), level)
+    }
+
     /// Left ends of the parts of a cell, in the cell's unit abscissa with 31 fractional bits.
     pub(crate) const fn starts(&self) -> &'a [u32] {
         self.starts

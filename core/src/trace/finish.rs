@@ -8,7 +8,7 @@ use crate::num::{Unit, Vec3, Wide, unit};
 /// A light infinitely far away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Light {
-    towards: Vec3<Unit>,
+    pub(super) towards: Vec3<Unit>,
 }
 
 impl Light {

@@ -20,6 +20,7 @@ mod choice;
 mod environment;
 #[cfg(test)]
 mod exact;
+mod filtered;
 mod finish;
 mod halves;
 mod height_field;
@@ -48,6 +49,7 @@ pub use ball::Ball;
 pub use boxes::meets;
 pub use camera::Camera;
 pub use environment::Environment;
+pub use filtered::{FilteredCaster, Found, Quality};
 pub use finish::{Finish, Light};
 pub use height_field::{HeightField, Hit};
 pub use panorama::Panorama;

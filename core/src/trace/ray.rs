@@ -3,7 +3,7 @@
 use core::num::NonZeroU32;
 
 use crate::num::formats::{Q24, Q28, Q30};
-use crate::num::{Near, Real, Unit, Vec3, reciprocal, reciprocal_of, square};
+use crate::num::{Near, Real, Unit, Vec3, product, reciprocal, reciprocal_of, square};
 
 /// One coordinate of a ray: origin, direction, and the direction's reciprocal.
 #[derive(Debug, Clone, Copy)]
@@ -90,6 +90,11 @@ impl Footprint {
     #[cfg(test)]
     pub(crate) fn per_t(self) -> Unit {
         self.per_t
+    }
+
+    /// Its width at `t` (24 fractional bits), saturated.
+    pub(super) fn width(self, t: i32) -> i32 {
+        (product(self.per_t.to_bits(), t) >> 30).clamp(0, i64::from(i32::MAX)) as i32
     }
 
     /// One of `n` cones side by side.

@@ -46,24 +46,24 @@ const HALF: i64 = 1 << 31;
 /// ```
 #[derive(Debug, Clone)]
 pub struct RayCaster<'a> {
-    surface: HeightField<'a>,
+    pub(super) surface: HeightField<'a>,
     /// Of half the view, 28 fractional bits.
     tangent: i32,
-    size: Size,
-    material: Finish,
-    light: Light,
-    environment: Environment,
+    pub(super) size: Size,
+    pub(super) material: Finish,
+    pub(super) light: Light,
+    pub(super) environment: Environment,
     pattern: Pattern,
     /// Direction through the centre of the top left pixel, and half a unit of what a ray uses; steps to the
     /// right and downwards: 60 fractional bits.
     corner: [i64; 3],
-    right: [i64; 3],
-    down: [i64; 3],
+    pub(super) right: [i64; 3],
+    pub(super) down: [i64; 3],
     /// Width of a pixel's cone a unit of `t`.
-    footprint: Footprint,
+    pub(super) footprint: Footprint,
     /// The rays from the eye, as wide as a sample's cone.
-    rays: Pencil,
-    outline: Outline,
+    pub(super) rays: Pencil,
+    pub(super) outline: Outline,
 }
 
 impl<'a> RayCaster<'a> {
@@ -170,7 +170,7 @@ impl<'a> RayCaster<'a> {
     }
 
     /// The direction through the centre of pixel `(x, y)`, 60 fractional bits.
-    fn direction(&self, x: u32, y: u32) -> [i64; 3] {
+    pub(super) fn direction(&self, x: u32, y: u32) -> [i64; 3] {
         let mut direction = self.corner;
         for ((c, r), d) in direction.iter_mut().zip(self.right).zip(self.down) {
             *c += r * i64::from(x) + d * i64::from(y);
@@ -179,7 +179,7 @@ impl<'a> RayCaster<'a> {
     }
 
     /// The direction moved by an offset in pixels (24 fractional bits), 28 fractional bits.
-    fn offset(&self, mut direction: [i64; 3], dx: i32, dy: i32) -> [i32; 3] {
+    pub(super) fn offset(&self, mut direction: [i64; 3], dx: i32, dy: i32) -> [i32; 3] {
         if (dx, dy) != (0, 0) {
             for ((c, r), d) in direction.iter_mut().zip(self.right).zip(self.down) {
                 // a step has at most 62 bits, an offset is at most 2 pixels
@@ -224,6 +224,22 @@ impl<'a> RayCaster<'a> {
         rounded(tone.to_bits() as u32)
     }
 
+    /// The tone of a pixel's samples, before it is rounded.
+    #[inline(never)]
+    pub(super) fn samples(&self, x: u32, y: u32) -> Unit {
+        let direction = self.direction(x, y).map(narrow);
+        if self.pattern.is_centre() { self.tone(direction, true) } else { self.mean(x, y, true) }
+    }
+
+    /// The tone of the environment through a pixel that shows nothing else: of its samples where it has edges.
+    pub(super) fn surroundings(&self, x: u32, y: u32) -> Unit {
+        if matches!(self.environment, Environment::Checkerboard { .. }) && !self.pattern.is_centre() {
+            return self.mean(x, y, false);
+        }
+        let [x, y, z] = self.direction(x, y).map(narrow);
+        self.beyond(x, y, z)
+    }
+
     /// The weighted mean of the tones of a pixel's samples.
     #[inline(never)]
     fn mean(&self, x: u32, y: u32, visible: bool) -> Unit {
@@ -239,7 +255,7 @@ impl<'a> RayCaster<'a> {
 /// A tone with 30 fractional bits, at most 1, as a part of 65535: the nearest, or the other within `2^-14` of
 /// a half.
 #[inline(always)]
-fn rounded(tone: u32) -> Tone {
+pub(super) fn rounded(tone: u32) -> Tone {
     // times 65535 / 2^30
     Tone::from_bits(((tone - (tone >> 16) + (1 << 13)) >> 14) as u16)
 }
@@ -262,7 +278,7 @@ fn in_reach(tangent: i32, cols: i64, rows: i64, margin: i64) -> Result<(), Error
 }
 
 #[inline]
-fn narrow(direction: i64) -> i32 {
+pub(super) fn narrow(direction: i64) -> i32 {
     (direction >> 32) as i32
 }
 

@@ -30,7 +30,7 @@ pub use area::ground_words;
 pub use chart::{CELLS_ACROSS, Chart};
 pub use copier::Copies;
 pub use curve::CurvePicture;
-pub use depth::{depth_for, surface_depth};
+pub use depth::{depth_for, filtered_depth, surface_depth};
 pub use ifs::{IfsPicture, Shading};
 pub use ink::{ground, solid};
 pub use julia_set::{JuliaSetPicture, Method};

@@ -31,7 +31,7 @@ const NAMES: [(&str, &str); 19] = [
     ("attractor::terrain", "Heights InnerGeometry Law Magnification PlaneToLine"),
     (
         "attractor::trace",
-        "Camera Environment Extent Filter HeightField Light Finish Panorama RayCaster Sampling Sky Tiles",
+        "Camera Environment Extent Filter HeightField Light Finish Panorama Quality RayCaster Sampling Sky Tiles",
     ),
     ("attractor::trace::material", "Anisotropic Clear Medium Mixture Phong TorranceSparrow"),
     (
@@ -138,7 +138,7 @@ fn import(path: &str, names: &[&str]) -> String {
         [one] => format!("use {path}::{one};\n"),
         all => format!("use {path}::{{{}}};\n", all.join(", ")),
     };
-    if line.len() <= WIDTH + 1 {
+    if line.len() <= WIDTH {
         return line;
     }
     let mut lines = vec![String::from("   ")];

@@ -2,8 +2,7 @@
 
 use attractor::fif::Pyramid;
 use attractor::num::Vec3;
-use attractor::trace::{Environment, Finish};
-use attractor_gallery::surface_depth;
+use attractor::trace::{Environment, Finish, Quality};
 
 use super::function::function;
 use super::module::{Module, lit, lits, variant};
@@ -23,15 +22,19 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
         function(g, "g", "G_", module);
     }
     let maps = [f.fixed.maps(), g.fixed.maps()];
-    let depth = surface_depth(maps, scene.depth, SIDE);
+    let depth = scene.depth_of_pyramids(SIDE);
     let cells = maps.map(|maps| Pyramid::cells(maps, depth));
     let lent = if f.parts == g.parts {
         format!("One pyramid serves for both factors: {} cells", cells[0])
     } else {
         format!("A pyramid for each factor: {} and {} cells", cells[0], cells[1])
     };
+    let (fine, lent) = match scene.filter {
+        None => ("as fine as a pixel", lent),
+        Some(_) => ("half as wide as a pixel", format!("{lent}, and as many spreads")),
+    };
     let doc = format!(
-        "How deep the pyramids are; none: their cells are as fine as a pixel.\n{lent} are lent on {SIDE} pixels a side, {depth} deep."
+        "How deep the pyramids are; none: their cells are {fine}.\n{lent} are lent on {SIDE} pixels a side, {depth} deep."
     );
     module.constant(&doc, "DEPTH", "Option<u32>", format_args!("{:?}", scene.depth));
     camera(&scene.standpoint, module);
@@ -57,6 +60,16 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
         "fn caster<'a>(surface: HeightField<'a>, size: Size, seed: u32) -> Result<RayCaster<'a>, Error>",
         &lines,
     );
+    if let Some(quality) = scene.filter {
+        let quality = match quality {
+            Quality::Coarse => "Quality::Coarse",
+            Quality::Fine => "Quality::Fine",
+            Quality::Finest => "Quality::Finest",
+            other => unreachable!("no scene is filtered by {other:?}"),
+        };
+        let doc = "How fine the normals of a pixel are integrated.";
+        module.constant(doc, "QUALITY", "Quality", quality);
+    }
     palette::plain(scene.palette, module, gallery);
 }
 

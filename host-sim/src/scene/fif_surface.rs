@@ -2,10 +2,14 @@
 
 use std::convert::Infallible;
 
-use attractor::fif::{Cell, Factor, Pyramid, Surface};
+use attractor::fif::{Cell, Factor, Moments, Pyramid, Spread, Surface};
 use attractor::num::Vec3;
-use attractor::trace::{Camera, Environment, Filter, Finish, HeightField, Light, RayCaster, Sampling};
-use attractor_gallery::{Watch, depth_for, draw_field, surface_depth};
+use attractor::plane::Field;
+use attractor::trace::{
+    Camera, Environment, Filter, FilteredCaster, Finish, Found, HeightField, Light, Quality, RayCaster,
+    Sampling,
+};
+use attractor_gallery::{Watch, depth_for, draw_field, filtered_depth, surface_depth};
 use attractor_reference as reference;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -42,6 +46,7 @@ struct File {
     gradient: Option<Spanned<Sky>>,
     checkerboard: Option<Spanned<Board>>,
     samples: Option<Spanned<u8>>,
+    filter: Option<Filtering>,
     depth: Option<Spanned<u32>>,
     palette: Option<Named>,
 }
@@ -50,6 +55,20 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Lamp {
     direction: Spanned<[Num; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Filtering {
+    quality: Level,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Level {
+    Coarse,
+    Fine,
+    Finest,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -92,6 +111,8 @@ pub(crate) struct FifSurface {
     pub(crate) environment: Environment,
     /// A side.
     pub(crate) samples: u8,
+    /// Of normals that are integrated.
+    pub(crate) filter: Option<Quality>,
     pub(crate) depth: Option<u32>,
     pub(crate) palette: Named,
 }
@@ -139,6 +160,11 @@ impl FifSurface {
             },
             environment: environment.compile(source)?,
             samples,
+            filter: file.filter.map(|filter| match filter.quality {
+                Level::Coarse => Quality::Coarse,
+                Level::Fine => Quality::Fine,
+                Level::Finest => Quality::Finest,
+            }),
             depth: file.depth.as_ref().map(|depth| *depth.get_ref()),
             palette: file.palette.unwrap_or(Named::Dusk),
         };
@@ -149,7 +175,7 @@ impl FifSurface {
             }
         }
         // ranges of the surface are checked now, not in the middle of a picture
-        scene.with_surface(1, |_| Ok(()))?;
+        scene.with_surface(1, |_, _| Ok(()))?;
         Ok(scene)
     }
 
@@ -157,19 +183,36 @@ impl FifSurface {
         self.f.function.fixed.maps().max(self.g.function.fixed.maps())
     }
 
-    /// Builds the pyramids down to cells finer than a pixel.
+    /// How deep the pyramids are for a display whose longer side has so many pixels.
+    pub(crate) fn depth_of_pyramids(&self, side: u32) -> u32 {
+        let maps = [self.f.function.fixed.maps(), self.g.function.fixed.maps()];
+        match self.filter {
+            None => surface_depth(maps, self.depth, side),
+            Some(_) => filtered_depth(maps, self.depth, side),
+        }
+    }
+
+    /// Builds the pyramids down to cells finer than a pixel, and the moments where pixels are filtered.
     fn with_surface<T>(
         &self,
         side: u32,
-        use_it: impl FnOnce(HeightField<'_>) -> Result<T, Fail>,
+        use_it: impl FnOnce(HeightField<'_>, Option<[Moments<'_>; 2]>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
         let (f, g) = (&self.f.function.fixed, &self.g.function.fixed);
-        let depth = surface_depth([f.maps(), g.maps()], self.depth, side);
+        let depth = self.depth_of_pyramids(side);
         let cells = |maps: usize| vec![Cell::ZERO; Pyramid::cells(maps, depth)];
         let (mut a, mut b) = (cells(f.maps()), cells(g.maps()));
         let x = Pyramid::new(f, depth, &mut a).map_err(|error| self.f.scalings.fail(error))?;
         let y = Pyramid::new(g, depth, &mut b).map_err(|error| self.g.scalings.fail(error))?;
-        use_it(HeightField::new(&x, &y).map_err(|error| self.f.scalings.fail(error))?)
+        let surface = HeightField::new(&x, &y).map_err(|error| self.f.scalings.fail(error))?;
+        if self.filter.is_none() {
+            return use_it(surface, None);
+        }
+        let spreads = |maps: usize| vec![Spread::ZERO; Pyramid::cells(maps, depth)];
+        let (mut a, mut b) = (spreads(f.maps()), spreads(g.maps()));
+        let x = Moments::new(f, &x, &mut a).map_err(|error| self.f.scalings.fail(error))?;
+        let y = Moments::new(g, &y, &mut b).map_err(|error| self.g.scalings.fail(error))?;
+        use_it(surface, Some([x, y]))
     }
 
     fn caster<'a>(
@@ -226,11 +269,52 @@ impl FifSurface {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        self.with_surface(request.size.width.max(request.size.height), |surface| {
-            let caster = self
-                .caster(surface, request.size, request.seed)
-                .map_err(|error| self.eye.fail_at(request.size, error))?;
-            draw_field(&caster, self.palette, target, watch);
+        self.with_surface(request.size.width.max(request.size.height), |surface, moments| {
+            let fail = |error| self.eye.fail_at(request.size, error);
+            let caster = self.caster(surface, request.size, request.seed).map_err(fail)?;
+            match self.filtered(&caster, moments).map_err(fail)? {
+                None => draw_field(&caster, self.palette, target, watch),
+                Some(filtered) => draw_field(&filtered, self.palette, target, watch),
+            };
+            Ok(())
+        })
+    }
+
+    fn filtered<'a>(
+        &self,
+        caster: &RayCaster<'a>,
+        moments: Option<[Moments<'a>; 2]>,
+    ) -> Result<Option<FilteredCaster<'a>>, attractor::Error> {
+        let (Some([x, y]), Some(quality)) = (moments, self.filter) else { return Ok(None) };
+        FilteredCaster::new(caster.clone(), &x, &y, quality).map(Some)
+    }
+
+    /// The tone of every pixel, by its samples, by the ray through its centre alone, and filtered, if it is.
+    pub(super) fn pixels(&self, request: &Request, out: &mut Csv) -> Result<(), Fail> {
+        self.with_surface(request.size.width.max(request.size.height), |surface, moments| {
+            let fail = |error| self.eye.fail_at(request.size, error);
+            let caster = self.caster(surface, request.size, request.seed).map_err(fail)?;
+            let one = caster.clone().with_sampling(Sampling::Centre, Filter::Box).map_err(fail)?;
+            let filtered = self.filtered(&caster, moments).map_err(fail)?;
+            out.write_record(["i", "j", "found", "filtered", "sampled", "one"])?;
+            for (j, i) in (0..request.size.height).flat_map(|j| (0..request.size.width).map(move |i| (j, i)))
+            {
+                let tone =
+                    |tone: attractor::plane::Tone| format!("{:?}", f64::from(tone.to_bits()) / 65535.0);
+                let (found, value) = match &filtered {
+                    None => ("", String::new()),
+                    Some(filtered) => {
+                        let found = match filtered.found(i, j) {
+                            Found::Filtered => "filtered",
+                            Found::Sampled => "sampled",
+                            _ => "beyond",
+                        };
+                        (found, tone(filtered.at(i, j)))
+                    }
+                };
+                let (sampled, one) = (tone(caster.at(i, j)), tone(one.at(i, j)));
+                out.write_record([&i.to_string(), &j.to_string(), found, &value, &sampled, &one])?;
+            }
             Ok(())
         })
     }

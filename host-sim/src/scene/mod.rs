@@ -308,6 +308,9 @@ impl Scene {
         out: &mut Csv,
     ) -> Result<(), Fail> {
         let asks = question.option();
+        if let (Kind::FifSurface(scene), Question::Pixels) = (&self.kind, &question) {
+            return scene.pixels(request, out);
+        }
         if !matches!((&self.kind, &question), (Kind::World(_) | Kind::Texture(_), _) | (_, Question::Usual)) {
             let (name, kind) = (&self.name, self.kind());
             return Err(Fail::new(format_args!(

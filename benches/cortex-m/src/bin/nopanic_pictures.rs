@@ -13,12 +13,13 @@ use attractor::escape::{
     Arithmetic, Buffered, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
     Mandelbrot, OrbitPoint, Pan, Smooth, View,
 };
-use attractor::fif::{Cell, Fif, Knot, Pyramid};
+use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread};
 use attractor::num::Complex;
 use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
 use attractor::plane::{Bounds2, Field, Point2, Window, from_fn};
 use attractor::trace::{
-    Camera, Environment, Filter, Finish, HeightField, Light, Ray, RayCaster, Sampling, Statistics,
+    Camera, Environment, Filter, FilteredCaster, Finish, HeightField, Light, Quality, Ray, RayCaster,
+    Sampling, Statistics,
 };
 use attractor::{Error, draw};
 use attractor_cortex_m::{Wire, entry, semihosting};
@@ -121,6 +122,11 @@ fn rays() -> Result<(), Error> {
         .with_sampling(bb(Sampling::Centre), bb(Filter::Box))?;
     bb((caster.row(bb(0), bb(0)..bb(100)).last(), caster.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
     bb((caster.hit(bb(0), bb(0)), caster.statistics()));
+    let mut spreads = [Spread::ZERO; Pyramid::cells(2, 4)];
+    let moments = Moments::new(&f, &pyramid, &mut spreads)?;
+    bb((moments.over(bb(Wide::ZERO), bb(Wide::ONE)), f.spread_at(bb(9), bb(5))?));
+    let filtered = FilteredCaster::new(caster, &moments, &moments, bb(Quality::Fine))?;
+    bb((filtered.row(bb(0), bb(0)..bb(100)).last(), filtered.found(bb(3), bb(4))));
     Ok(())
 }
 

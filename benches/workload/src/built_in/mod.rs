@@ -53,6 +53,8 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(surface!("figure-6-gg", figure_6_gg)),
     both_roomy(surface!("figure-6-ff-diffuse", figure_6_ff_diffuse)),
     both_roomy(surface!("figure-6-gg-phong", figure_6_gg_phong)),
+    both_roomy(filtered!("figure-6-gg-filtered", figure_6_gg_filtered)),
+    both_roomy(filtered!("figure-6-gg-phong-filtered", figure_6_gg_phong_filtered)),
     both_roomy(chart!("sunspots", sunspots)),
     ifs!("sierpinski", sierpinski),
     both_roomy(ifs!("fern", fern)),

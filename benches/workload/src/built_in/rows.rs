@@ -49,6 +49,23 @@ macro_rules! surface {
     };
 }
 
+macro_rules! filtered {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| fif::filtered::<
+            C,
+            { of::$scene::MAPS },
+            { of::$scene::DEGREE },
+            { fif::cells_of_filtered(of::$scene::MAPS, of::$scene::DEPTH, S) },
+        >(
+            stage,
+            of::$scene::factor,
+            of::$scene::DEPTH,
+            (of::$scene::caster, of::$scene::QUALITY),
+            of::$scene::NAMED
+        ))
+    };
+}
+
 macro_rules! ifs {
     ($name:literal, $scene:ident) => {
         both!($name, |stage, C, S| sets::attractor::<

@@ -11,6 +11,7 @@ mod deep;
 mod escape;
 mod fif;
 mod filled;
+mod filtered;
 mod ifs;
 mod num;
 mod patch;
@@ -165,6 +166,14 @@ const TABLE: &[Kernel] = &[
     roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
     roomy(beside("phong rgb", "call, one light", shade::phong_rgb, shade::phong_rgb_float::<f32>, shade::phong_rgb_float::<f64>)),
     roomy(beside("refraction", "call", shade::refraction, shade::refraction_float::<f32>, shade::refraction_float::<f64>)),
+    roomy(alone("plain diffuse", "pixel of G x G", filtered::plain_diffuse)),
+    roomy(alone("filtered diffuse, coarse", "pixel of G x G", filtered::diffuse_coarse)),
+    roomy(alone("filtered diffuse, fine", "pixel of G x G", filtered::diffuse_fine)),
+    roomy(alone("plain highlight", "pixel of G x G", filtered::plain_highlight)),
+    roomy(alone("filtered highlight, fine", "pixel of G x G", filtered::highlight_fine)),
+    roomy(alone("filtered highlight, finest", "pixel of G x G", filtered::highlight_finest)),
+    roomy(alone("plain mirror", "pixel of G x G", filtered::plain_mirror)),
+    roomy(alone("filtered mirror, fine", "pixel of G x G", filtered::mirror_fine)),
     beside("noise", "value", texture::noise_fixed, texture::noise_float::<f32>, texture::noise_float::<f64>),
     beside("turbulence", "octave of four", texture::turbulence_fixed, texture::turbulence_float::<f32>, texture::turbulence_float::<f64>),
     roomy(beside("sphere", "ray, both crossings", shapes::sphere, shapes::sphere_float::<f32>, shapes::sphere_float::<f64>)),
