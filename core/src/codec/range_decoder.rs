@@ -83,7 +83,7 @@ impl<I: Iterator<Item = u8>> RangeDecoder<I> {
 }
 
 impl<I: Iterator<Item = u8>> Coder for RangeDecoder<I> {
-    #[inline]
+    #[inline(never)]
     fn bin(&mut self, context: usize, _: bool) -> bool {
         let Some(model) = self.models.get_mut(context) else { return false };
         let bound = (self.range >> 13) * model.zero();
@@ -99,7 +99,7 @@ impl<I: Iterator<Item = u8>> Coder for RangeDecoder<I> {
         bin
     }
 
-    #[inline]
+    #[inline(never)]
     fn raw(&mut self, count: u32, _: u32) -> u32 {
         let mut bits = 0;
         for _ in 0..count.min(32) {
