@@ -1,4 +1,5 @@
-//! The image codec: files of today decode for ever, as the f64 reference does, and what is no file is refused.
+//! The image codec: files of today decode for ever, as the f64 reference does, and what is no file is
+//! refused.
 //!
 //! The faults that others reported are named where they are tested.
 
@@ -12,7 +13,8 @@ use attractor::plane::Field;
 use attractor_reference::codec::decode;
 use embedded_graphics::geometry::Size;
 
-/// Every file of version 1 that is kept. `vectors/checksums.txt` has the CRC-32 of each one's samples, luma, orange and
+/// Every file of version 1 that is kept. `vectors/checksums.txt` has the CRC-32 of each one's samples, luma,
+/// orange and
 /// green of every pixel in 16 bits, lowest byte first.
 const FILES: [(&str, &[u8]); 9] = [
     ("flat-8", include_bytes!("vectors/flat-8.atfi")),
@@ -339,7 +341,8 @@ fn an_endless_reader_is_read_to_the_end_of_the_picture_and_no_further() {
     }
 }
 
-/// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf refers
+/// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf
+/// refers
 /// to itself; all samples stay samples and all ends.
 #[test]
 fn forged_payloads_decode_or_are_refused() {

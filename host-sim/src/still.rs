@@ -1,6 +1,7 @@
 //! A picture out of a PNG file, as the planes that are encoded.
 //!
-//! Colour becomes `Y = (R + 2G + B)/4`, `Co = (R - B)/2 + 128`, `Cg = (2G - R - B)/4 + 128`, rounded; chroma is
+//! Colour becomes `Y = (R + 2G + B)/4`, `Co = (R - B)/2 + 128`, `Cg = (2G - R - B)/4 + 128`, rounded; chroma
+//! is
 //! halved by the mean of four. What is transparent is laid on a ground.
 
 use std::fs::File;

@@ -66,7 +66,8 @@ pub(super) fn tree(coder: &mut impl Coder, context: usize, count: u32, value: u3
 /// The most doublings of a number.
 const DOUBLINGS: u32 = 20;
 
-/// A number from 0 to `2^21 - 2` by Elias and Golomb: how often `v + 1` can be halved, in unary, then its bits
+/// A number from 0 to `2^21 - 2` by Elias and Golomb: how often `v + 1` can be halved, in unary, then its
+/// bits
 /// below the highest, of which the first has a model.
 #[inline(never)]
 pub fn number(coder: &mut impl Coder, context: usize, value: u32) -> u32 {

@@ -6,7 +6,8 @@
 //!
 //! `x` its transform, `D` its domain: a square of `2n`, halved, turned by its isometry, and `s` the contrast.
 //! `m` is the mean of `b`, as it was rounded and cut off, along the edges of the neighbours above and to the
-//! left; of half the range where there are none. It is the mean of `b`, not of `p`: so it is known without any
+//! left; of half the range where there are none. It is the mean of `b`, not of `p`: so it is known without
+//! any
 //! domain, in every sweep, at every scale.
 //!
 //! Format: 7 fractional bits, rounded to nearest once; a domain's mean has 4.
@@ -297,7 +298,8 @@ impl<'a, S: Sample> Plane<'a, S> {
         true
     }
 
-    /// What a domain would add to a leaf at full contrast, row by row, with 7 fractional bits: for an encoder.
+    /// What a domain would add to a leaf at full contrast, row by row, with 7 fractional bits: for an
+    /// encoder.
     /// Nothing where the domain may not lie there.
     pub fn copied(&self, domain: &Domain, x: u32, y: u32, size: u32, into: &mut [i32]) -> bool {
         let Some((px, py)) = self.shape.place(domain, x, y, size) else { return false };

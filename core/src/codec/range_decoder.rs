@@ -1,6 +1,7 @@
 //! A binary range decoder (G. N. N. Martin, "Range encoding", 1979; the carry as in I. Pavlov's LZMA).
 //!
-//! `range` is the width of what is left of the interval, `code` where the stream's number lies in it. A bin of
+//! `range` is the width of what is left of the interval, `code` where the stream's number lies in it. A bin
+//! of
 //! probability `p` divides the range; when it falls below `2^24` a byte is taken in. Beyond the payload's end
 //! the bytes are 0.
 

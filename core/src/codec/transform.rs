@@ -1,17 +1,20 @@
 //! The inverse cosine transform of a block, in integers: the same bits everywhere.
 //!
-//! A block of `n x n`, drawn `m x m` (`m = n` but for a scaled picture), has levels `L(v, u)`, `v` down and `u`
+//! A block of `n x n`, drawn `m x m` (`m = n` but for a scaled picture), has levels `L(v, u)`, `v` down and
+//! `u`
 //! across, both below 16, and the step `q`:
 //!
 //! `x(i, j) = 2/n q sum_v sum_u k_v k_u L(v, u) cos((2i+1) v pi / 2m) cos((2j+1) u pi / 2m)`,
 //! `k_0 = 1/sqrt 2`, else 1; frequencies of `m` and above are left out. In three steps:
 //!
 //! 1. `t(i, u) = sum_v c_v L(v, u)`, exact: `c` has 14 fractional bits, `|L| <= 8191`, 32 bits hold the sum;
-//! 2. `T(i, u) = t q 2/n k_u`, for samples of 8 bits rounded to 3 fractional bits and cut off at 1024, else to 4
+//! 2. `T(i, u) = t q 2/n k_u`, for samples of 8 bits rounded to 3 fractional bits and cut off at 1024, else
+//! to 4
 //!    and at `2^19`;
 //! 3. `x(i, j) = sum_u c_u T(i, u)`, exact, for samples of 8 bits in 32, rounded to 7 fractional bits.
 //!
-//! To nearest, halves upwards. Rows `i` and `m-1-i`, and columns likewise, have the same products but for signs.
+//! To nearest, halves upwards. Rows `i` and `m-1-i`, and columns likewise, have the same products but for
+//! signs.
 //! Source: N. Ahmed, T. Natarajan, K. R. Rao, "Discrete cosine transform", 1974.
 
 use super::sample::Sample;

@@ -12,7 +12,7 @@ mod search;
 
 use std::io::Write as _;
 
-use attractor::codec::Profile;
+use attractor::codec::{Profile, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 
 pub(crate) use file::Plan;
@@ -85,7 +85,7 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
     bar.finish_and_clear();
     let length = best.bytes.len();
     match target {
-        Target::Bytes(bytes) if length as f64 > bytes => say(&format!(
+        Target::Bytes(bytes) if length as f64 > bytes && best.step == Step::MAX.to_bits() => say(&format!(
             "{} bytes are too few: the smallest file of this picture has {length}",
             bytes as u64
         )),

@@ -1,6 +1,7 @@
 //! How like two pictures are: PSNR, and MS-SSIM.
 //!
-//! MS-SSIM: Z. Wang, E. Simoncelli, A. Bovik, "Multiscale structural similarity for image quality assessment",
+//! MS-SSIM: Z. Wang, E. Simoncelli, A. Bovik, "Multiscale structural similarity for image quality
+//! assessment",
 //! 2003; windows of 11 x 11 with a Gaussian of 1.5, `K1 = 0.01`, `K2 = 0.03`, five scales, of the mean of the
 //! channels. Smaller pictures have fewer scales, the weights in proportion.
 

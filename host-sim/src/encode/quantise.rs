@@ -1,7 +1,8 @@
 //! Levels of a square's coefficients, by rate and distortion: what a level saves of the error, less what its
 //! bins cost.
 //!
-//! Along the scan each level is the best of three, 0 and the two next to the coefficient, at the prices of the
+//! Along the scan each level is the best of three, 0 and the two next to the coefficient, at the prices of
+//! the
 //! models as they stand; then the place to stop is the one where the sum was least.
 
 use attractor::codec::{CLASSES, Leaf, MODELS, Model, NUMBER, Setting, class, context, number, scan};

@@ -95,7 +95,8 @@ pub(crate) fn meet(
     let (mut pool, mut passes): (Option<Vec<Vec<u16>>>, u32) = (None, 0);
     let tried = narrow(target, rough.step, PASSES, 0.0, |step| {
         let encoded = one(step, &candidates, pool.as_deref().filter(|_| sweeps))?;
-        // the next ones take their domains from what this one looks like; then the pool stays, or no step would
+        // the next ones take their domains from what this one looks like; then the pool stays, or no step
+        // would
         // meet the target
         if passes < 2 {
             pool = Some(encoded.planes.clone());
@@ -103,6 +104,22 @@ pub(crate) fn meet(
         }
         Ok(encoded)
     })?;
+    let mut tried = tried;
+    // where bytes are no straight line at all: ever further off, until a step is allowed
+    let mut stride = 4;
+    while !tried.iter().any(|e| target.allows(e)) {
+        stride *= 2;
+        let coarsest = tried.iter().map(|e| e.step).max().unwrap_or(rough.step);
+        let finest = tried.iter().map(|e| e.step).min().unwrap_or(rough.step);
+        let step = match target {
+            Target::Bytes(_) => (coarsest + stride).min(Step::MAX.to_bits()),
+            Target::Decibels(_) => finest.saturating_sub(stride),
+        };
+        if step == coarsest || step == finest {
+            break;
+        }
+        tried.push(one(step, &candidates, pool.as_deref().filter(|_| sweeps))?);
+    }
     let closest = |a: &&Encoded, b: &&Encoded| target.miss(a).abs().total_cmp(&target.miss(b).abs());
     let best = tried.iter().filter(|e| target.allows(e)).min_by(closest);
     // a target out of reach: the nearest there is

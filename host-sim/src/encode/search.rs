@@ -1,7 +1,8 @@
 //! Domains that resemble a square: those near it one by one, those further away from an index.
 //!
 //! What a domain takes off the square's error at the best contrast `c = <r, d> / <d, d>` is `c <r, d>`, means
-//! off: the square of the cosine between the two, times `<r, r>`. So the index is a k-d tree (J. Bentley, 1975)
+//! off: the square of the cosine between the two, times `<r, r>`. So the index is a k-d tree (J. Bentley,
+//! 1975)
 //! of unit vectors of low frequencies: those near a square's own, or near its negative, are the candidates,
 //! whatever their contrast (D. Saupe, "Accelerating fractal image compression by multi-dimensional nearest
 //! neighbor search", 1995).
