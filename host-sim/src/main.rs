@@ -9,11 +9,14 @@ mod canvas;
 mod cli;
 mod color;
 mod cover;
+mod decode;
 mod dimension;
 mod dump;
+mod encode;
 mod export;
 mod fail;
 mod fit;
+mod inspect;
 mod lines;
 mod list;
 mod number;
@@ -24,6 +27,7 @@ mod sample;
 mod scene;
 mod source;
 mod spectrum;
+mod still;
 mod table;
 mod theory;
 mod window;
@@ -46,6 +50,9 @@ fn main() -> ExitCode {
         Some(Command::Dump(args)) => dump::run(args),
         Some(Command::Sample(args)) => sample::run(args),
         Some(Command::Export(args)) => export::run(args),
+        Some(Command::Encode(args)) => encode::run(args),
+        Some(Command::Decode(args)) => decode::run(args),
+        Some(Command::Inspect(args)) => inspect::run(args),
         Some(Command::Accuracy(args)) => accuracy::run(args),
         Some(Command::Dimension(args)) => dimension::run(args),
         Some(Command::Spectrum(args)) => spectrum::run(args),

@@ -128,7 +128,7 @@ impl Leaf {
         }
     }
 
-    #[inline]
+    #[inline(never)]
     fn code_levels(&mut self, coder: &mut impl Coder, size: u32, plane: usize, kind: usize) {
         let scan = scan(size);
         let models = context::LAST + (plane * 8 + kind) * NUMBER;
@@ -153,7 +153,7 @@ impl Leaf {
 }
 
 /// Says a domain.
-#[inline]
+#[inline(never)]
 fn code_domain(coder: &mut impl Coder, setting: &Setting, k: usize, said: Option<Domain>) -> Domain {
     let said = said.unwrap_or(Domain { near: false, column: 0, row: 0, isometry: 0, scaling: 0 });
     let near = match setting.far {

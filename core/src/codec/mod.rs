@@ -12,9 +12,11 @@
 //! | [`Iterated`](Profile::Iterated) | anywhere | [`Sweeps`], at most 8, in place in one buffer |
 //! | [`Pure`](Profile::Pure) | anywhere; no transform | the same |
 //!
-//! Bytes come from any iterator; with the feature `embedded-io` from any of its readers, by `Bytes`. The format
+//! Bytes come from any iterator; with the feature `embedded-io` from any of its readers, by `Bytes`. The
+//! format
 //! is written down in `docs/IMAGE-FORMAT.md` of the repository; the command `attractor encode` writes it.
-//! [`Plane`], [`Leaf`] and [`Coder`] are what an encoder shares with the decoder: it walks the same syntax with a
+//! [`Plane`], [`Leaf`] and [`Coder`] are what an encoder shares with the decoder: it walks the same syntax
+//! with a
 //! coder that writes.
 
 pub mod context;

@@ -53,7 +53,7 @@ pub trait Coder {
 }
 
 /// `count` bins, the highest first, each under a model of those before it.
-#[inline]
+#[inline(never)]
 pub(super) fn tree(coder: &mut impl Coder, context: usize, count: u32, value: u32) -> u32 {
     let mut node = 1;
     for i in (0..count).rev() {
@@ -66,9 +66,10 @@ pub(super) fn tree(coder: &mut impl Coder, context: usize, count: u32, value: u3
 /// The most doublings of a number.
 const DOUBLINGS: u32 = 20;
 
-/// A number from 0 to `2^21 - 2` by Elias and Golomb: how often `v + 1` can be halved, in unary, then its bits
+/// A number from 0 to `2^21 - 2` by Elias and Golomb: how often `v + 1` can be halved, in unary, then its
+/// bits
 /// below the highest, of which the first has a model.
-#[inline]
+#[inline(never)]
 pub fn number(coder: &mut impl Coder, context: usize, value: u32) -> u32 {
     let value = value.saturating_add(1).min((1 << (DOUBLINGS + 1)) - 1);
     let wanted = 31 - value.leading_zeros();

@@ -6,7 +6,8 @@
 //!
 //! `x` its transform, `D` its domain: a square of `2n`, halved, turned by its isometry, and `s` the contrast.
 //! `m` is the mean of `b`, as it was rounded and cut off, along the edges of the neighbours above and to the
-//! left; of half the range where there are none. It is the mean of `b`, not of `p`: so it is known without any
+//! left; of half the range where there are none. It is the mean of `b`, not of `p`: so it is known without
+//! any
 //! domain, in every sweep, at every scale.
 //!
 //! Format: 7 fractional bits, rounded to nearest once; a domain's mean has 4.
@@ -210,7 +211,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// The mean along the neighbours' edges, with 7 fractional bits.
-    #[inline]
+    #[inline(never)]
     pub fn expected(&self, x: u32, y: u32, size: u32) -> i32 {
         let n = 1_usize << size;
         let (mut sum, mut doubled) = (0, 0);
@@ -234,6 +235,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// A square outside the picture: as if it were what its neighbours let expect.
+    #[inline(never)]
     pub fn skip(&mut self, x: u32, y: u32, size: u32) {
         let mean = rounded(self.expected(x, y, size));
         self.mark(x, y, size, false);
@@ -243,7 +245,7 @@ impl<'a, S: Sample> Plane<'a, S> {
         }
     }
 
-    #[inline]
+    #[inline(never)]
     fn mark(&mut self, x: u32, y: u32, size: u32, domain: bool) {
         let value = cell(5 - size, domain);
         let cells = 1 << (size - 2);
@@ -296,7 +298,8 @@ impl<'a, S: Sample> Plane<'a, S> {
         true
     }
 
-    /// What a domain would add to a leaf at full contrast, row by row, with 7 fractional bits: for an encoder.
+    /// What a domain would add to a leaf at full contrast, row by row, with 7 fractional bits: for an
+    /// encoder.
     /// Nothing where the domain may not lie there.
     pub fn copied(&self, domain: &Domain, x: u32, y: u32, size: u32, into: &mut [i32]) -> bool {
         let Some((px, py)) = self.shape.place(domain, x, y, size) else { return false };
@@ -357,8 +360,9 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// The base along the edges, for a picture that is drawn at another scale.
+    #[inline(never)]
     fn edges(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32, mean: i32) {
-        let inverse = Inverse::new(&leaf.levels, self.shape.step, size, size);
+        let inverse = Inverse::new::<S>(&leaf.levels, self.shape.step, size, size);
         let n = 1 << size;
         let base = |v: i32| rounded(mean + v);
         if leaf.levels.is_empty() {
@@ -369,21 +373,22 @@ impl<'a, S: Sample> Plane<'a, S> {
             return;
         }
         for i in 0..n / 2 {
-            let (top, bottom) = inverse.rows(i);
-            self.set_left(y + i, base(inverse.pixels(&top, 0).1));
-            self.set_left(y + n - 1 - i, base(inverse.pixels(&bottom, 0).1));
+            let pair = inverse.rows(i);
+            let [_, upper, _, lower] = inverse.pixels::<S>(&pair, 0);
+            self.set_left(y + i, base(upper));
+            self.set_left(y + n - 1 - i, base(lower));
             if i == 0 {
                 for j in 0..n / 2 {
-                    let (l, r) = inverse.pixels(&bottom, j);
-                    self.set_above(x + j, base(l));
-                    self.set_above(x + n - 1 - j, base(r));
+                    let [_, _, left, right] = inverse.pixels::<S>(&pair, j);
+                    self.set_above(x + j, base(left));
+                    self.set_above(x + n - 1 - j, base(right));
                 }
             }
         }
     }
 
     /// Draws a leaf; at scale 1 its base goes along the edges as well.
-    #[inline]
+    #[inline(never)]
     fn fill(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32, mean: i32, source: Option<Source<'a, S>>) {
         let shape = self.shape;
         let drawn = shape.drawn(size);
@@ -394,7 +399,7 @@ impl<'a, S: Sample> Plane<'a, S> {
         // how much of the leaf lies inside
         let (wide, high) = (m.min(columns - left.min(columns)), m.min(rows - top.min(rows)));
         let edges = shape.scale == 0;
-        let inverse = Inverse::new(&leaf.levels, shape.step, size, drawn);
+        let inverse = Inverse::new::<S>(&leaf.levels, shape.step, size, drawn);
         let flat = leaf.levels.is_empty();
         if flat && edges {
             let base = rounded(mean);
@@ -430,26 +435,31 @@ impl<'a, S: Sample> Plane<'a, S> {
         for i in 0..m.div_ceil(2) {
             let below = m - 1 - i;
             let pair = inverse.rows(i);
-            for (i, terms) in [(i, &pair.0), (below, &pair.1)] {
-                if edges && i == m - 1 {
-                    for j in 0..m / 2 {
-                        let (l, r) = inverse.pixels(terms, j);
-                        self.set_above(x + j, rounded(mean + l));
-                        self.set_above(x + m - 1 - j, rounded(mean + r));
+            let upper = if i < high { row(i) } else { &[] };
+            let lower = if below < high { row(below) } else { &[] };
+            for j in 0..m.div_ceil(2) {
+                let other = m - 1 - j;
+                let [ul, ur, ll, lr] = inverse.pixels::<S>(&pair, j);
+                if edges {
+                    if i == 0 {
+                        self.set_above(x + j, rounded(mean + ll));
+                        self.set_above(x + other, rounded(mean + lr));
+                    }
+                    if j == 0 {
+                        self.set_left(y + i, rounded(mean + ur));
+                        self.set_left(y + below, rounded(mean + lr));
                     }
                 }
-                let slots = if i < high { row(i) } else { &[] };
-                for j in 0..m.div_ceil(2) {
-                    let other = m - 1 - j;
-                    let (l, r) = inverse.pixels(terms, j);
-                    if edges && j == 0 {
-                        self.set_left(y + i, rounded(mean + r));
-                    }
-                    for (j, v) in [(j, l), (other, r)] {
-                        if let Some(slot) = slots.get(j as usize) {
-                            let copied = source.as_ref().map_or(0, |source| source.at(i, j));
-                            slot.set(rounded(mean + v + copied));
-                        }
+                let four = [
+                    (upper, i, j, ul),
+                    (upper, i, other, ur),
+                    (lower, below, j, ll),
+                    (lower, below, other, lr),
+                ];
+                for (slots, i, j, value) in four {
+                    if let Some(slot) = slots.get(j as usize) {
+                        let copied = source.as_ref().map_or(0, |source| source.at(i, j));
+                        slot.set(rounded(mean + value + copied));
                     }
                 }
             }
@@ -457,7 +467,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// Brings the halved picture up to date where a square was drawn.
-    #[inline]
+    #[inline(never)]
     fn halve(&self, left: u32, top: u32, m: u32) {
         let shape = &self.shape;
         let columns = shape.columns();
@@ -492,7 +502,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// Where the samples of a domain are and what their mean is; none where a small scale leaves no room.
-    #[inline]
+    #[inline(never)]
     fn source(&self, domain: &Domain, px: u32, py: u32, size: u32) -> Option<Source<'a, S>> {
         let shape = &self.shape;
         let drawn = shape.drawn(size);

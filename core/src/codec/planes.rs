@@ -116,7 +116,8 @@ impl<'a, S: Sample> Planes<'a, S> {
     }
 }
 
-/// Decoded rows: a field of luma, orange (`Co`) and green (`Cg`); the latter two are half the range in a grey picture.
+/// Decoded rows: a field of luma, orange (`Co`) and green (`Cg`); the latter two are half the range in a grey
+/// picture.
 /// [`Luma`] has luma alone.
 #[derive(Debug, Clone, Copy)]
 pub struct Part<'a, S: Sample> {
@@ -133,7 +134,8 @@ impl<S: Sample> Part<'_, S> {
         self.top
     }
 
-    /// The sample of a plane at column `x` and row `y` of luma. Outside there is grey: 0, and half the range for
+    /// The sample of a plane at column `x` and row `y` of luma. Outside there is grey: 0, and half the range
+    /// for
     /// chroma.
     #[inline]
     pub fn sample(&self, plane: usize, x: u32, y: u32) -> S {

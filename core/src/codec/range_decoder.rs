@@ -1,6 +1,7 @@
 //! A binary range decoder (G. N. N. Martin, "Range encoding", 1979; the carry as in I. Pavlov's LZMA).
 //!
-//! `range` is the width of what is left of the interval, `code` where the stream's number lies in it. A bin of
+//! `range` is the width of what is left of the interval, `code` where the stream's number lies in it. A bin
+//! of
 //! probability `p` divides the range; when it falls below `2^24` a byte is taken in. Beyond the payload's end
 //! the bytes are 0.
 
@@ -83,7 +84,7 @@ impl<I: Iterator<Item = u8>> RangeDecoder<I> {
 }
 
 impl<I: Iterator<Item = u8>> Coder for RangeDecoder<I> {
-    #[inline]
+    #[inline(never)]
     fn bin(&mut self, context: usize, _: bool) -> bool {
         let Some(model) = self.models.get_mut(context) else { return false };
         let bound = (self.range >> 13) * model.zero();
@@ -99,7 +100,7 @@ impl<I: Iterator<Item = u8>> Coder for RangeDecoder<I> {
         bin
     }
 
-    #[inline]
+    #[inline(never)]
     fn raw(&mut self, count: u32, _: u32) -> u32 {
         let mut bits = 0;
         for _ in 0..count.min(32) {

@@ -12,7 +12,8 @@ use crate::Error;
 
 /// A picture that comes in bands of 32 rows, from the top, as fast as its bytes do.
 ///
-/// A band is a field: `Image::new(&Picture::new(Luma(band), Grey), Point::new(0, band.top() as i32))` draws it.
+/// A band is a field: `Image::new(&Picture::new(Luma(band), Grey), Point::new(0, band.top() as i32))` draws
+/// it.
 /// What is drawn is what was decoded; whether all of it was right, the checksum says after the last band.
 ///
 /// Size: 3.3 KiB on a 32-bit machine, and the samples that [`Opened::samples`] counts: 13.8 KiB for 240 x 240
@@ -30,7 +31,8 @@ impl<I: Iterator<Item = u8>> Opened<I> {
     /// Decodes a stream of profile [`Streaming`](super::Profile::Streaming), `2^scale` times as large.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for another profile or another depth than the header says, [`Error::OutOfRange`]
+    /// [`Error::Unsupported`] for another profile or another depth than the header says,
+    /// [`Error::OutOfRange`]
     /// for a scale beyond 2, [`Error::BufferLength`] for fewer samples than [`Opened::samples`].
     pub fn stream<S: Sample>(self, scale: i32, memory: &mut [S]) -> Result<Stream<'_, S, I>, Error> {
         self.stream_in(scale, Cell::from_mut(memory).as_slice_of_cells())
@@ -59,7 +61,8 @@ impl<'a, S: Sample, I: Iterator<Item = u8>> Stream<'a, S, I> {
     /// The next band; none after the last, when the checksum was right. An error comes again.
     ///
     /// # Errors
-    /// [`Error::Ended`] if bytes are missing, [`Error::Malformed`] if a domain lies where nothing is decoded or
+    /// [`Error::Ended`] if bytes are missing, [`Error::Malformed`] if a domain lies where nothing is decoded
+    /// or
     /// bytes of the payload are left over, [`Error::Checksum`].
     pub fn next_band(&mut self) -> Result<Option<Part<'a, S>>, Error> {
         if self.ended {

@@ -1,22 +1,29 @@
 //! The inverse cosine transform of a block, in integers: the same bits everywhere.
 //!
-//! A block of `n x n`, drawn `m x m` (`m = n` but for a scaled picture), has levels `L(v, u)`, `v` down and `u`
+//! A block of `n x n`, drawn `m x m` (`m = n` but for a scaled picture), has levels `L(v, u)`, `v` down and
+//! `u`
 //! across, both below 16, and the step `q`:
 //!
 //! `x(i, j) = 2/n q sum_v sum_u k_v k_u L(v, u) cos((2i+1) v pi / 2m) cos((2j+1) u pi / 2m)`,
 //! `k_0 = 1/sqrt 2`, else 1; frequencies of `m` and above are left out. In three steps:
 //!
 //! 1. `t(i, u) = sum_v c_v L(v, u)`, exact: `c` has 14 fractional bits, `|L| <= 8191`, 32 bits hold the sum;
-//! 2. `T(i, u) = t q 2/n k_u`, rounded to 4 fractional bits, cut off at `2^23`;
-//! 3. `x(i, j) = sum_u c_u T(i, u)`, exact in 64 bits, rounded to 7 fractional bits.
+//! 2. `T(i, u) = t q 2/n k_u`, for samples of 8 bits rounded to 3 fractional bits and cut off at 1024, else
+//! to 4
+//!    and at `2^19`;
+//! 3. `x(i, j) = sum_u c_u T(i, u)`, exact, for samples of 8 bits in 32, rounded to 7 fractional bits.
 //!
-//! To nearest, halves upwards. Rows `i` and `m-1-i`, and columns likewise, have the same products but for signs.
+//! To nearest, halves upwards. Rows `i` and `m-1-i`, and columns likewise, have the same products but for
+//! signs.
 //! Source: N. Ahmed, T. Natarajan, K. R. Rao, "Discrete cosine transform", 1974.
+
+use super::sample::Sample;
 
 /// Frequencies along each axis.
 pub const FREQUENCIES: usize = 16;
-/// Where `T` is cut off, so that what follows stays below `2^31`.
-const MOST: i64 = 1 << 23;
+/// Where `T` is cut off: sums of eight terms stay below `2^30`, what 16 bits make of it below `2^31`.
+const MOST_8: i64 = (1 << 13) - 1;
+const MOST_16: i64 = 1 << 23;
 /// The largest level.
 pub const LARGEST: i32 = 8191;
 
@@ -102,11 +109,10 @@ impl Levels {
     }
 }
 
-/// The frequencies of one row of a block: 4 fractional bits.
+/// The frequencies of one row of a block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     terms: [i32; FREQUENCIES],
-    columns: u32,
 }
 
 /// A block's transform.
@@ -115,9 +121,9 @@ pub(super) struct Inverse<'a> {
     levels: &'a Levels,
     /// With 8 fractional bits.
     step: i64,
-    /// What makes 4 fractional bits of a sum times the step.
+    /// What makes 3 or 4 fractional bits of a sum times the step, and where they are cut off.
     shift: u32,
-    half_unit: i64,
+    most: i64,
     /// Phase of half a pixel for frequency 1.
     half: u32,
     columns: u32,
@@ -127,14 +133,14 @@ pub(super) struct Inverse<'a> {
 impl<'a> Inverse<'a> {
     /// Of a block of `2^size` pixels a side, drawn with `2^drawn`.
     #[inline]
-    pub(super) fn new(levels: &'a Levels, step: u32, size: u32, drawn: u32) -> Self {
+    pub(super) fn new<S: Sample>(levels: &'a Levels, step: u32, size: u32, drawn: u32) -> Self {
         let drawn = drawn.min(7);
         let most = 1 << drawn;
         Self {
             levels,
             step: i64::from(step),
-            shift: 17 + size.min(5),
-            half_unit: 1 << (16 + size.min(5)),
+            shift: size.min(5) + if S::BITS == 8 { 18 } else { 17 },
+            most: if S::BITS == 8 { MOST_8 } else { MOST_16 },
             half: 128 >> drawn,
             columns: levels.columns.min(most),
             rows: levels.rows.min(most),
@@ -142,7 +148,7 @@ impl<'a> Inverse<'a> {
     }
 
     /// Row `i` and the one that mirrors it.
-    #[inline]
+    #[inline(never)]
     pub(super) fn rows(&self, i: u32) -> (Row, Row) {
         let columns = self.columns as usize;
         let (mut even, mut odd) = ([0_i32; FREQUENCIES], [0_i32; FREQUENCIES]);
@@ -162,28 +168,44 @@ impl<'a> Inverse<'a> {
             let [first, ..] = terms;
             *first = ((i64::from(*first) * i64::from(ROOT_HALF) + (1 << 13)) >> 14) as i32;
         }
-        (Row { terms: top, columns: self.columns }, Row { terms: bottom, columns: self.columns })
+        (Row { terms: top }, Row { terms: bottom })
     }
 
     #[inline]
     fn scaled(&self, sum: i32) -> i32 {
-        ((i64::from(sum) * self.step + self.half_unit) >> self.shift).clamp(-MOST, MOST) as i32
+        let half_unit = 1 << (self.shift - 1);
+        ((i64::from(sum) * self.step + half_unit) >> self.shift).max(-self.most).min(self.most) as i32
     }
 
-    /// The pixels of a row at `j` and at the place that mirrors it, with 7 fractional bits.
+    /// The pixels of a row and the one that mirrors it, at `j` and at the place that mirrors that, with 7
+    /// fractional bits: upper left, upper right, lower left, lower right.
     #[inline]
-    pub(super) fn pixels(&self, row: &Row, j: u32) -> (i32, i32) {
+    pub(super) fn pixels<S: Sample>(&self, (top, bottom): &(Row, Row), j: u32) -> [i32; 4] {
         let turn = (2 * j + 1) * self.half;
-        // half a unit of the result
-        let (mut even, mut odd) = (1_i64 << 10, 0_i64);
-        let mut phase = 0;
-        let mut terms = row.terms.iter().take(row.columns as usize);
-        while let Some(term) = terms.next() {
-            even += i64::from(cosine(phase)) * i64::from(*term);
-            let Some(term) = terms.next() else { break };
-            odd += i64::from(cosine(phase + turn)) * i64::from(*term);
-            phase += 2 * turn;
+        let terms = top.terms.iter().zip(&bottom.terms).take(self.columns as usize);
+        if S::BITS == 8 {
+            // half a unit of the result
+            let (mut even, mut odd, mut phase) = ([1_i32 << 9; 2], [0_i32; 2], 0);
+            for (u, (upper, lower)) in terms.enumerate() {
+                let c = cosine(phase);
+                let sums = if u & 1 == 0 { &mut even } else { &mut odd };
+                sums[0] = sums[0].wrapping_add(c.wrapping_mul(*upper));
+                sums[1] = sums[1].wrapping_add(c.wrapping_mul(*lower));
+                phase += turn;
+            }
+            let ([e0, e1], [o0, o1]) = (even, odd);
+            let sums = [e0.wrapping_add(o0), e0.wrapping_sub(o0), e1.wrapping_add(o1), e1.wrapping_sub(o1)];
+            return sums.map(|sum| sum >> 10);
         }
-        (((even + odd) >> 11) as i32, ((even - odd) >> 11) as i32)
+        let (mut even, mut odd, mut phase) = ([1_i64 << 10; 2], [0_i64; 2], 0);
+        for (u, (upper, lower)) in terms.enumerate() {
+            let c = i64::from(cosine(phase));
+            let sums = if u & 1 == 0 { &mut even } else { &mut odd };
+            sums[0] += c * i64::from(*upper);
+            sums[1] += c * i64::from(*lower);
+            phase += turn;
+        }
+        let ([e0, e1], [o0, o1]) = (even, odd);
+        [e0 + o0, e0 - o0, e1 + o1, e1 - o1].map(|sum| (sum >> 11) as i32)
     }
 }

@@ -1,7 +1,8 @@
 //! Luma and chroma as a colour.
 //!
 //! `t = Y - g`, `R = t + o`, `G = Y + g`, `B = t - o`, with `o = Co - 128` and `g = Cg - 128`, cut off.
-//! Source: H. Malvar, G. Sullivan, "YCoCg-R: a color space with RGB reversibility and low dynamic range", 2003;
+//! Source: H. Malvar, G. Sullivan, "YCoCg-R: a color space with RGB reversibility and low dynamic range",
+//! 2003;
 //! here without its last bits.
 
 use embedded_graphics_core::pixelcolor::Rgb888;

@@ -114,7 +114,7 @@ struct Plane {
 fn zigzag(s: usize) -> Vec<(usize, usize)> {
     let diagonal = |d: usize| {
         let mut places: Vec<_> = (0..=d).map(|v| (v, d - v)).filter(|(v, u)| *v < s && *u < s).collect();
-        if d % 2 == 0 {
+        if d.is_multiple_of(2) {
             places.reverse();
         }
         places
@@ -180,7 +180,7 @@ impl Plane {
             let kind = 2 * k + usize::from(domain.is_some());
             let last = (reader.number("last", self.chroma * 100 + kind) as usize).min(scan.len() - 1);
             let mut before = 0;
-            for i in 1..=last {
+            for (i, (v, u)) in scan.iter().enumerate().take(last + 1).skip(1) {
                 let of = kind * 20 + class(i);
                 if i < last && !reader.bin("significant", of, before) {
                     continue;
@@ -188,7 +188,7 @@ impl Plane {
                 let large = reader.bin("large", of, 0);
                 let size = if large { 2 + reader.number("magnitude", kind % 2) } else { 1 }.min(8191);
                 let value = if reader.raw(1) == 1 { -size } else { size } as f64 * self.q;
-                coefficients.push((scan[i].0, scan[i].1, value));
+                coefficients.push((*v, *u, value));
                 before = (before + 1).min(2);
             }
         }
@@ -231,8 +231,10 @@ impl Plane {
         let n = leaf.n;
         let mut order: Vec<(usize, usize)> = (0..n * n).map(|k| (k / n, k % n)).collect();
         if !leaf.coefficients.is_empty() {
-            let folded = |k: usize| if k % 2 == 0 { k / 2 } else { n - 1 - k / 2 };
-            order = order.into_iter().map(|(i, j)| (folded(i), folded(j))).collect();
+            // four at a time, mirrored
+            let last = n - 1;
+            let four = |(i, j): (usize, usize)| [(i, j), (i, last - j), (last - i, j), (last - i, last - j)];
+            order = (0..n * n / 4).map(|k| (k / (n / 2), k % (n / 2))).flat_map(four).collect();
         }
         let mean = leaf.domain.map_or(0.0, |(px, py, ..)| {
             (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).sum::<f64>() / (n * n) as f64

@@ -1,0 +1,159 @@
+//! A picture as the bytes of a stream, at one step of quantisation.
+
+use std::cell::Cell;
+
+use attractor::Error;
+use attractor::codec::{Header, Plane, Planes, Profile, Sample, Shape, Step, crc32};
+use embedded_graphics::geometry::Size;
+
+use super::cosine::Cosine;
+use super::partition::{Partition, Without};
+use super::range_encoder::{Prices, RangeEncoder};
+use super::samples::Samples;
+use super::search::{Candidates, Effort};
+
+/// The exchange rate of squared error and bits, in squares of the step.
+const LAMBDA: f32 = 0.1;
+const LAMBDA_PURE: f32 = 0.14;
+
+/// How a picture is encoded, but for the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    pub(crate) profile: Profile,
+    /// Rows of the window in 8, or sweeps.
+    pub(crate) reach: u8,
+    /// Chroma's step in sixteenths.
+    pub(crate) chroma: u8,
+    pub(crate) without: Without,
+}
+
+/// A picture ready to be encoded.
+pub(super) struct Source<'a> {
+    size: Size,
+    planes: Planes,
+    deep: bool,
+    plan: Plan,
+    values: &'a [Vec<u16>],
+    originals: Vec<Samples>,
+    cosine: Cosine,
+    prices: Prices,
+}
+
+impl<'a> Source<'a> {
+    pub(super) fn new(size: Size, planes: Planes, deep: bool, values: &'a [Vec<u16>], plan: Plan) -> Self {
+        let mut this = Self {
+            size,
+            planes,
+            deep,
+            plan,
+            values,
+            originals: Vec::new(),
+            cosine: Cosine::new(),
+            prices: Prices::new(),
+        };
+        this.originals =
+            this.shapes(Step::MAX).iter().zip(values).map(|(shape, plane)| samples(shape, plane)).collect();
+        this
+    }
+
+    fn header(&self, step: Step, payload: u32) -> Header {
+        let chroma = if self.planes == Planes::Grey { 0 } else { self.plan.chroma };
+        let Plan { profile, reach, .. } = self.plan;
+        Header {
+            size: self.size,
+            profile,
+            planes: self.planes,
+            deep: self.deep,
+            step,
+            reach,
+            chroma,
+            payload,
+        }
+    }
+
+    fn shapes(&self, step: Step) -> Vec<Shape> {
+        self.header(step, 0).shapes(0).into_iter().take(self.values.len()).collect()
+    }
+
+    /// Domains for each plane, out of the picture itself, for squares that are worth the search at a step.
+    pub(super) fn candidates(&self, effort: Option<Effort>, step: Step) -> Vec<Candidates> {
+        let header = self.header(step, 0);
+        let find = |(index, (shape, original)): (u32, (&Shape, &Samples))| {
+            let Some(effort) = effort.filter(|_| !self.plan.without.domains) else {
+                return Candidates::none();
+            };
+            let q = header.step_of(index) as f32 / 256.0;
+            // what would not pay for its domain's bins is not looked for
+            Candidates::find(shape, original, &original.halved(), effort, 6.0 * self.lambda() * q * q)
+        };
+        (0..).zip(self.shapes(step).iter().zip(&self.originals)).map(find).collect()
+    }
+
+    const fn lambda(&self) -> f32 {
+        if matches!(self.plan.profile, Profile::Pure) { LAMBDA_PURE } else { LAMBDA }
+    }
+
+    /// The stream. Domains of sweeps lie in `pools`, the planes as they will be decoded, or else the picture.
+    pub(super) fn encode(
+        &self,
+        step: Step,
+        candidates: &[Candidates],
+        pools: Option<&[Vec<u16>]>,
+    ) -> Result<Vec<u8>, Error> {
+        if self.deep {
+            self.encode_as::<u16>(step, candidates, pools)
+        } else {
+            self.encode_as::<u8>(step, candidates, pools)
+        }
+    }
+
+    fn encode_as<S: Sample + Default>(
+        &self,
+        step: Step,
+        candidates: &[Candidates],
+        pools: Option<&[Vec<u16>]>,
+    ) -> Result<Vec<u8>, Error> {
+        let header = self.header(step, 0);
+        let shapes = self.shapes(step);
+        let mut memory = vec![S::default(); shapes.iter().map(Plane::<S>::samples).sum()];
+        let mut rest = Cell::from_mut(memory.as_mut_slice()).as_slice_of_cells();
+        let mut planes: Vec<Plane<'_, S>> =
+            shapes.iter().map(|shape| Plane::new(*shape, &mut rest)).collect();
+        if self.plan.profile != Profile::Streaming {
+            for (plane, pool) in planes.iter().zip(pools.unwrap_or(self.values)) {
+                plane.picture().iter().zip(pool).for_each(|(to, from)| to.set(S::cut(i32::from(*from))));
+            }
+        }
+        let mut out = RangeEncoder::new();
+        for row in (0..self.size.height).step_by(32) {
+            for (index, plane) in (0..).zip(&mut planes) {
+                let band = row >> header.halved(index);
+                plane.begin(band, false);
+                let q = header.step_of(index) as f32 / 256.0;
+                let mut partition = Partition {
+                    plane,
+                    original: &self.originals[index as usize],
+                    candidates: &candidates[index as usize],
+                    cosine: &self.cosine,
+                    prices: &self.prices,
+                    profile: self.plan.profile,
+                    step: q,
+                    lambda: self.lambda() * q * q,
+                    without: self.plan.without,
+                    models: out.models,
+                };
+                partition.band(band, &mut out);
+            }
+        }
+        let payload = out.finish();
+        let mut start = [0; Header::LONGEST];
+        let length = self.header(step, payload.len() as u32).write(&mut start)?;
+        let mut bytes = [&start[..length], &payload].concat();
+        bytes.extend(crc32(&bytes).to_le_bytes());
+        Ok(bytes)
+    }
+}
+
+fn samples(shape: &Shape, plane: &[u16]) -> Samples {
+    Samples::new(shape.width, shape.height, shape.side(), |at| f32::from(plane[at]))
+}

@@ -1,0 +1,208 @@
+//! The partition of a plane: each square is a leaf or four squares, whichever costs less.
+//!
+//! The cost is squared error plus `lambda` a bit, with `lambda` in proportion to the square of the step
+//! (G. Sullivan, T. Wiegand, "Rate-distortion optimization for video compression", 1998). What a bit costs is
+//! asked of the models as they stand before the square; they learn when it is written.
+
+use attractor::codec::{Coder as _, Domain, Leaf, MODELS, Model, Plane, Profile, Sample, Setting};
+
+use super::cosine::{Coefficients, Cosine};
+use super::quantise::Quantiser;
+use super::range_encoder::{Cost, Prices, RangeEncoder};
+use super::samples::Samples;
+use super::search::Candidates;
+
+/// A square.
+enum Node {
+    Leaf(Box<Leaf>),
+    Divided(Vec<Node>),
+    /// Outside the picture.
+    Outside,
+}
+
+/// What of the codec is left out, to see what it is worth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Without {
+    pub(crate) domains: bool,
+    pub(crate) transform: bool,
+    /// All leaves are 8 x 8.
+    pub(crate) split: bool,
+}
+
+/// Encodes a plane, band by band.
+pub(super) struct Partition<'a, 'm, S: Sample> {
+    pub(super) plane: &'a mut Plane<'m, S>,
+    pub(super) original: &'a Samples,
+    pub(super) candidates: &'a Candidates,
+    pub(super) cosine: &'a Cosine,
+    pub(super) prices: &'a Prices,
+    pub(super) profile: Profile,
+    pub(super) step: f32,
+    pub(super) lambda: f32,
+    pub(super) without: Without,
+    pub(super) models: [Model; MODELS],
+}
+
+/// The pixels of a square, mean off.
+struct Target {
+    values: [f32; 1024],
+    energy: f32,
+    coefficients: Coefficients,
+    /// In steps, and the squared error that stays.
+    mean: i32,
+    mean_error: f32,
+}
+
+impl<S: Sample> Partition<'_, '_, S> {
+    /// Decides about a band and writes it.
+    pub(super) fn band(&mut self, band: u32, out: &mut RangeEncoder) {
+        let size = self.plane.shape().largest;
+        for x in (0..self.plane.shape().width).step_by(1 << size) {
+            self.models = out.models;
+            let edge = self.plane.edge(x, band, size);
+            let (_, mut node) = self.choose(x, band, size);
+            self.plane.restore(&edge);
+            self.write(&mut node, out, x, band, size);
+        }
+    }
+
+    fn choose(&mut self, x: u32, y: u32, size: u32) -> (f32, Node) {
+        if x >= self.plane.shape().width || y >= self.plane.shape().height {
+            self.plane.skip(x, y, size);
+            return (0.0, Node::Outside);
+        }
+        let must_divide = self.without.split && size > 3;
+        let (mut cost, leaf) =
+            if must_divide { (f32::INFINITY, Leaf::default()) } else { self.leaf(x, y, size) };
+        if size > 2 && !(self.without.split && size == 3) {
+            let model = self.models[self.plane.split_context(x, y, size)];
+            cost += self.lambda * self.prices.bin(model, false);
+            let mut divided = self.lambda * self.prices.bin(model, true);
+            let edge = self.plane.edge(x, y, size);
+            let half = 1 << (size - 1);
+            let mut nodes = Vec::with_capacity(4);
+            for (dx, dy) in [(0, 0), (half, 0), (0, half), (half, half)] {
+                let (quarter, node) = self.choose(x + dx, y + dy, size - 1);
+                divided += quarter;
+                nodes.push(node);
+                if divided >= cost {
+                    break;
+                }
+            }
+            if divided < cost {
+                return (divided, Node::Divided(nodes));
+            }
+            self.plane.restore(&edge);
+        }
+        self.draw(&leaf, x, y, size);
+        (cost, Node::Leaf(Box::new(leaf)))
+    }
+
+    fn write(&mut self, node: &mut Node, out: &mut RangeEncoder, x: u32, y: u32, size: u32) {
+        match node {
+            Node::Outside => self.plane.skip(x, y, size),
+            Node::Leaf(leaf) => {
+                if size > 2 {
+                    out.bin(self.plane.split_context(x, y, size), false);
+                }
+                leaf.code(out, &self.plane.setting(x, y, size));
+                self.draw(leaf, x, y, size);
+            }
+            Node::Divided(nodes) => {
+                out.bin(self.plane.split_context(x, y, size), true);
+                let half = 1 << (size - 1);
+                for (node, (dx, dy)) in nodes.iter_mut().zip([(0, 0), (half, 0), (0, half), (half, half)]) {
+                    self.write(node, out, x + dx, y + dy, size - 1);
+                }
+            }
+        }
+    }
+
+    /// What later squares see. Sweeps see the pool that was found before instead of what is drawn.
+    fn draw(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32) {
+        match self.profile {
+            Profile::Streaming => {
+                self.plane.draw(leaf, x, y, size);
+            }
+            Profile::Iterated | Profile::Pure => self.plane.settle(leaf, x, y, size),
+        }
+    }
+
+    /// The best leaf for a square, and its cost.
+    fn leaf(&self, x: u32, y: u32, size: u32) -> (f32, Leaf) {
+        let target = self.target(x, y, size);
+        let setting = self.plane.setting(x, y, size);
+        let mut best = self.cost(&target, &target.coefficients, target.energy, None, &setting);
+        if best.0 <= 12.0 * self.lambda {
+            return best;
+        }
+        let count = 1_usize << (2 * size);
+        let (mut copied, mut domain, mut frequencies) = ([0; 1024], [0.0; 1024], [0.0; 256]);
+        for candidate in self.candidates.of(x, y, size) {
+            if candidate.gain < 4.0 * self.lambda {
+                break;
+            }
+            if !self.plane.copied(&candidate.domain, x, y, size, &mut copied) {
+                continue;
+            }
+            let (mut dot, mut energy) = (0.0, 0.0);
+            for ((domain, copied), value) in domain.iter_mut().zip(&copied).zip(&target.values).take(count) {
+                *domain = *copied as f32 / 128.0;
+                dot += *domain * value;
+                energy += *domain * *domain;
+            }
+            if energy < 1.0 {
+                continue;
+            }
+            self.cosine.forward(size, &domain[..count], &mut frequencies);
+            let contrast = (dot / energy).clamp(-1.0, 1.0);
+            let eighths = ((8.0 * contrast.abs() + 0.5) as u32).clamp(1, 8);
+            for eighths in eighths.saturating_sub(1).max(1)..=eighths {
+                let sign = if contrast < 0.0 { 8 } else { 0 };
+                let domain = Domain { scaling: (eighths - 1) | sign, ..candidate.domain };
+                let contrast = domain.contrast() as f32 / 8.0;
+                let mut rest = target.coefficients;
+                rest.iter_mut().zip(&frequencies).for_each(|(rest, domain)| *rest -= contrast * domain);
+                let energy = target.energy - 2.0 * contrast * dot + contrast * contrast * energy;
+                let tried = self.cost(&target, &rest, energy, Some(domain), &setting);
+                if tried.0 < best.0 {
+                    best = tried;
+                }
+            }
+        }
+        best
+    }
+
+    fn target(&self, x: u32, y: u32, size: u32) -> Target {
+        let n = 1_usize << size;
+        let mut values = [0.0; 1024];
+        let mean = self.original.square(x, y, n, &mut values);
+        let energy = values[..n * n].iter().map(|value| value * value).sum();
+        let mut coefficients = [0.0; 256];
+        self.cosine.forward(size, &values[..n * n], &mut coefficients);
+        let off = mean - self.plane.expected(x, y, size) as f32 / 128.0;
+        let steps = (off * n as f32 / self.step).round();
+        let left = off - steps * self.step / n as f32;
+        Target { values, energy, coefficients, mean: steps as i32, mean_error: left * left * (n * n) as f32 }
+    }
+
+    fn cost(
+        &self,
+        target: &Target,
+        coefficients: &Coefficients,
+        energy: f32,
+        domain: Option<Domain>,
+        setting: &Setting,
+    ) -> (f32, Leaf) {
+        let mut leaf = Leaf { domain, mean: target.mean, ..Leaf::default() };
+        let mut error = energy;
+        if setting.transform && !self.without.transform {
+            let quantiser =
+                Quantiser { models: &self.models, prices: self.prices, step: self.step, lambda: self.lambda };
+            error += quantiser.levels(coefficients, setting, &mut leaf);
+        }
+        let mut cost = Cost { models: &self.models, prices: self.prices, bits: 0.0 };
+        leaf.code(&mut cost, setting);
+        (error.max(0.0) + target.mean_error + self.lambda * cost.bits, leaf)
+    }
+}

@@ -1,0 +1,268 @@
+//! Domains that resemble a square: those near it one by one, those further away from an index.
+//!
+//! What a domain takes off the square's error at the best contrast `c = <r, d> / <d, d>` is `c <r, d>`, means
+//! off: the square of the cosine between the two, times `<r, r>`. So the index is a k-d tree (J. Bentley,
+//! 1975)
+//! of unit vectors of low frequencies: those near a square's own, or near its negative, are the candidates,
+//! whatever their contrast (D. Saupe, "Accelerating fractal image compression by multi-dimensional nearest
+//! neighbor search", 1995).
+
+use attractor::codec::{Domain, Shape};
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rayon::prelude::*;
+
+use super::cosine::{Coefficients, Cosine};
+use super::samples::Samples;
+
+/// How hard to look.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    /// 1 or 8.
+    pub(super) isometries: u32,
+    /// How many candidates a square has.
+    pub(super) candidates: usize,
+    /// Whether to look beyond what is near.
+    pub(super) far: bool,
+}
+
+/// A domain and what it takes off the error.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) gain: f32,
+    pub(super) domain: Domain,
+}
+
+/// The candidates of every square of every size.
+pub(super) struct Candidates {
+    by_size: [Vec<Vec<Candidate>>; 4],
+    columns: [usize; 4],
+}
+
+/// What is asked of the index at a time.
+const NEAREST: usize = 3;
+/// Low frequencies `(v, u)` that it knows.
+const KNOWN: [usize; 8] = [0x01, 0x10, 0x11, 0x02, 0x20, 0x12, 0x21, 0x22];
+
+type Tree = ImmutableKdTree<f32, 8>;
+
+impl Candidates {
+    /// None at all.
+    pub(super) const fn none() -> Self {
+        Self { by_size: [const { Vec::new() }; 4], columns: [0; 4] }
+    }
+
+    /// Those in `pool`, the picture halved, for squares with more energy than `least`.
+    pub(super) fn find(
+        shape: &Shape,
+        original: &Samples,
+        pool: &Samples,
+        effort: Effort,
+        least: f32,
+    ) -> Self {
+        let mut this = Self::none();
+        let cosine = Cosine::new();
+        for size in 2..=shape.largest {
+            let k = (size - 2) as usize;
+            let (columns, rows) = (shape.width.div_ceil(1 << size), shape.height.div_ceil(1 << size));
+            this.columns[k] = columns as usize;
+            let bands = (0..shape.height).step_by(shape.side() as usize);
+            let indices: Vec<Index> = if effort.far {
+                // those of one band are those of all, where there is no window
+                bands
+                    .take(if shape.window.is_some() { usize::MAX } else { 1 })
+                    .map(|band| Index::new(shape, pool, size, band, &cosine))
+                    .collect()
+            } else {
+                Vec::new()
+            };
+            let square = |i: u32| {
+                let (x, y) = ((i % columns) << size, (i / columns) << size);
+                let band = if shape.window.is_some() { (y >> shape.largest) as usize } else { 0 };
+                Square::new(original, x, y, size).search(
+                    shape,
+                    pool,
+                    indices.get(band),
+                    &cosine,
+                    effort,
+                    least,
+                )
+            };
+            this.by_size[k] = (0..columns * rows).into_par_iter().map(square).collect();
+        }
+        this
+    }
+
+    /// Those of a square, the best first.
+    pub(super) fn of(&self, x: u32, y: u32, size: u32) -> &[Candidate] {
+        let k = (size - 2) as usize;
+        let at = (y >> size) as usize * self.columns[k] + (x >> size) as usize;
+        self.by_size[k].get(at).map_or(&[], |list| list)
+    }
+}
+
+/// The far domains of leaves of one size.
+struct Index {
+    tree: Option<Tree>,
+    places: Vec<(u32, u32)>,
+}
+
+/// The direction of the lower frequencies.
+fn direction(coefficients: &Coefficients) -> Option<[f32; 8]> {
+    let known = KNOWN.map(|place| coefficients[place]);
+    let length = known.iter().map(|value| value * value).sum::<f32>().sqrt();
+    (length > 1e-3).then(|| known.map(|value| value / length))
+}
+
+impl Index {
+    fn new(shape: &Shape, pool: &Samples, size: u32, band: u32, cosine: &Cosine) -> Self {
+        let (mut places, mut directions) = (Vec::new(), Vec::new());
+        let (mut square, mut coefficients) = ([0.0; 1024], [0.0; 256]);
+        for row in 0..shape.far(size).map_or(0, |(_, rows)| rows) {
+            for column in 0..shape.far(size).map_or(0, |(columns, _)| columns) {
+                let domain = Domain { near: false, column, row, isometry: 0, scaling: 0 };
+                // as seen from the end of the band, where most of it is decoded
+                let last = (shape.width - 1) >> size << size;
+                let below = (band + shape.side() - (1 << size)).min((shape.height - 1) >> size << size);
+                let Some((px, py)) = shape.place(&domain, last, below, size) else { continue };
+                pool.square(px, py, 1 << size, &mut square);
+                cosine.forward(size, &square, &mut coefficients);
+                if let Some(direction) = direction(&coefficients) {
+                    places.push((column, row));
+                    directions.push(direction);
+                }
+            }
+        }
+        let tree = (!places.is_empty()).then(|| Tree::new_from_slice(&directions));
+        Self { tree, places }
+    }
+}
+
+/// A square that looks for its domain.
+struct Square {
+    x: u32,
+    y: u32,
+    size: u32,
+    energy: f32,
+    values: [f32; 1024],
+}
+
+impl Square {
+    fn new(original: &Samples, x: u32, y: u32, size: u32) -> Self {
+        let mut values = [0.0; 1024];
+        original.square(x, y, 1 << size, &mut values);
+        let energy = values[..1 << (2 * size)].iter().map(|value| value * value).sum();
+        Self { x, y, size, energy, values }
+    }
+
+    /// The square laid onto a domain that is turned by the isometry.
+    fn turned(&self, isometry: u32) -> [f32; 1024] {
+        let n = 1 << self.size;
+        let mut turned = [0.0; 1024];
+        for i in 0..n {
+            for j in 0..n {
+                let (mut row, mut column) = if isometry & 4 == 0 { (i, j) } else { (j, i) };
+                if isometry & 1 != 0 {
+                    column = n - 1 - column;
+                }
+                if isometry & 2 != 0 {
+                    row = n - 1 - row;
+                }
+                turned[row * n + column] = self.values[i * n + j];
+            }
+        }
+        turned
+    }
+
+    fn search(
+        &self,
+        shape: &Shape,
+        pool: &Samples,
+        index: Option<&Index>,
+        cosine: &Cosine,
+        effort: Effort,
+        least: f32,
+    ) -> Vec<Candidate> {
+        let mut best = Best { list: Vec::with_capacity(effort.candidates + 1), most: effort.candidates };
+        if self.energy < least {
+            return best.list;
+        }
+        let turned: Vec<[f32; 1024]> = (0..effort.isometries).map(|isometry| self.turned(isometry)).collect();
+        for row in 0..16 {
+            for column in 0..16 {
+                let domain = Domain { near: true, column, row, isometry: 0, scaling: 0 };
+                self.weigh(shape, pool, domain, (0..).zip(&turned), &mut best);
+            }
+        }
+        let Some(Index { tree: Some(tree), places }) = index else { return best.list };
+        let mut coefficients = [0.0; 256];
+        for (isometry, square) in (0..).zip(&turned) {
+            cosine.forward(self.size, square, &mut coefficients);
+            let Some(direction) = direction(&coefficients) else { continue };
+            for direction in [direction, direction.map(|value| -value)] {
+                let nearest = std::num::NonZero::new(NEAREST).unwrap_or(std::num::NonZero::<usize>::MIN);
+                for found in tree.nearest_n::<SquaredEuclidean>(&direction, nearest) {
+                    let (column, row) = places[found.item as usize];
+                    let domain = Domain { near: false, column, row, isometry, scaling: 0 };
+                    self.weigh(shape, pool, domain, [(isometry, square)].into_iter(), &mut best);
+                }
+            }
+        }
+        best.list
+    }
+
+    /// Offers a domain in each of the isometries.
+    fn weigh<'a>(
+        &self,
+        shape: &Shape,
+        pool: &Samples,
+        domain: Domain,
+        turned: impl Iterator<Item = (u32, &'a [f32; 1024])>,
+        best: &mut Best,
+    ) {
+        let Some((px, py)) = shape.place(&domain, self.x, self.y, self.size) else { return };
+        let n = 1_usize << self.size;
+        let start = py as usize * pool.width + px as usize;
+        let rows = || pool.values[start..].chunks(pool.width).take(n).map(|row| &row[..n]);
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for row in rows() {
+            for value in row {
+                sum += value;
+                squares += value * value;
+            }
+        }
+        let energy = squares - sum * sum / (n * n) as f32;
+        if energy < 0.5 * (n * n) as f32 {
+            return;
+        }
+        for (isometry, square) in turned {
+            let mut sums = [0.0; 4];
+            for (square, row) in square.chunks_exact(n).zip(rows()) {
+                for (a, b) in square.chunks_exact(4).zip(row.chunks_exact(4)) {
+                    for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+                        *sum += a * b;
+                    }
+                }
+            }
+            let dot: f32 = sums.iter().sum();
+            let contrast = (dot / energy).clamp(-1.0, 1.0);
+            let gain = 2.0 * contrast * dot - contrast * contrast * energy;
+            best.offer(Candidate { gain, domain: Domain { isometry, ..domain } });
+        }
+    }
+}
+
+/// The best so far, the best first.
+struct Best {
+    list: Vec<Candidate>,
+    most: usize,
+}
+
+impl Best {
+    fn offer(&mut self, candidate: Candidate) {
+        let at = self.list.partition_point(|other| other.gain > candidate.gain);
+        if at < self.most {
+            self.list.insert(at, candidate);
+            self.list.truncate(self.most);
+        }
+    }
+}
