@@ -115,7 +115,7 @@ fn joint(a: Vector, b: Vector) -> Joint {
     let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
     let cross = product(a[0], b[1]) - product(a[1], b[0]);
     let dot = product(a[0], b[0]) + product(a[1], b[1]);
-    if cross.unsigned_abs() > u128::from(size(a)) * u128::from(size(b)) >> 16 {
+    if cross.unsigned_abs() > (u128::from(size(a)) * u128::from(size(b))) >> 16 {
         Joint::Angle
     } else if dot < 0 {
         Joint::Smooth
