@@ -209,7 +209,7 @@ fn model(args: &Fit, side: usize) -> Result<Model, Fail> {
         )));
     }
     let spans = side.saturating_sub(1);
-    let fits = |cells: &usize| spans % cells == 0 && (spans / cells).is_power_of_two();
+    let fits = |cells: &usize| spans.is_multiple_of(*cells) && (spans / cells).is_power_of_two();
     let possible: Vec<usize> =
         (1..=spans).filter(fits).filter(|cells| family.parameters(*cells) < side * side).collect();
     let Some(fewest) = possible.first() else {
