@@ -29,7 +29,9 @@ fn methods() -> String {
     let mut page = String::from(
         "What each file computes, by which formula, from which source and in which format: what the kernels say of themselves.\n",
     );
-    for room in ["num", "plane", "fif", "ifs", "curve", "escape", "terrain", "patch", "codec", "trace", "draw"] {
+    for room in
+        ["num", "plane", "fif", "ifs", "curve", "escape", "terrain", "patch", "codec", "trace", "draw"]
+    {
         writeln!(page, "\n# {room}").expect("a string takes all");
         describe(&src.join(room), room, &mut page);
     }
