@@ -12,7 +12,7 @@ use crate::source::{Num, Source};
 
 /// A colour as its file has it.
 #[derive(Debug, Clone)]
-pub(in crate::scene) enum Color {
+pub(crate) enum Color {
     Code(String),
     Light([Num; 3]),
 }
@@ -43,12 +43,7 @@ impl<'de> Deserialize<'de> for Color {
 }
 
 /// The light of a colour, each part at most `most`.
-pub(in crate::scene) fn light(
-    source: &Source,
-    given: &Spanned<Color>,
-    key: &str,
-    most: u16,
-) -> Result<Rgb, Fail> {
+pub(crate) fn light(source: &Source, given: &Spanned<Color>, key: &str, most: u16) -> Result<Rgb, Fail> {
     match given.get_ref() {
         Color::Code(text) => {
             let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && digits.is_ascii());
@@ -75,7 +70,7 @@ pub(in crate::scene) fn light(
 }
 
 /// A colour that may be left out, of parts up to 1.
-pub(in crate::scene) fn light_or(
+pub(crate) fn light_or(
     source: &Source,
     given: Option<&Spanned<Color>>,
     key: &str,
