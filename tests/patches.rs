@@ -449,8 +449,8 @@ fn a_patch_joins_along_its_sides() {
                     0 => [k == 0, k == 2, k == 4].map(|at| if at { 1.0 } else { 0.0 }),
                     _ => [if k == 1 { 0.5 } else { 0.0 }, 0.5, if k == 3 { 0.5 } else { 0.0 }],
                 };
-                for a in 0..9 {
-                    grid[5 * k + l][a] = Near::from_num(weights(k)[a / 3] * weights(l)[a % 3]);
+                for (a, weight) in grid[5 * k + l].iter_mut().enumerate() {
+                    *weight = Near::from_num(weights(k)[a / 3] * weights(l)[a % 3]);
                 }
             }
         }

@@ -88,7 +88,8 @@ fn any_bytes_are_a_picture_or_refused() {
     let mut reader = Bytes::<_, 3>::new(&b"any"[..]);
     assert!(reader.by_ref().eq(*b"any") && reader.error().is_none());
     // what the types are called
-    let _: Option<(Sweeps<'_, u8, std::iter::Empty<u8>>, Part<'_, u8>)> = None;
+    let _: Option<Sweeps<'_, u8, std::iter::Empty<u8>>> = None;
+    let _: Option<Part<'_, u8>> = None;
     let _ = YCoCg.rgb([1_u8, 2, 3]);
 }
 

@@ -137,8 +137,8 @@ fn narrow(
 ) -> Result<Vec<Encoded>, Error> {
     // 256 an octave: nearly a logarithm
     let mut step = f64::from(first);
-    let (mut tried, mut fine, mut coarse): (Vec<Encoded>, Option<(f64, f64)>, Option<(f64, f64)>) =
-        (Vec::new(), None, None);
+    let mut tried = Vec::<Encoded>::new();
+    let (mut fine, mut coarse) = (None::<(f64, f64)>, None::<(f64, f64)>);
     let mut near = 0.0;
     let mut used = std::collections::BTreeSet::new();
     for _ in 0..passes {
