@@ -5,6 +5,7 @@ mod bad_curves;
 mod bad_input;
 mod bad_world;
 mod common;
+mod encode;
 mod export;
 mod exported;
 mod measure;
