@@ -9,7 +9,7 @@
 //!
 //! 1. `t(i, u) = sum_v c_v L(v, u)`, exact: `c` has 14 fractional bits, `|L| <= 8191`, 32 bits hold the sum;
 //! 2. `T(i, u) = t q 2/n k_u`, for samples of 8 bits rounded to 3 fractional bits and cut off at 1024, else
-//! to 4
+//!    to 4
 //!    and at `2^19`;
 //! 3. `x(i, j) = sum_u c_u T(i, u)`, exact, for samples of 8 bits in 32, rounded to 7 fractional bits.
 //!

@@ -47,7 +47,7 @@ impl Quantiser<'_> {
         // of what was chosen so far, as if it went on
         let mut sum = 0.0;
         let (mut least, mut end) = (self.lambda * self.number(last, 0), (0, 0));
-        for i in 1..=most {
+        for (i, slot) in chosen.iter_mut().enumerate().take(most + 1).skip(1) {
             let length = value(i).abs();
             let models = kind * CLASSES + class(i as u32);
             let significant = context::SIGNIFICANT + models * 3 + before;
@@ -74,7 +74,7 @@ impl Quantiser<'_> {
             }
             let kept = cost + self.lambda * self.bin(significant, true);
             if kept < zero {
-                chosen[i] = level;
+                *slot = level;
                 sum += kept;
                 before = (before + 1).min(2);
             } else {

@@ -137,8 +137,9 @@ fn narrow(
 ) -> Result<Vec<Encoded>, Error> {
     // 256 an octave: nearly a logarithm
     let mut step = f64::from(first);
-    let (mut tried, mut fine, mut coarse): (Vec<Encoded>, Option<(f64, f64)>, Option<(f64, f64)>) =
-        (Vec::new(), None, None);
+    let mut tried: Vec<Encoded> = Vec::new();
+    let mut fine: Option<(f64, f64)> = None;
+    let mut coarse: Option<(f64, f64)> = None;
     let mut near = 0.0;
     let mut used = std::collections::BTreeSet::new();
     for _ in 0..passes {
