@@ -6,6 +6,7 @@ mod bad_input;
 mod bad_terrain;
 mod bad_world;
 mod common;
+mod encode;
 mod export;
 mod exported;
 mod fits;

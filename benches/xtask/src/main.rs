@@ -6,6 +6,7 @@ mod drivers;
 mod elf;
 mod emulator;
 mod exhaust;
+mod fuzz_codec;
 mod gate;
 mod host;
 mod images;
@@ -13,6 +14,7 @@ mod kinds;
 mod lines;
 mod measure;
 mod multiplications;
+mod peers_images;
 mod report;
 mod stack;
 mod targets;
@@ -39,6 +41,10 @@ enum Task {
     Target(Options),
     /// Try every input of the elementary functions
     Exhaust(exhaust::Options),
+    /// Decode small streams, mutated and forged
+    FuzzCodec(fuzz_codec::Options),
+    /// The image codec beside libjpeg and WebP, and what each of its parts is worth
+    PeersImages(peers_images::Options),
     /// Compile the examples of display drivers for a Cortex-M4
     Drivers,
 }
@@ -97,6 +103,8 @@ fn main() -> ExitCode {
             None => target(&options),
         },
         Task::Exhaust(options) => exhaust::run(&options),
+        Task::FuzzCodec(options) => fuzz_codec::run(&options),
+        Task::PeersImages(options) => peers_images::run(&options),
         Task::Drivers => drivers::run(),
     };
     match done {

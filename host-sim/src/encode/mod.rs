@@ -12,7 +12,7 @@ mod search;
 
 use std::io::Write as _;
 
-use attractor::codec::{Profile, Step};
+use attractor::codec::Profile;
 use indicatif::{ProgressBar, ProgressStyle};
 
 pub(crate) use file::Plan;
@@ -85,14 +85,14 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
     bar.finish_and_clear();
     let length = best.bytes.len();
     match target {
-        Target::Bytes(bytes) if length as f64 > bytes && best.step == Step::MAX.to_bits() => say(&format!(
+        Target::Bytes(bytes) if length as f64 > bytes => say(&format!(
             "{} bytes are too few: the smallest file of this picture has {length}",
             bytes as u64
         )),
         Target::Bytes(bytes) if (length as f64) < 0.99 * bytes - 1.0 && best.step == 0 => {
             say(&format!("{} bytes are more than the finest step takes: {length}", bytes as u64));
         }
-        Target::Decibels(decibels) if best.psnr < decibels && best.step == 0 => {
+        Target::Decibels(decibels) if best.psnr < decibels => {
             say(&format!("{decibels} dB are out of reach: {:.2} dB", best.psnr));
         }
         _ => {}
