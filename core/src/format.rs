@@ -5,7 +5,7 @@ use core::fmt::Debug;
 
 use defmt::{Debug2Format, Format, Formatter};
 
-use crate::{curve, escape, fif, ifs, num, patch, plane, trace};
+use crate::{codec, curve, escape, fif, ifs, num, patch, plane, terrain, trace};
 
 macro_rules! as_debug {
     ($([$($generics:tt)*] $type:ty;)*) => {$(
@@ -27,7 +27,10 @@ as_debug! {
     [] plane::Bounds2;
     [] plane::Window;
     [] fif::Knot;
+    [] codec::Header;
     [] fif::Cell;
+    [] fif::Spread;
+    [] fif::Stretch;
     [const N: usize, const D: usize] fif::Fif<N, D>;
     [] ifs::Affine;
     [] ifs::Disc;
@@ -62,6 +65,11 @@ as_debug! {
     [] trace::Ray;
     [] num::Rgb;
     [] num::Affine3;
+    [] terrain::Law;
+    [] terrain::Magnification;
+    [] terrain::Seam;
+    [] terrain::Vertex;
+    [] trace::Ball;
     [] trace::Crossing;
     [] trace::Extent;
     [] trace::Chart;

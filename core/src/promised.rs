@@ -7,7 +7,7 @@ use std::string::String;
 use std::vec::Vec;
 
 /// Why a type is neither written nor read.
-const NOT_SERDE: [(&str, &[&str]); 5] = [
+const NOT_SERDE: [(&str, &[&str]); 6] = [
     (
         "made from values that are written, by a constructor that keeps only what it computes from them",
         &[
@@ -41,7 +41,12 @@ const NOT_SERDE: [(&str, &[&str]); 5] = [
             "Tensor",
             "Patch",
             "Mask",
+            "Law",
         ],
+    ),
+    (
+        "what a stream says, which is the written form",
+        &["Header", "Shape", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge", "Luma"],
     ),
     (
         "things, materials and textures of a world: made of what is written, or of functions",
@@ -68,6 +73,8 @@ const NOT_SERDE: [(&str, &[&str]); 5] = [
             "Slice",
             "Wood",
             "Framed",
+            "Hazy",
+            "Landscape",
         ],
     ),
     ("the same, with a seed", &["Elbow", "LineToLine", "OneVariable", "TwoVariable"]),
@@ -76,7 +83,7 @@ const NOT_SERDE: [(&str, &[&str]); 5] = [
 ];
 
 /// Why a type is not logged.
-const NOT_DEFMT: [(&str, &[&str]); 4] = [
+const NOT_DEFMT: [(&str, &[&str]); 5] = [
     (
         "as large as a program, or made of what is logged",
         &[
@@ -92,6 +99,10 @@ const NOT_DEFMT: [(&str, &[&str]); 4] = [
         ],
     ),
     ("a step on the way to a value", &["Ending", "OrbitPoint"]),
+    (
+        "what a stream says, and what reads it",
+        &["Shape", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge", "Luma"],
+    ),
     (
         "things, materials and textures of a world: made of what is logged, or of functions",
         &[
@@ -111,6 +122,8 @@ const NOT_DEFMT: [(&str, &[&str]); 4] = [
             "Slice",
             "Spline",
             "Framed",
+            "Hazy",
+            "Landscape",
         ],
     ),
     ("walks along something else, or a function", &["BackwardIteration", "Walk", "FromFn"]),

@@ -9,6 +9,8 @@ use crate::plane::checked_size;
 
 /// How a picture is made of its stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Profile {
     /// In one pass: a domain lies in what is decoded already, in a window of few rows.
     Streaming,
@@ -20,6 +22,8 @@ pub enum Profile {
 
 /// What planes there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Planes {
     /// One.
     Grey,
@@ -52,6 +56,8 @@ pub struct Header {
 
 /// A step of quantisation: an exponent and 8 bits of mantissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Step(u16);
 
 impl Step {

@@ -9,6 +9,8 @@ use super::transform::Levels;
 
 /// A domain: a square twice as large as the leaf, from which it copies what its transform does not say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Domain {
     /// Whether the place is one of 16 x 16 about the leaf, else one of all.
     pub near: bool,

@@ -16,6 +16,7 @@ use crate::num::{Coordinate, Real, Wide, product};
 
 /// A side of a grid of knots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Side {
     /// Where `u` is least.

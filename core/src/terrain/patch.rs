@@ -35,7 +35,8 @@ pub enum InnerGeometry {
 /// let heights = Heights::new(2, 2, &knots)?;
 /// let half = Unit::ONE / 2;
 /// for inner in [InnerGeometry::Bilinear, InnerGeometry::Ferguson, InnerGeometry::BSpline] {
-///     assert_eq!(inner.patch(&heights, 0, 0).height(half, half), Real::ONE);
+///     let middle = inner.patch(&heights, 0, 0).height(half, half);
+///     assert!((middle - Real::ONE).abs() <= 3 * Real::DELTA);
 /// }
 /// # Ok::<(), attractor::Error>(())
 /// ```

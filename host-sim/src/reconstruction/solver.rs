@@ -294,6 +294,8 @@ mod tests {
             model.fit(&hills, &Family::Lattice.starts()[0], 20, |_, error| errors.push(error)).unwrap();
         assert!(errors.len() > 3 && fitted.error < 0.3 * errors[0], "{errors:?}");
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0] * 1.01), "{errors:?}");
-        assert!(fitted.heights.iter().all(|height| height.abs() < 8.0));
+        let largest = fitted.heights.iter().fold(0.0_f64, |most, height| most.max(height.abs()));
+        // 62 without the tether
+        assert!(largest < 16.0, "{largest}");
     }
 }

@@ -15,6 +15,7 @@ use crate::num::{product, reciprocal, reciprocal_of, rough_sqrt};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Quality {
