@@ -111,7 +111,8 @@ fn the_reference_decodes_the_same_picture() {
         // what lies near a half may be rounded the other way; a copy of it, and a copy of that, carry it on,
         // sweeps more than one pass
         let sweeps = open(bytes.iter().copied()).unwrap().header().profile != Profile::Streaming;
-        assert!(off <= if sweeps { 4.0 } else { 2.0 } && mean < 0.5, "{name}: {off}, {mean}");
+        let (most, most_in_the_mean) = if sweeps { (4.0, 0.75) } else { (2.0, 0.5) };
+        assert!(off <= most && mean < most_in_the_mean, "{name}: {off}, {mean}");
         worst = worst.max(mean);
     }
     assert!(worst > 0.0, "nothing was compared");
