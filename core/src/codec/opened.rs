@@ -13,7 +13,11 @@ use crate::num::Wide;
 /// ```
 /// # fn main() -> Result<(), attractor::Error> {
 /// use attractor::codec::open;
-/// # const FLAT: &[u8] = include_bytes!("../../../tests/vectors/flat-8.atfi");
+/// // eight by eight pixels of one grey
+/// const FLAT: &[u8] = &[
+///     0x41, 0x54, 0x46, 0x49, 0x01, 0x00, 0x08, 0x00, 0x08, 0x00, 0xcd, 0x06, 0x08, 0x00,
+///     0x02, 0xcf, 0xb5, 0x74, 0xe8, 0x0a, 0x6b,
+/// ];
 /// // bytes from anywhere: flash, a card, a radio
 /// let opened = open(FLAT.iter().copied())?;
 /// assert_eq!(opened.header().size.width, 8);

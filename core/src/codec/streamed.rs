@@ -22,7 +22,11 @@ use crate::plane::{Field, along, inside};
 /// use attractor::codec::{Luma, Streamed, open};
 /// use attractor::draw::{Grey, Picture};
 /// use embedded_graphics::{image::Image, mock_display::MockDisplay, pixelcolor::Gray8, prelude::*};
-/// # const FLAT: &[u8] = include_bytes!("../../../tests/vectors/flat-8.atfi");
+/// // eight by eight pixels of one grey
+/// const FLAT: &[u8] = &[
+///     0x41, 0x54, 0x46, 0x49, 0x01, 0x00, 0x08, 0x00, 0x08, 0x00, 0xcd, 0x06, 0x08, 0x00,
+///     0x02, 0xcf, 0xb5, 0x74, 0xe8, 0x0a, 0x6b,
+/// ];
 /// let mut memory = [0_u8; 2048];
 /// let field = Streamed::new(FLAT, 0, &mut memory)?;
 /// let picture = Picture::new(Luma(&field), Grey);
