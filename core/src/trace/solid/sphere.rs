@@ -106,7 +106,9 @@ fn crossings(ray: &NearRay) -> Option<[Near; 2]> {
     let towards = -((product(o[0], d[0]) + product(o[1], d[1]) + product(o[2], d[2])) >> 30) as i32;
     let quotient = product(towards, mantissa);
     let middle = ((quotient >> 32) as i32) << zeros | ((quotient as u32 >> 1) >> (31 - zeros)) as i32;
-    let place = [0, 1, 2].map(|k: usize| o[k].wrapping_add((product(d[k], middle) >> 28) as i32));
+    let along = |o: i32, d: i32| o.wrapping_add((product(d, middle) >> 28) as i32);
+    // written out: on a Cortex-M0 an index of `map` is checked
+    let place = [along(o[0], d[0]), along(o[1], d[1]), along(o[2], d[2])];
     let inside = (1_u64 << 56).checked_sub(square(place))?;
     // 28 + 34 - zeros fractional bits, and of a root half as many; an even number of them
     let odd = zeros & 1;

@@ -242,10 +242,13 @@ impl Line {
     /// The place there, within the cube.
     #[inline(always)]
     fn at(&self, s: Q28) -> [Q28; 3] {
-        [0, 1, 2].map(|k: usize| {
-            let way = (product(s, self.direction[k]) + (1 << 27)) >> 28;
-            (i64::from(self.origin[k]) + way).clamp(-1 << 28, 1 << 28) as i32
-        })
+        // written out: on a Cortex-M0 an index of `map` is checked
+        let ([x, y, z], [dx, dy, dz]) = (self.origin, self.direction);
+        let along = |o: Q28, d: Q28| {
+            let way = (product(s, d) + (1 << 27)) >> 28;
+            (i64::from(o) + way).max(-1 << 28).min(1 << 28) as i32
+        };
+        [along(x, dx), along(y, dy), along(z, dz)]
     }
 
     /// Where it is in the cube `[-1, 1]^3`.
