@@ -246,7 +246,7 @@ impl Line {
         let ([x, y, z], [dx, dy, dz]) = (self.origin, self.direction);
         let along = |o: Q28, d: Q28| {
             let way = (product(s, d) + (1 << 27)) >> 28;
-            (i64::from(o) + way).max(-1 << 28).min(1 << 28) as i32
+            (i64::from(o) + way).clamp(-1 << 28, 1 << 28) as i32
         };
         [along(x, dx), along(y, dy), along(z, dz)]
     }
