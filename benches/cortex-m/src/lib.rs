@@ -60,3 +60,9 @@ pub fn arguments(mut f: impl FnMut(usize, &str)) {
         }
     }
 }
+
+/// Whether an argument names this row: an argument cannot hold spaces, so that it has `+` for them.
+pub fn names(argument: &str, row: &str) -> bool {
+    argument.len() == row.len()
+        && argument.bytes().zip(row.bytes()).all(|(a, b)| a == b || (a, b) == (b'+', b' '))
+}

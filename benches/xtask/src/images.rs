@@ -71,6 +71,21 @@ pub(crate) fn build(target: &Target, toolchain: &Toolchain) -> Result<Images> {
     Ok(Images { all: built.executables, panicking })
 }
 
+/// Builds one image alone.
+pub(crate) fn one(target: &Target, toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
+    let built = cargo(target, toolchain, &["--bin", name])?;
+    let found = built.executables.into_iter().find(|(image, _)| image == name);
+    let Some((_, path)) = found.filter(|_| built.success) else {
+        bail!("the image {name} for {} does not build:\n{}", target.triple, built.errors);
+    };
+    Ok(path)
+}
+
+/// A name as an image's argument, which cannot hold spaces.
+pub(crate) fn argument(name: &str) -> String {
+    name.replace(' ', "+")
+}
+
 /// The images that cargo says it could not build: `error: could not compile `PACKAGE` (bin "NAME") ...`.
 fn unlinked(errors: &str) -> Vec<String> {
     let lines = errors.lines().filter(|line| line.contains("could not compile"));

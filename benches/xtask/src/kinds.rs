@@ -20,22 +20,19 @@ const LONGEST: u64 = 20_000_000;
 
 /// Prints the histogram of each format's loop.
 pub(crate) fn run(options: &Options, name: &str) -> Result<bool> {
-    // the image is told the row: its arguments cannot hold spaces
-    let row = kernels::ALL.iter().position(|kernel| kernel.name == name);
-    let Some((index, kernel)) = row.and_then(|row| Some((row.to_string(), kernels::ALL.get(row)?))) else {
+    let Some(kernel) = kernels::ALL.iter().find(|kernel| kernel.name == name) else {
         let names: Vec<_> = kernels::ALL.iter().map(|kernel| kernel.name).collect();
         bail!("no kernel {name}; there are {}", names.join(", "));
     };
     for target in targets::choose(&options.targets)?.into_iter().take(1) {
         emulator::find_all(&[target])?;
         let compiler = toolchain::find(target, options.toolchain)?;
-        let images = images::build(target, &compiler)?;
-        let image = images.path("kernels")?;
+        let image = &images::one(target, &compiler, "kernels")?;
         for (format, work) in [("fixed", Some(kernel.fixed)), ("f32", kernel.f32), ("f64", kernel.f64)] {
             if work.is_none() {
                 continue;
             }
-            match (Loop { target, image, limit: options.limit(), index: &index, format }).mnemonics()? {
+            match (Loop { target, image, limit: options.limit(), name, format }).mnemonics()? {
                 Ok((counts, units)) => {
                     print(&format!("{name} {format}, instructions a {}", kernel.unit), &counts, units);
                 }
@@ -55,9 +52,7 @@ pub(crate) fn of_fixed(
     limit: Duration,
     name: &str,
 ) -> Result<Option<BTreeMap<&'static str, f64>>> {
-    let index = kernels::ALL.iter().position(|kernel| kernel.name == name);
-    let index = index.with_context(|| format!("no kernel {name}"))?.to_string();
-    let counted = Loop { target, image, limit, index: &index, format: "fixed" }.mnemonics()?;
+    let counted = Loop { target, image, limit, name, format: "fixed" }.mnemonics()?;
     Ok(counted.ok().map(|(counts, units)| {
         let mut kinds = BTreeMap::new();
         for (mnemonic, count) in counts.iter().filter(|(_, count)| **count > 0) {
@@ -68,12 +63,12 @@ pub(crate) fn of_fixed(
 }
 
 /// One loop of the image.
-struct Loop<'a> {
-    target: &'a targets::Target,
-    image: &'a Path,
-    limit: Duration,
-    index: &'a str,
-    format: &'a str,
+pub(crate) struct Loop<'a> {
+    pub(crate) target: &'a targets::Target,
+    pub(crate) image: &'a Path,
+    pub(crate) limit: Duration,
+    pub(crate) name: &'a str,
+    pub(crate) format: &'a str,
 }
 
 /// How often each mnemonic was executed.
@@ -95,9 +90,9 @@ impl Loop<'_> {
     }
 
     /// The units of one of `times` runs, and the instructions of all.
-    fn run(&self, times: u32, switches: &[&str]) -> Result<(u64, u64)> {
+    pub(crate) fn run(&self, times: u32, switches: &[&str]) -> Result<(u64, u64)> {
         let machine = self.target.counting.unwrap_or(self.target.machine);
-        let arguments = [self.index, self.format, &times.to_string()];
+        let arguments = [&images::argument(self.name), self.format, &times.to_string()];
         let said = emulator::run(&machine, self.image, &arguments, switches, Path::new("."), self.limit)?;
         let numbers = said.trim().split_once(' ').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
         numbers.with_context(|| format!("the image said {said:?} instead of its units and instructions"))

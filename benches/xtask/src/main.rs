@@ -2,6 +2,7 @@
 //! with the host's, and holds counts and sizes against the committed tables. See
 //! `benches/cortex-m/README.md`. `cargo xtask exhaust`: every input of the elementary functions.
 
+mod count;
 mod drivers;
 mod elf;
 mod emulator;
@@ -39,6 +40,8 @@ struct Cli {
 enum Task {
     /// Build, run, compare and count on the emulated target
     Target(Options),
+    /// Count the instructions of some kernels and scenes, and nothing else
+    Count(count::Options),
     /// Try every input of the elementary functions
     Exhaust(exhaust::Options),
     /// Decode small streams, mutated and forged
@@ -102,6 +105,7 @@ fn main() -> ExitCode {
             Some(kernel) => kinds::run(&options, kernel),
             None => target(&options),
         },
+        Task::Count(options) => count::run(&options),
         Task::Exhaust(options) => exhaust::run(&options),
         Task::FuzzCodec(options) => fuzz_codec::run(&options),
         Task::PeersImages(options) => peers_images::run(&options),

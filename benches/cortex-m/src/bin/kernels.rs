@@ -1,6 +1,6 @@
 //! Runs every kernel of the table and prints a line of JSON for each.
 //!
-//! Arguments: `INDEX FORMAT TIMES` runs one loop of the table's row (`fixed`, `f32` or `f64`) so many times
+//! Arguments: `NAME FORMAT TIMES` runs one loop of the table's row (its spaces as `+`) (`fixed`, `f32` or `f64`) so many times
 //! and prints its units and instructions, for a histogram of these.
 #![no_std]
 #![no_main]
@@ -9,7 +9,7 @@ use core::hint::black_box;
 
 use attractor_cortex_m::semihosting::{print, println, process};
 use attractor_cortex_m::workload::kernels::{self, Kernel, Loop, Tally, Watch};
-use attractor_cortex_m::{Board, arguments, entry};
+use attractor_cortex_m::{Board, arguments, entry, names};
 
 attractor_cortex_m::report_panics!();
 
@@ -35,7 +35,7 @@ fn main() -> ! {
     let mut times = None;
     arguments(|i, argument| match i {
         0 => {}
-        1 => chosen = argument.parse::<usize>().ok().and_then(|index| kernels::ALL.get(index)),
+        1 => chosen = kernels::ALL.iter().find(|kernel| names(argument, kernel.name)),
         2 => {
             work = chosen.and_then(|kernel| match argument {
                 "f32" => kernel.f32,

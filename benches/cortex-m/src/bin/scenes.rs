@@ -1,12 +1,12 @@
 //! Draws every scene of the table and prints a line of JSON for each.
 //!
-//! The argument `frames` streams the pixels of each scene to a file `NAME-WIDTHxHEIGHT.raw`.
+//! Arguments: `NAME SIZE` draws this scene alone (its spaces as `+`). The argument `frames` streams the pixels of each scene to a file `NAME-WIDTHxHEIGHT.raw`.
 #![no_std]
 #![no_main]
 
 use attractor_cortex_m::semihosting::{fs::File, println, process};
 use attractor_cortex_m::workload::{scenes, sink::Failure};
-use attractor_cortex_m::{Board, arguments, entry};
+use attractor_cortex_m::{Board, arguments, entry, names};
 
 attractor_cortex_m::report_panics!();
 
@@ -14,8 +14,20 @@ attractor_cortex_m::report_panics!();
 fn main() -> ! {
     let mut board = Board::new();
     let mut stream = false;
-    arguments(|i, argument| stream |= i > 0 && argument == "frames");
-    for scene in scenes::ALL {
+    let mut alone = [true; scenes::ALL.len()];
+    arguments(|i, argument| match i {
+        0 => {}
+        1 if argument == "frames" => stream = true,
+        _ => {
+            for (chosen, scene) in alone.iter_mut().zip(scenes::ALL) {
+                *chosen &= match i {
+                    1 => names(argument, scene.name),
+                    _ => size(argument) == Some((scene.size.width, scene.size.height)),
+                };
+            }
+        }
+    });
+    for scene in scenes::ALL.iter().zip(alone).filter_map(|(scene, chosen)| chosen.then_some(scene)) {
         let (width, height) = (scene.size.width, scene.size.height);
         if stream {
             board.stream(open(scene.name, width, height), scene.bits);
@@ -51,6 +63,12 @@ fn main() -> ! {
     }
     println!("{{\"line\":\"end\"}}");
     process::exit(0)
+}
+
+/// Width and height of `WIDTHxHEIGHT`.
+fn size(argument: &str) -> Option<(u32, u32)> {
+    let (width, height) = argument.split_once('x')?;
+    Some((width.parse().ok()?, height.parse().ok()?))
 }
 
 /// The file of a scene's frame.

@@ -1,0 +1,86 @@
+//! `cargo xtask count NAME...`: the instructions of some kernels and scenes.
+//!
+//! Only the image that holds them is built, and only what is asked for is run: the quick look while a kernel
+//! is being written. `cargo xtask target` is the whole check.
+
+use std::path::Path;
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+use attractor_workload::{kernels, scenes};
+use clap::Args;
+
+use crate::kinds::Loop;
+use crate::lines::{self, Line};
+use crate::targets::{self, Target};
+use crate::{Prefer, emulator, images, toolchain};
+
+/// What `cargo xtask count` is asked.
+#[derive(Debug, Args)]
+pub(crate) struct Options {
+    /// Parts of the names of kernels, and of scenes with their sizes: "patch", "bowl 240x240"
+    #[arg(required = true, value_name = "NAME")]
+    names: Vec<String>,
+    /// On this target
+    #[arg(long, value_name = "TARGET", default_value = targets::ALL[0].triple, value_parser = targets::names())]
+    target: String,
+    /// Stop an image after so many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 600)]
+    timeout: u64,
+}
+
+/// Counts and prints.
+pub(crate) fn run(options: &Options) -> Result<bool> {
+    let asked = |name: &str| options.names.iter().any(|part| name.contains(part.as_str()));
+    let kernels: Vec<_> = kernels::ALL.iter().filter(|kernel| asked(kernel.name)).collect();
+    let scenes: Vec<_> = scenes::ALL
+        .iter()
+        .map(|scene| (scene.name, format!("{}x{}", scene.size.width, scene.size.height)))
+        .filter(|(name, size)| asked(&format!("{name} {size}")))
+        .collect();
+    if kernels.is_empty() && scenes.is_empty() {
+        bail!("no kernel and no scene has {} in its name", options.names.join(" or "));
+    }
+    let limit = Duration::from_secs(options.timeout);
+    for target in targets::choose(std::slice::from_ref(&options.target))? {
+        emulator::find_all(&[target])?;
+        let compiler = toolchain::find(target, Prefer::Auto)?;
+        if !kernels.is_empty() {
+            let image = &images::one(target, &compiler, "kernels")?;
+            for kernel in &kernels {
+                let (units, instructions) =
+                    Loop { target, image, limit, name: kernel.name, format: "fixed" }.run(1, &[])?;
+                let each = instructions as f64 / units.max(1) as f64;
+                println!("{:<32} {each:>14.2} instructions a {}", kernel.name, kernel.unit);
+            }
+        }
+        if !scenes.is_empty() {
+            let image = images::one(target, &compiler, "scenes")?;
+            for (name, size) in &scenes {
+                scene(target, &image, limit, name, size)?;
+            }
+        }
+    }
+    Ok(true)
+}
+
+fn scene(target: &Target, image: &Path, limit: Duration, name: &str, size: &str) -> Result<()> {
+    let machine = target.counting.unwrap_or(target.machine);
+    let said = emulator::run(&machine, image, &[&images::argument(name), size], &[], Path::new("."), limit)?;
+    let lines = lines::parse(&said).with_context(|| format!("scene {name} {size}"))?;
+    for line in lines {
+        match line {
+            Line::Scene(row) => println!(
+                "{:<32} {:>14} instructions, {} bytes, stack {}, CRC {}",
+                format!("{name} {size}"),
+                row.instructions,
+                row.ram_bytes,
+                row.stack_bytes,
+                row.crc32
+            ),
+            Line::Failure { why, .. } => println!("{name} {size}: {why}"),
+            Line::Kernel(_) | Line::Refusal { .. } | Line::End => {}
+        }
+    }
+    Ok(())
+}
