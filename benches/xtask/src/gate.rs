@@ -22,12 +22,12 @@ const TOLERANCE: f64 = 3.0;
 const F64_FACTOR: f64 = 20.0;
 
 /// Target, then release of the compiler, then kind of figure, then name.
-type Counts = BTreeMap<String, BTreeMap<String, BTreeMap<String, BTreeMap<String, Figure>>>>;
+pub(crate) type Counts = BTreeMap<String, BTreeMap<String, BTreeMap<String, BTreeMap<String, Figure>>>>;
 
 /// One figure, or one for each format.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(untagged)]
-enum Figure {
+pub(crate) enum Figure {
     One(f64),
     Each(BTreeMap<String, f64>),
 }
@@ -96,7 +96,7 @@ fn path(name: &str) -> PathBuf {
     images::package().join(name)
 }
 
-fn read<T: serde::de::DeserializeOwned>(name: &str) -> Result<T> {
+pub(crate) fn read<T: serde::de::DeserializeOwned>(name: &str) -> Result<T> {
     let text = std::fs::read_to_string(path(name))
         .with_context(|| format!("benches/cortex-m/{name} cannot be read"))?;
     toml::from_str(&text).with_context(|| format!("benches/cortex-m/{name}"))
@@ -147,6 +147,9 @@ fn figures(measured: &Measured) -> BTreeMap<String, BTreeMap<String, Figure>> {
     }
     for row in &measured.flash {
         put("flash", row.name.clone(), Figure::One(row.bytes as f64));
+        if let Some(bytes) = row.stack {
+            put("image-stack", row.name.clone(), Figure::One(bytes as f64));
+        }
     }
     kinds
 }

@@ -16,6 +16,7 @@ mod lines;
 mod measure;
 mod multiplications;
 mod peers_images;
+mod readme;
 mod report;
 mod stack;
 mod targets;
@@ -48,6 +49,8 @@ enum Task {
     FuzzCodec(fuzz_codec::Options),
     /// The image codec beside libjpeg and WebP, and what each of its parts is worth
     PeersImages(peers_images::Options),
+    /// Write what counts.toml has into README.md
+    Readme,
     /// Compile the examples of display drivers for a Cortex-M4
     Drivers,
 }
@@ -109,6 +112,7 @@ fn main() -> ExitCode {
         Task::Exhaust(options) => exhaust::run(&options),
         Task::FuzzCodec(options) => fuzz_codec::run(&options),
         Task::PeersImages(options) => peers_images::run(&options),
+        Task::Readme => readme::run(),
         Task::Drivers => drivers::run(),
     };
     match done {
@@ -145,6 +149,7 @@ fn target(options: &Options) -> Result<bool> {
     }
     if options.bless {
         gate::bless(&report)?;
+        readme::run()?;
     }
     gate::check(&mut report, options.check || options.bless)?;
     if options.json {
