@@ -350,7 +350,7 @@ pub(crate) const KEYS: &str = keys!();
 #[derive(Debug, Args)]
 #[command(after_help = concat!(
     keys!(),
-    "\n\nNeeds: apt install libsdl2-dev; cargo run --release -p attractor-sim --features window -- window SCENE"
+    "\n\nNeeds: apt install libsdl2-dev; cargo run --features window -- window SCENE"
 ))]
 pub(crate) struct Window {
     /// Name of a built-in scene, or path of a TOML file

@@ -26,7 +26,7 @@ mod without {
         crate::scene::load(&args.scene)?;
         Err(Fail::new(
             "window: built without the feature `window`: apt install libsdl2-dev, then \
-             cargo run --release -p attractor-sim --features window -- window SCENE",
+             cargo run --features window -- window SCENE",
         ))
     }
 }
