@@ -62,7 +62,8 @@ pub(crate) fn run(
     let mut semihosting = format!("enable=on,target=native,arg={name}");
     for argument in arguments {
         semihosting.push_str(",arg=");
-        semihosting.push_str(argument);
+        // QEMU's way to write a comma inside of a value
+        semihosting.push_str(&argument.replace(',', ",,"));
     }
     let mut child = Command::new(machine.qemu)
         .args(machine.arguments)

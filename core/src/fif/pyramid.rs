@@ -112,12 +112,12 @@ impl<'a> Pyramid<'a> {
             fill(&fif.maps, fif.width, cells, level, Fresh::All);
         }
         for _ in 0..128 {
-            tighten(cells, fif.maps.len(), depth);
+            tighten(cells, fif.maps.len());
             if depth == 0 || !fill(&fif.maps, fif.width, cells, depth - 1, Fresh::Range) {
                 break;
             }
         }
-        tighten(cells, fif.maps.len(), depth);
+        tighten(cells, fif.maps.len());
         Ok(Self { cells, starts: &fif.starts, depth, x0: fif.x0, width: fif.width })
     }
 
@@ -240,17 +240,20 @@ const fn level_at(maps: usize, level: u32) -> (usize, usize) {
     (offset, count)
 }
 
-/// Every cell above the finest level becomes the hull of its parts.
+/// Every cell above the finest level is narrowed to the hull of its parts: from the last to the first, so that
+/// the parts come before what they are parts of.
 #[inline(never)]
-fn tighten(cells: &mut [Cell], maps: usize, depth: u32) {
-    for level in (0..depth).rev() {
-        let (offset, count) = level_at(maps, level);
-        let Some((upper, lower)) = cells.split_at_mut_checked(offset + count) else { return };
-        let Some(parents) = upper.get_mut(offset..) else { return };
-        for (parent, parts) in parents.iter_mut().zip(lower.chunks_exact(maps.max(1))) {
-            let hull = parts.iter().fold((Real::MAX, Real::MIN), |h, c| (h.0.min(c.min), h.1.max(c.max)));
-            (parent.min, parent.max) = (parent.min.max(hull.0), parent.max.min(hull.1));
+fn tighten(cells: &mut [Cell], maps: usize) {
+    // every node but the first is one of the parts `maps q + 1` to `maps q + maps` of a node `q`
+    let inner = cells.len().saturating_sub(1).checked_div(maps).unwrap_or(0);
+    for node in (0..inner).rev() {
+        let Some((upper, lower)) = cells.split_at_mut_checked(node + 1) else { return };
+        let (Some(parent), Some(parts)) = (upper.last_mut(), lower.get((maps - 1) * node..)) else { return };
+        let (mut low, mut high) = (Real::MAX, Real::MIN);
+        for part in parts.iter().take(maps) {
+            (low, high) = (low.min(part.min), high.max(part.max));
         }
+        (parent.min, parent.max) = (parent.min.max(low), parent.max.min(high));
     }
 }
 
@@ -364,6 +367,7 @@ mod tests {
     use super::*;
     use crate::fif::Knot;
     use crate::num::{Scaling, Wide};
+    use std::vec::Vec;
 
     fn map(scaling: i32, constant: i64, power: i64) -> Map<1> {
         Map {
@@ -422,9 +426,43 @@ mod tests {
             |min: i32, max: i32| Cell { min: Real::from_bits(min), max: Real::from_bits(max), ..Cell::ZERO };
         let mut cells =
             [cell(-9, 9), cell(-8, 3), cell(0, 7), cell(-5, 2), cell(-7, 1), cell(1, 6), cell(2, 9)];
-        tighten(&mut cells, 2, 2);
+        tighten(&mut cells, 2);
         assert_eq!(cells[..3], [cell(-7, 7), cell(-7, 2), cell(1, 7)]);
         assert_eq!(cells[3..], [cell(-5, 2), cell(-7, 1), cell(1, 6), cell(2, 9)]);
+    }
+
+    /// What misses a cell misses its parts: walks through pairs of them pass over boxes by that.
+    #[test]
+    fn cells_lie_inside_what_they_are_parts_of() {
+        let mut word = 77_u64;
+        let mut next = || {
+            word = word.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((word >> 33) as i64) - (1 << 30)
+        };
+        let mut tried = 0;
+        for case in 0..90 {
+            let maps = 2 + case % 3;
+            let knots: Vec<_> = (0..=maps)
+                .map(|i| Knot::new(Wide::from_num(i as i32), Wide::from_bits(next() << 19)))
+                .collect();
+            let scalings: Vec<_> = (0..maps).map(|_| Scaling::from_bits((next() / 10 * 9) as i32)).collect();
+            let f = Fif::<4, 1>::interpolating(&knots, &scalings).unwrap();
+            let mut memory = [Cell::ZERO; Pyramid::cells(4, 5)];
+            let mut nest = |pyramid: Pyramid<'_>| {
+                for level in 0..pyramid.depth() {
+                    let parts = pyramid.level(level + 1).chunks_exact(maps);
+                    for (cell, parts) in pyramid.level(level).iter().zip(parts) {
+                        let inside = |part: &Cell| part.min >= cell.min && part.max <= cell.max;
+                        assert!(parts.iter().all(inside), "{case} {level}: {cell:?} {parts:?}");
+                        tried += parts.len();
+                    }
+                }
+            };
+            nest(Pyramid::new(&f, 5, &mut memory).unwrap());
+            let integral = f.integral::<2>(Wide::ZERO).unwrap();
+            nest(Pyramid::new(&integral, 5, &mut memory).unwrap());
+        }
+        assert!(tried > 20_000, "{tried}");
     }
 
     #[test]

@@ -159,6 +159,8 @@ struct Search<'a> {
     origin: [i128; 3],
     direction: [i128; 3],
     per_t: i128,
+    /// Whether boxes that are met for certain, or nearly so, are not tested.
+    spares: bool,
     truth: Truth,
 }
 
@@ -171,9 +173,9 @@ struct Node {
     span: [Fraction; 2],
 }
 
-/// The first leaf of `ray`, for a footprint with 30 fractional bits. `clipped`: no part is tried beyond where
-/// the ray leaves the range of all heights.
-pub(super) fn first_leaf(hierarchy: &Hierarchy<'_>, ray: &Ray, per_t: i32, clipped: bool) -> Truth {
+/// The first leaf of `ray`, for a footprint with 30 fractional bits. `general`: as the walk through any parts
+/// finds it, which tries none beyond where the ray leaves the range of all heights, and tests every one.
+pub(super) fn first_leaf(hierarchy: &Hierarchy<'_>, ray: &Ray, per_t: i32, general: bool) -> Truth {
     let zero = Fraction(0, 1);
     let truth = Truth {
         nodes: None,
@@ -185,7 +187,7 @@ pub(super) fn first_leaf(hierarchy: &Hierarchy<'_>, ray: &Ray, per_t: i32, clipp
     // a component of 0 counts as a unit
     let direction = ray.direction.map(|d| if d == 0 { 1 } else { i128::from(d) });
     let origin = ray.origin.map(|o| i128::from(o) << 16);
-    let mut search = Search { hierarchy, origin, direction, per_t: per_t.into(), truth };
+    let mut search = Search { hierarchy, origin, direction, per_t: per_t.into(), spares: !general, truth };
     let ends =
         [hierarchy.x, hierarchy.y].map(|p| [p.origin, p.origin + p.width].map(|e| i128::from(e) << 16));
     let everywhere = [zero, Fraction(i128::from(i32::MAX), 1)];
@@ -194,7 +196,7 @@ pub(super) fn first_leaf(hierarchy: &Hierarchy<'_>, ray: &Ray, per_t: i32, clipp
     let inside = search.above(2, heights, over);
     search.truth.is_close |= inside[0].is_within(SLACK, inside[1]) || over[0].is_within(SLACK, over[1]);
     if inside[0].compare(inside[1]).is_lt() {
-        let span = [inside[0], if clipped { inside[1] } else { over[1] }];
+        let span = [inside[0], if general { inside[1] } else { over[1] }];
         search.descend(Node { level: 0, index: (0, 0), ends, span }, 0);
     }
     search.truth
@@ -266,10 +268,20 @@ impl Search<'_> {
             }
         }
         passed.sort_by(|a, b| a.span[0].compare(b.span[0]));
+        // whether the part before was gone into; the first of the surface is taken for met
+        let mut entered = node.level == 0;
         for (k, part) in passed.iter().enumerate() {
-            self.truth.statistics.box_tests += 1;
-            let around = around + u32::from(k + 1 < passed.len());
-            if self.meets(part) && self.descend(*part, around) {
+            let is_far = |axis: usize, q: u32| (q % 2 == 0) == (self.direction[axis] > 0);
+            let is_last = k > 0 && is_far(0, part.index.0) && is_far(1, part.index.1);
+            if !(self.spares && (entered || is_last) && !self.is_leaf(part)) {
+                self.truth.statistics.box_tests += 1;
+                entered = self.meets(part);
+                if !entered {
+                    continue;
+                }
+            }
+            entered = true;
+            if self.descend(*part, around + u32::from(k + 1 < passed.len())) {
                 return true;
             }
         }

@@ -160,7 +160,7 @@ const TABLE: &[Kernel] = &[
     beside("fif chaos game", "point", fif::game, fif::game_f32, fif::game_f64),
     roomy(beside("ray", "ray that hits or misses", trace::rays, trace::rays_float::<f32>, trace::rays_float::<f64>)),
     roomy(beside("box test", "box", trace::box_fixed, trace::box_float::<f32>, trace::box_float::<f64>)),
-    roomy(beside("walk", "box that a walk tests", trace::walks, trace::walks_float::<f32>, trace::walks_float::<f64>)),
+    roomy(beside("walk", "ray to the ground", trace::walks, trace::walks_float::<f32>, trace::walks_float::<f64>)),
     roomy(beside("normal", "unit normal of a hit", shade::normals, shade::normals_float::<f32>, shade::normals_float::<f64>)),
     roomy(beside("shade mirror", "call", shade::mirror, shade::mirror_float::<f32>, shade::mirror_float::<f64>)),
     roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),

@@ -134,16 +134,24 @@ impl<F: Float> Place<F> {
         }
     }
 
-    /// Over the plane at its end, into the next node, and out of the nodes that end there too. False at the
-    /// end of the surface.
+    /// Over the plane at its end, into the next node, and out of the nodes that end there too. Whether the ray
+    /// surely meets the box of the next node; none at the end of the surface.
     #[inline(always)]
-    fn advance(&mut self, line: &Line<F>, aside: &mut Self, line_aside: &Line<F>, level: &mut u32) -> bool {
+    fn advance(
+        &mut self,
+        line: &Line<F>,
+        aside: &mut Self,
+        line_aside: &Line<F>,
+        level: &mut u32,
+    ) -> Option<bool> {
         // the last digit that does not say "far"
         let near = (self.node + 1) ^ line.from_above.wrapping_sub(1);
+        let mut surely = ((aside.node + 1) ^ line_aside.from_above.wrapping_sub(1)) & 1 == 0;
         if near & 1 == 0 {
+            surely = true;
             let levels = near.trailing_zeros();
             if levels >= *level {
-                return false;
+                return None;
             }
             *level -= levels;
             let size = 1_u32 << (31 - *level);
@@ -155,7 +163,7 @@ impl<F: Float> Place<F> {
         self.node = self.node.wrapping_add(1).wrapping_sub(line.from_above << 1);
         self.end = self.end.wrapping_add(1 << (31 - *level));
         self.next = line.at(self.end);
-        true
+        Some(surely)
     }
 }
 
@@ -204,32 +212,36 @@ impl<F: Float> Caster<F> {
         if z.most(z_end) < low || z.least(z_end) > high {
             return None;
         }
-        let (mut level, mut next) = (0, end);
+        let is_leaf = |level: u32, t: F| level >= DEPTH as u32 || t >= self.small[level as usize];
+        if is_leaf(0, t) {
+            return Some(Leaf { nodes: (0, 0), span: (t, end) });
+        }
+        // a box is tested where it is not taken for met
+        let (mut level, mut met) = (0, true);
         loop {
-            // the ray meets the node where the walk stands
-            if level >= DEPTH as u32 || t >= self.small[level as usize] {
-                return Some(Leaf { nodes: (x.node, y.node), span: (t, next) });
+            while !met {
+                let next = x.next.least(y.next);
+                let z_next = z_at(next);
+                if meets(self.cells.get(x.node as usize)?, self.cells.get(y.node as usize)?, z, z_next) {
+                    if is_leaf(level, t) {
+                        return Some(Leaf { nodes: (x.node, y.node), span: (t, next) });
+                    }
+                    break;
+                }
+                (t, z) = (next, z_next);
+                let surely = if x.next <= y.next {
+                    x.advance(&line_x, &mut y, &line_y, &mut level)?
+                } else {
+                    y.advance(&line_y, &mut x, &line_x, &mut level)?
+                };
+                met = surely && !is_leaf(level, t);
             }
             level += 1;
             let size = 1 << (31 - level);
             x.descend(&line_x, size, t);
             y.descend(&line_y, size, t);
-            loop {
-                next = x.next.least(y.next);
-                let z_next = z_at(next);
-                if meets(self.cells.get(x.node as usize)?, self.cells.get(y.node as usize)?, z, z_next) {
-                    break;
-                }
-                (t, z) = (next, z_next);
-                let inside = if x.next <= y.next {
-                    x.advance(&line_x, &mut y, &line_y, &mut level)
-                } else {
-                    y.advance(&line_y, &mut x, &line_x, &mut level)
-                };
-                if !inside {
-                    return None;
-                }
-            }
+            // the first part of the surface
+            met = level == 1 && !is_leaf(level, t);
         }
     }
 
