@@ -4,6 +4,7 @@
 //! What is computed for each ray or pixel works on plain words instead, in the kernels.
 
 use super::formats::{Real, Unit};
+use super::product::rounded_down;
 use super::root::reciprocal_sqrt_of;
 use super::wide::scaled;
 
@@ -97,7 +98,7 @@ impl Vec3<Unit> {
         let sum = product(self.x, other.x)
             .wrapping_add(product(self.y, other.y))
             .wrapping_add(product(self.z, other.z));
-        Unit::from_bits((sum >> 30) as i32)
+        Unit::from_bits(rounded_down::<30>(sum))
     }
 
     /// The vector product.

@@ -118,6 +118,10 @@ pub struct Ray {
     /// `1 / |d|^2`, what it takes to find the place that is closest to another; 0 where nobody asked for it,
     /// and where the square is below 1/2.
     pub(super) pace: Q30,
+    /// The direction again where there is a pace, with two bits more, less `steep` where that is too long for a
+    /// word.
+    pub(super) fine: [Q30; 3],
+    pub(super) steep: i32,
 }
 
 impl Ray {
@@ -136,7 +140,14 @@ impl Ray {
     #[inline]
     pub(super) fn unit(origin: Vec3, direction: Vec3<Unit>) -> Self {
         let direction = [direction.x, direction.y, direction.z].map(|c| c.to_bits() >> 2);
-        Self { origin: [origin.x, origin.y, origin.z].map(Real::to_bits), direction, pace: 1 << 30 }
+        let fine = direction.map(|c| c << 2);
+        Self {
+            origin: [origin.x, origin.y, origin.z].map(Real::to_bits),
+            direction,
+            pace: 1 << 30,
+            fine,
+            steep: 0,
+        }
     }
 
     /// The same ray for things that are placed.
@@ -146,7 +157,9 @@ impl Ray {
         let length = NonZeroU32::new((square(self.direction) >> 30) as u32).unwrap_or(NonZeroU32::MIN);
         let (mantissa, zeros) = reciprocal_of(length);
         let pace = 6_u32.checked_sub(zeros).map_or(0, |places| mantissa >> places);
-        Self { pace, ..self }
+        // from a length of 2 on a bit less, from 4 on another: components are below 8
+        let steep = if zeros > 3 { 0 } else { 1 + i32::from(zeros < 2) };
+        Self { pace, fine: self.direction.map(|c| c << (2 - steep)), steep, ..self }
     }
 
     /// Where it starts.
@@ -181,7 +194,7 @@ impl Ray {
     /// Origin with 24, direction with 28 fractional bits.
     #[inline(always)]
     pub(crate) fn from_bits(origin: [Q24; 3], direction: [Q28; 3]) -> Self {
-        Self { origin, direction, pace: 0 }
+        Self { origin, direction, pace: 0, fine: [0; 3], steep: 0 }
     }
 
     /// Its coordinates along x, y and z, ready for many planes.

@@ -8,7 +8,8 @@
 //!
 //! Source: the course unit V, section 5.9.1, as corrected: `sin t / c_2 = sin i / c_1`.
 
-use crate::num::{Real, Unit, Vec3, product, ratio, sqrt, square};
+use crate::num::formats::{Q30, Q58};
+use crate::num::{Real, Unit, Vec3, high, product, product_u, ratio, rough_sqrt, rounded_down, sqrt, square};
 
 /// Where refracted light goes, and which share of it is reflected instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,10 +33,7 @@ fn vector([x, y, z]: [i32; 3]) -> Vec3<Unit> {
 #[inline]
 pub(super) fn mirrored(d: Vec3<Unit>, n: Vec3<Unit>) -> Vec3<Unit> {
     let along = d.dot(n).to_bits();
-    let part = |d: Unit, n: Unit| {
-        let twice = (i64::from(along) * i64::from(n.to_bits())) >> 29;
-        d.to_bits().wrapping_sub(twice as i32)
-    };
+    let part = |d: Unit, n: Unit| d.to_bits().wrapping_sub(rounded_down::<29>(product(along, n.to_bits())));
     vector([part(d.x, n.x), part(d.y, n.y), part(d.z, n.z)])
 }
 
@@ -44,7 +42,7 @@ pub(super) fn mirrored(d: Vec3<Unit>, n: Vec3<Unit>) -> Vec3<Unit> {
 ///
 /// Domain: unit vectors with `d . n <= 0`, `eta` from 0.01 to 100. Error: below `2^-22` in each component, for
 /// an `eta` above 10 `2^-21`, away from the critical angle (`a_refracted_ray_is_within_two_to_the_minus_22`).
-/// Cost: 15 multiplications and an exact square root (kernel row `refraction`).
+/// Cost: 21 multiplications (kernel `refraction`).
 #[inline]
 pub fn refracted_direction(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Vec3<Unit>> {
     refracted(d, n, eta).map(|refracted| refracted.direction)
@@ -53,6 +51,30 @@ pub fn refracted_direction(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Ve
 /// The same, and what tells which share of the light is reflected.
 #[inline]
 pub(super) fn refracted(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Refracted> {
+    if eta >= 2 {
+        return far_bent(d, n, eta);
+    }
+    // w^2 = eta^2 (1 - (d . n)^2): where eta is no larger, what is lost there is not missed
+    let (along, eta): (Q30, Q30) = (d.dot(n).to_bits(), eta.to_bits() << 6);
+    let (d, n) = (bits(d), bits(n));
+    let aside: Q30 = (1 << 30) - rounded_down::<30>(product(along, along));
+    let rest: Q58 = (1 << 58) - product_u(aside.max(0) as u32, high(eta, eta) as u32) as i64;
+    if rest < 0 {
+        return None;
+    }
+    // the root is too small by half a unit on average, and by one straight on
+    let cos: Q30 = ((rough_sqrt(rest as u64) + 1) << 1) as i32;
+    // the direction is eta d + f n, f below 2
+    let f = rounded_down::<30>(product(eta, along)).wrapping_add(cos).wrapping_neg();
+    let part = |d: i32, n: i32| rounded_down::<30>(product(eta, d).wrapping_add(product(f, n)));
+    let direction = vector([part(d[0], n[0]), part(d[1], n[1]), part(d[2], n[2])]);
+    Some(Refracted { direction, cos: Unit::from_bits(cos) })
+}
+
+/// The same for an `eta` of 2 and more, from a denser medium into a much thinner one.
+#[cold]
+#[inline(never)]
+fn far_bent(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Refracted> {
     let (along, eta) = (d.dot(n).to_bits(), eta.to_bits());
     let (d, n) = (bits(d), bits(n));
     let (mut inside, mut far) = ([0; 3], 0);

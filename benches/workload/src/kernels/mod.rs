@@ -180,6 +180,7 @@ const TABLE: &[Kernel] = &[
     roomy(beside("square", "ray", shapes::square, shapes::square_float::<f32>, shapes::square_float::<f64>)),
     roomy(beside("cube", "ray, both crossings and faces", shapes::cube, shapes::cube_float::<f32>, shapes::cube_float::<f64>)),
     roomy(beside("tapered cylinder", "ray, both crossings and faces", shapes::tapered, shapes::tapered_float::<f32>, shapes::tapered_float::<f64>)),
+    roomy(beside("affine map of a ray", "ray", shapes::affine, shapes::affine_float::<f32>, shapes::affine_float::<f64>)),
     roomy(beside("approach", "ray brought near; floats: mapped", shapes::reached, shapes::reached_float::<f32>, shapes::reached_float::<f64>)),
     roomy(beside("passing by", "ray, of which most pass; floats: mapped", shapes::passing, shapes::passing_float::<f32>, shapes::passing_float::<f64>)),
     roomy(alone("torus", "ray, all crossings", solid::torus)),

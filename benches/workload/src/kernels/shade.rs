@@ -98,9 +98,10 @@ pub(super) fn refraction(watch: &mut Watch<'_>) -> Tally {
         return Tally::default();
     };
     with_hits(|hits| {
-        let normals = hits.map(|(hit, _, _)| hit.normal().normalised().unwrap_or(d));
+        // every ray has a direction of its own
+        let pairs = hits.map(|(hit, _, _)| (d, hit.normal().normalised().unwrap_or(d)));
         let eta = black_box(Real::from_num(ETA));
-        watch.over(&normals, |n| refracted_direction(d, n, eta).map_or(0, bits))
+        watch.over(&pairs, |(d, n)| refracted_direction(d, n, eta).map_or(0, bits))
     })
 }
 
@@ -109,10 +110,11 @@ pub(super) fn refraction_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
     let d = rivals::unit([5.0, 4.0, -5.0]).map(F::of);
     with_hits(|hits| {
         let float = |v: Real| F::of(v.to_num::<f64>());
-        let normals = hits
-            .map(|(_, f, g)| rivals::normal([float(f.slope), float(f.mean), float(g.slope), float(g.mean)]));
+        let pairs = hits.map(|(_, f, g)| {
+            (d, rivals::normal([float(f.slope), float(f.mean), float(g.slope), float(g.mean)]))
+        });
         let eta = black_box(F::of(ETA));
-        watch.over(&normals, |n| rivals::refracted(d, n, eta).map_or(0, folded))
+        watch.over(&pairs, |(d, n)| rivals::refracted(d, n, eta).map_or(0, folded))
     })
 }
 
@@ -134,7 +136,8 @@ pub(super) fn phong_rgb(watch: &mut Watch<'_>) -> Tally {
         return Tally::default();
     };
     with_hits(|hits| {
-        let normals = hits.map(|(hit, _, _)| hit.normal().normalised().unwrap_or(d));
+        // every ray has a direction of its own
+        let pairs = hits.map(|(hit, _, _)| (d, hit.normal().normalised().unwrap_or(d)));
         let (material, lit) =
             black_box((matt.with_highlight(grey, Phong { shininess: 32 }), Lit { towards, light }));
         let mut point = SurfacePoint {
@@ -146,7 +149,7 @@ pub(super) fn phong_rgb(watch: &mut Watch<'_>) -> Tally {
             inward: false,
             width: Real::ZERO,
         };
-        watch.over(&normals, |n| {
+        watch.over(&pairs, |(d, n)| {
             point.normal = n;
             let light = material.respond(&point, d, core::iter::once(lit)).light;
             mixed_up([light.r, light.g, light.b].map(Lumen::to_bits))
@@ -161,8 +164,9 @@ pub(super) fn phong_rgb_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
     let colors = black_box(COLORS.map(|c| c.map(|c| F::of(c.into()))));
     with_hits(|hits| {
         let float = |v: Real| F::of(v.to_num::<f64>());
-        let normals = hits
-            .map(|(_, f, g)| rivals::normal([float(f.slope), float(f.mean), float(g.slope), float(g.mean)]));
-        watch.over(&normals, |n| folded(rivals::phong_rgb(n, d, &sun, colors, shininess)))
+        let pairs = hits.map(|(_, f, g)| {
+            (d, rivals::normal([float(f.slope), float(f.mean), float(g.slope), float(g.mean)]))
+        });
+        watch.over(&pairs, |(d, n)| folded(rivals::phong_rgb(n, d, &sun, colors, shininess)))
     })
 }

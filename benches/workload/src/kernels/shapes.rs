@@ -138,12 +138,38 @@ fn rays(near: bool) -> [Ray; COUNT] {
     })
 }
 
+/// Turned, at `(1, 2, 3)`.
+fn placed() -> Option<Placed<Reached>> {
+    let [x, y, z] = [1, 2, 3].map(Real::from_num);
+    let turn = Affine3::rotate(Vec3::new(z, x, y), Angle::from_bits(0x1234_5678)).ok()?;
+    Placed::new(Reached, &turn.then(&Affine3::translate(Vec3::new(x, y, z)))).ok()
+}
+
+/// What every ray takes that comes near a thing: origin and direction through the inverse map.
+#[inline(never)]
+pub(super) fn affine(watch: &mut Watch<'_>) -> Tally {
+    let Some(placed) = placed() else { return Tally::default() };
+    // below 1 in length
+    let lines = near_rays().map(|NearRay { origin, direction: d }| {
+        let unit = |c: Near| Unit::from_bits(c.to_bits());
+        (origin, Vec3::new(unit(d.x), unit(d.y), unit(d.z)))
+    });
+    watch.over(&lines, |(origin, direction)| {
+        let NearRay { origin: o, direction: d } = placed.line(origin, direction);
+        let all = [o.x, o.y, o.z, d.x, d.y, d.z];
+        all.into_iter().fold(0_u32, |sum, c| sum.rotate_left(5) ^ c.to_bits() as u32)
+    })
+}
+
+#[inline(never)]
+pub(super) fn affine_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    let map = map();
+    watch.over(&lines::<F>(), |line| folded_line(solid::carried(line, &map)))
+}
+
 #[inline(always)]
 fn approached(watch: &mut Watch<'_>, near: bool) -> Tally {
-    let [x, y, z] = [1, 2, 3].map(Real::from_num);
-    let map = Affine3::rotate(Vec3::new(z, x, y), Angle::from_bits(0x1234_5678))
-        .map(|turn| turn.then(&Affine3::translate(Vec3::new(x, y, z))));
-    let Ok(Ok(placed)) = map.map(|map| Placed::new(Reached, &map)) else { return Tally::default() };
+    let Some(placed) = placed() else { return Tally::default() };
     watch.over(&rays(near), |ray| {
         let mut sum = 0;
         placed.cross(&ray, Unit::DELTA, &mut |crossing| {
@@ -173,15 +199,19 @@ fn approached_float<F: Float>(watch: &mut Watch<'_>, near: bool) -> Tally {
         let origin = [o.x, o.y, o.z].map(|c| F::of(c.to_num::<f64>()));
         (origin, [d.x, d.y, d.z].map(|c| F::of(c.to_num::<f64>())))
     });
+    let map = map();
+    watch.over(&lines, |line| solid::mapped(line, &map, F::of(3.0)).map_or(0, folded_line))
+}
+
+/// A turn about z, and a place.
+fn map<F: Float>() -> solid::Map<F> {
     let row = |x, y, z| [F::of(x), F::of(y), F::of(z)];
-    let map = core::hint::black_box((
-        row(1.0, 2.0, 3.0),
-        [row(0.8, 0.6, 0.0), row(-0.6, 0.8, 0.0), row(0.0, 0.0, 1.0)],
-    ));
-    watch.over(&lines, |line| {
-        solid::mapped(line, &map, F::of(3.0))
-            .map_or(0, |(o, d)| o.into_iter().chain(d).fold(0, |sum, c| sum ^ c.fold()))
-    })
+    let turn = [row(0.8, 0.6, 0.0), row(-0.6, 0.8, 0.0), row(0.0, 0.0, 1.0)];
+    core::hint::black_box((row(1.0, 2.0, 3.0), turn))
+}
+
+fn folded_line<F: Float>((o, d): Line<F>) -> u32 {
+    o.into_iter().chain(d).fold(0, |sum, c| sum ^ c.fold())
 }
 
 #[inline(never)]

@@ -93,12 +93,19 @@ pub(crate) fn tapered<F: Float>((o, d): Line<F>) -> Option<[(F, u32); 2]> {
 /// An affine map: what it adds, and its rows.
 pub(crate) type Map<F> = (Vector<F>, [Vector<F>; 3]);
 
-/// Origin and direction under the map; none where the line passes the ball round the origin with this squared
-/// radius.
+/// Origin and direction under the map.
 #[inline(always)]
-pub(crate) fn mapped<F: Float>((o, d): Line<F>, (centre, rows): &Map<F>, ball: F) -> Option<Line<F>> {
+pub(crate) fn carried<F: Float>((o, d): Line<F>, (centre, rows): &Map<F>) -> Line<F> {
     let w = [o[0] - centre[0], o[1] - centre[1], o[2] - centre[2]];
     let [o, d] = [w, d].map(|v| rows.map(|row| dot(row, v)));
+    (o, d)
+}
+
+/// The same; none where the line passes the ball round the origin with this squared
+/// radius.
+#[inline(always)]
+pub(crate) fn mapped<F: Float>(line: Line<F>, map: &Map<F>, ball: F) -> Option<Line<F>> {
+    let (o, d) = carried(line, map);
     let (a, b, c) = (dot(d, d), dot(o, d), dot(o, o) - ball);
     (b * b > a * c).then_some((o, d))
 }

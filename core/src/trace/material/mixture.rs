@@ -8,8 +8,9 @@ use super::super::surface::SurfacePoint;
 use super::super::texture::field::Texture;
 use super::respond::{Lit, Material, Medium, Response};
 use super::specular::{Sight, Specular};
+use super::sum::{Light, Sum, lit, part, whole_or_less};
 use crate::Error;
-use crate::num::{Real, Rgb, Unit, Vec3, Wide};
+use crate::num::{Lumen, Real, Rgb, Unit, Vec3, Wide};
 
 /// A material by its components. `T` is what colours it, `S` its model of highlights, `I` what is inside:
 /// nothing that light passes, unless it is [`Clear`]. What a type rules out takes no code: a world without
@@ -183,19 +184,26 @@ impl<T: Texture, S: Specular, I: Interior> Material for Mixture<T, S, I> {
 
     fn respond(&self, point: &SurfacePoint, view: Vec3<Unit>, lights: impl Iterator<Item = Lit>) -> Response {
         let pigment = self.pigment.at(point);
-        let normal = point.normal;
-        let view = Sight::new(point, normal, view);
-        let (mut diffuse, mut specular) = (Rgb::BLACK, Rgb::BLACK);
+        let view = Sight::new(point, view, self.model.is_charted());
+        let is_shiny = self.specular != Rgb::BLACK;
+        let mut diffuse = Sum::of(self.ambient);
+        let mut specular = Sum::of(Unit::ZERO);
         for Lit { towards, light } in lights {
-            diffuse = diffuse.plus(light.scaled(normal.dot(towards)));
-            if self.specular != Rgb::BLACK {
-                specular = specular.plus(light.through(Rgb::grey(self.model.part(&view, towards))));
+            let light = Light::new(light);
+            let cos = point.normal.dot(towards).max(Unit::ZERO);
+            diffuse.add(light, part(self.diffuse, cos));
+            if is_shiny {
+                match self.model.part(&view, towards) {
+                    seen if seen <= Lumen::ONE => specular.add(light, whole_or_less(seen)),
+                    seen => specular.add(light.brighter(seen), i32::MAX),
+                }
             }
         }
-        let mut light = pigment.scaled(self.ambient).plus(pigment.through(diffuse.scaled(self.diffuse)));
-        if self.specular != Rgb::BLACK {
-            light = light.plus(self.specular.through(specular));
-        }
+        let light = if is_shiny {
+            lit([(pigment, diffuse), (self.specular, specular)])
+        } else {
+            lit([(pigment, diffuse)])
+        };
         Response { light, reflected: self.reflect, refracted: self.interior.passes() }
     }
 }

@@ -9,6 +9,7 @@ mod mixture;
 mod phong;
 mod respond;
 mod specular;
+mod sum;
 mod torrance_sparrow;
 
 pub use anisotropic::Anisotropic;

@@ -12,7 +12,7 @@ pub struct Sight {
     /// The direction of the ray.
     pub direction: Vec3<Unit>,
     /// Along the grain of the surface, at right angles to the normal; any such direction where the point has
-    /// no texture coordinates.
+    /// no texture coordinates, and none for a model that does not look at it.
     pub tangent: Vec3<Unit>,
 }
 
@@ -35,8 +35,16 @@ impl Specular for () {
 }
 
 impl Sight {
-    /// Of a point with this normal, looked at in this direction.
-    pub(super) fn new(point: &SurfacePoint, normal: Vec3<Unit>, direction: Vec3<Unit>) -> Self {
+    /// Of a point with this normal, looked at in this direction; without a tangent for who does not look at it.
+    #[inline]
+    pub(super) fn new(point: &SurfacePoint, direction: Vec3<Unit>, is_charted: bool) -> Self {
+        let normal = point.normal;
+        let tangent = if is_charted { Self::grain(point, normal) } else { Vec3::default() };
+        Self { normal, direction, tangent }
+    }
+
+    /// The unit vector along the grain of a point with this normal.
+    fn grain(point: &SurfacePoint, normal: Vec3<Unit>) -> Vec3<Unit> {
         let grain = point.chart.along_u;
         // at right angles to the normal: what of the grain lies along it is taken off
         let bits = [grain.x, grain.y, grain.z].map(|c| i64::from(c.to_bits()));
@@ -47,7 +55,7 @@ impl Sight {
             // no longer than the grain: below 2^32
             *t = ((g - ((along * n) >> 30)) >> 1) as i32;
         }
-        Self { normal, direction, tangent: unit(tangent) }
+        unit(tangent)
     }
 
     /// The unit vector half way between the eye and a light.
@@ -119,7 +127,7 @@ pub(crate) mod tests {
                 face: 0,
                 width,
             };
-            all.push((Sight::new(&point, normal, direction), towards));
+            all.push((Sight::new(&point, direction, true), towards));
         }
         all
     }

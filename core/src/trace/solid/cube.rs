@@ -1,21 +1,71 @@
 //! The cube from -1 to 1 along each axis: `F = max(|x|, |y|, |z|) - 1`.
 //!
+//! Which of three planes a ray crosses last, and which first, is found by products; only these two quotients are
+//! taken.
+//!
 //! Faces are those at `x` = -1, 1, `y` = -1, 1, `z` = -1, 1, from 0 on. Each has texture coordinates in
 //! `[0, 1]`, `v` upwards on the sides and along `y` on the others, `u` to the right as seen from outside:
 //! `u = (1 + r) / 2`, `v = (1 + w) / 2` with `(r, w)` = `(-y, z)`, `(y, z)`, `(x, z)`, `(-x, z)`, `(-x, y)`,
 //! `(x, y)`.
 
+use core::num::NonZeroU32;
 use core::ops::ControlFlow;
 
 use super::super::surface::Chart;
 use super::shape::{NearCrossing, NearRay, Shape};
-use super::slab::{Part, over, slowness};
-use crate::num::{Near, Real, Vec3, Wide};
+use super::slab::{Part, over};
+use crate::num::formats::Q28;
+use crate::num::{Near, Real, Vec3, Wide, product, reciprocal_of};
 
 /// The generic cube.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cube;
+
+/// Where a ray crosses the plane of a face: at `way / rise`.
+#[derive(Clone, Copy)]
+struct Edge {
+    way: Q28,
+    rise: NonZeroU32,
+    face: u8,
+}
+
+/// Both planes across an axis, in the order in which a ray crosses them. One parallel to them leans by less than
+/// a direction's resolution.
+#[inline(always)]
+fn pair(face: u8, o: Near, d: Near) -> [Edge; 2] {
+    const ONE: i32 = 1 << 28;
+    let (o, d) = (o.to_bits(), d.to_bits());
+    // against a mirrored cube the ray goes upwards
+    let (o, back) = if d < 0 { (o.wrapping_neg(), 1) } else { (o, 0) };
+    let rise = NonZeroU32::new(d.unsigned_abs()).unwrap_or(NonZeroU32::MIN);
+    let edge = |way: Q28, face: u8| Edge { way, rise, face };
+    [edge((-ONE).wrapping_sub(o), face + back), edge(ONE.wrapping_sub(o), face + 1 - back)]
+}
+
+impl Edge {
+    /// Whether this is crossed before the other: quotients by their products, which are exact.
+    #[inline(always)]
+    fn is_before(self, other: Self) -> bool {
+        product(self.way, other.rise.get() as i32) < product(other.way, self.rise.get() as i32)
+    }
+
+    #[inline(always)]
+    fn later(self, other: Self) -> Self {
+        if self.is_before(other) { other } else { self }
+    }
+
+    #[inline(always)]
+    fn earlier(self, other: Self) -> Self {
+        if other.is_before(self) { other } else { self }
+    }
+
+    /// The ray's parameter there, and the face.
+    #[inline(always)]
+    fn met(self) -> (Q28, u8) {
+        (over(self.way, reciprocal_of(self.rise)), self.face)
+    }
+}
 
 impl Shape for Cube {
     fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
@@ -34,18 +84,13 @@ impl Shape for Cube {
     /// Error: on the surface within `2^-25` (`rays_meet_the_cube_where_they_should`). Cost: kernel `cube`.
     #[inline]
     fn cross(&self, ray: &NearRay, from: Near, found: &mut impl FnMut(NearCrossing) -> ControlFlow<()>) {
-        const ONE: i32 = 1 << 28;
         let (o, d) = (ray.origin, ray.direction);
-        let mut part = Part::ALL;
-        for (face, o, d) in [(0, o.x, d.x), (2, o.y, d.y), (4, o.z, d.z)] {
-            let (o, d) = (o.to_bits(), d.to_bits());
-            let slowness = slowness(d);
-            // against a mirrored cube the ray goes upwards
-            let (o, back) = if d < 0 { (o.wrapping_neg(), 1) } else { (o, 0) };
-            part.from(over((-ONE).wrapping_sub(o), slowness), face + back);
-            part.until(over(ONE.wrapping_sub(o), slowness), face + 1 - back);
+        let [x, y, z] = [(0, o.x, d.x), (2, o.y, d.y), (4, o.z, d.z)].map(|(face, o, d)| pair(face, o, d));
+        let begin = x[0].later(y[0]).later(z[0]);
+        let end = x[1].earlier(y[1]).earlier(z[1]);
+        if begin.is_before(end) {
+            Part { begin: begin.met(), end: end.met() }.hand_over(from, found);
         }
-        part.hand_over(from, found);
     }
 
     fn value(&self, place: Vec3) -> Wide {

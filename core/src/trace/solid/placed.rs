@@ -7,7 +7,7 @@ use core::ops::ControlFlow;
 use super::super::ball::Ball;
 use super::super::ray::Ray;
 use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
-use super::shape::Shape;
+use super::shape::{NearRay, Shape};
 use super::site::{Site, shifted};
 use crate::Error;
 use crate::num::{Affine3, Near, Real, Unit, Vec3, Wide, product};
@@ -40,6 +40,20 @@ impl<S: Shape> Placed<S> {
     /// The shape.
     pub fn shape(&self) -> &S {
         &self.shape
+    }
+
+    /// A line through a place near the shape in the shape's coordinates, as every ray takes it that comes near.
+    ///
+    /// Domain: `way` leads from the place to the middle of the shape's box, in units of a power of two in which all
+    /// of the shape is within 8 of it. Where a map scales so unevenly that the place is farther than 4 from the
+    /// shape in its own coordinates, or a direction is a sixteenth there, the result wraps.
+    ///
+    /// Error: `2^-25` of the direction's length and of the place's (`a_line_is_mapped_to_within_two_to_the_minus_25`).
+    /// Cost: kernel `affine map of a ray`.
+    #[inline]
+    pub fn line(&self, way: Vec3<Near>, direction: Vec3<Unit>) -> NearRay {
+        let way = [way.x, way.y, way.z].map(Near::to_bits);
+        self.site.line(way, [direction.x, direction.y, direction.z].map(Unit::to_bits)).0
     }
 }
 
@@ -444,6 +458,42 @@ mod tests {
             let radius = x.hypot(y);
             if face == 0 { [x / radius, y / radius, 1.0] } else { [0.0, 0.0, -1.0] }
         }
+    }
+
+    /// Against the exact inverse: the place, and the direction but for a power of two.
+    #[test]
+    fn a_line_is_mapped_to_within_two_to_the_minus_25() {
+        let mut word = words(37);
+        let (mut worst, mut least) = ([0.0_f64; 2], 2.0_f64);
+        for k in 0..4_000 {
+            let size = |shift: u32| Real::from_bits(1 << (20 + (k >> shift) % 8)).min(Real::ONE * 2);
+            let size = Vec3::new(size(0), size(0), size(0));
+            let size = if k % 5 == 0 { Vec3::new(size.x * 2, size.y, -size.z) } else { size };
+            let map = map(size, &mut word);
+            let (cone, exact) = (Placed::new(TaperedCylinder::CONE, &map).unwrap(), Exact::of(&map));
+            let mut near = || Near::from_bits((word() >> 34) as i32 - (1 << 29));
+            let way = Vec3::new(near(), near(), near());
+            let Some(d) = vector(&mut word).normalised() else { continue };
+            let numbers = |v: Vec3<Near>| [v.x, v.y, v.z].map(|c| c.to_num::<f64>());
+            let got = cone.line(way, d);
+            let unit = 2_f64.powi(14 - cone.site.up as i32);
+            let back = exact.direction(numbers(way).map(|c| c * unit));
+            let place = numbers(got.origin);
+            let centre = [0.0, 0.0, 0.5];
+            for k in 0..3 {
+                worst[0] = worst[0].max((place[k] - (centre[k] - back[k])).abs());
+            }
+            let along = exact.direction([d.x, d.y, d.z].map(|c| c.to_num::<f64>()));
+            let got = numbers(got.direction);
+            let greatest = got.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+            least = least.min(greatest);
+            let scale = (dot(got, got) / dot(along, along)).sqrt().log2().round().exp2();
+            for k in 0..3 {
+                worst[1] = worst[1].max((got[k] - along[k] * scale).abs());
+            }
+        }
+        assert!(worst.iter().all(|w| *w < 2_f64.powi(-25) && *w > 2_f64.powi(-28)), "{worst:?}");
+        assert!(least >= 1.0, "{least}");
     }
 
     /// A place is clear of a cone only where the cone's function in double precision is above 0, and of most

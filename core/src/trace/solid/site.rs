@@ -19,9 +19,10 @@ use super::super::ray::Ray;
 use super::super::surface::Extent;
 use super::shape::NearRay;
 use crate::Error;
-use crate::num::formats::{Q18, Q24, Q28, Q29, Q30, Q46, Q54, Q58};
+use crate::num::formats::{Q18, Q24, Q28, Q30, Q46, Q54, Q58};
 use crate::num::{
-    Affine3, Near, Real, Unit, Vec3, Wide, product, product_u, reciprocal_of, sqrt, square, unit,
+    Affine3, Near, Real, Unit, Vec3, Wide, high_rounded, product, product_u, reciprocal_of, sqrt, square,
+    unit,
 };
 
 /// A map and what it makes of a box.
@@ -31,16 +32,18 @@ pub(super) struct Site {
     inverse: [[Q30; 3]; 3],
     /// -8 to 8.
     exponent: i32,
-    /// That middle, in generic coordinates.
-    middle: [Q29; 3],
+    /// That middle, in generic coordinates: a place of the world's resolution.
+    middle: [Q28; 3],
     /// Round the middle of the shape's box; for a half-space it has no end.
     pub(super) ball: Ball,
     /// A place in the ball has `14 + up` fractional bits in a word.
-    up: u32,
+    pub(super) up: u32,
     /// Such a place times `inverse` has 28 in the upper word after a shift to the left by so many places.
     left: u32,
-    /// Whether every place in the ball is near the shape in generic coordinates as well.
+    /// Whether every place in the ball is near the shape in generic coordinates as well, and whether a direction
+    /// may be short there.
     is_even: bool,
+    is_steep: bool,
     pub(super) limited: bool,
     linear: [Vec3; 3],
     /// The norm of the map, 16 fractional bits.
@@ -99,6 +102,12 @@ fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
     product(a[0], b[0]).wrapping_add(product(a[1], b[1])).wrapping_add(product(a[2], b[2]))
 }
 
+/// The upper word of the scalar product, each product rounded to nearest: a register less than [`dot`] takes.
+#[inline(always)]
+fn high_dot(a: [i32; 3], b: [i32; 3]) -> i32 {
+    high_rounded(a[0], b[0]).wrapping_add(high_rounded(a[1], b[1])).wrapping_add(high_rounded(a[2], b[2]))
+}
+
 /// `v 2^places`, saturated to a word; places below 32, shifts to the right round down.
 #[inline(never)]
 pub(super) fn shifted(v: i64, places: i32) -> i32 {
@@ -149,9 +158,10 @@ impl Site {
         let corner = |v: Vec3<Near>| [v.x, v.y, v.z].map(Near::to_bits);
         let [low, high] = bounds.map_or([[0; 3]; 2], |[low, high]| [corner(low), corner(high)]);
         // bounds are within 2: no sum leaves a word
-        let middle = [0, 1, 2].map(|k: usize| low[k].saturating_add(high[k]));
-        let half = [0, 1, 2].map(|k: usize| i64::from(high[k].saturating_sub(low[k]) >> 1) + 1);
-        let [x, y, z] = middle.map(|c| Real::from_bits(c >> 5));
+        let middle = [0, 1, 2].map(|k: usize| low[k].saturating_add(high[k]) >> 5);
+        let [x, y, z] = middle.map(Real::from_bits);
+        let middle = middle.map(|c| c << 4);
+        let half = [0, 1, 2].map(|k: usize| i64::from(high[k].saturating_sub(low[k]) >> 1) + 16);
         let centre = map.at(Vec3::new(x, y, z));
         for (index, c) in [centre.x, centre.y, centre.z].into_iter().enumerate() {
             if c > 64 || c <= -64 {
@@ -196,13 +206,19 @@ impl Site {
         // the radius below 2^length
         let ball = u32::try_from(farthest + 1).unwrap_or(u32::MAX);
         let length = (17 - ball.leading_zeros() as i32).div_euclid(2);
-        let fractional = (30 - length).min(29 + inverse.exponent);
+        let fractional = (31 - length).min(30 + inverse.exponent);
         // whether what is in the ball is within 4 of the origin in generic coordinates, by the inverse's norm:
         // squares with 16 fractional bits
         let norm: u64 = inverse.rows.iter().flatten().map(|c| u64::from(c.unsigned_abs() >> 15).pow(2)).sum();
         let reached = (norm >> 4).saturating_mul(ball.into()) >> (26 - 2 * inverse.exponent);
-        let aside: u64 = middle.iter().map(|c| u64::from(c.unsigned_abs() >> 21)).sum();
-        let is_even = reached <= 998_u64.saturating_sub(aside).pow(2);
+        let aside: u64 = middle.iter().map(|c| u64::from(c.unsigned_abs() >> 20)).sum();
+        // squares with 32 fractional bits: what the map makes longest has the shortest image, and rows whose
+        // sum reaches 2 may make one longer than a word
+        let length: u64 = rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum();
+        let sum = |row: &[Q30; 3]| row.iter().map(|c| u64::from(c.unsigned_abs())).sum::<u64>();
+        let is_steep =
+            length >> (40 - 2 * inverse.exponent) > 0 || inverse.rows.iter().any(|row| sum(row) >> 31 > 0);
+        let is_even = !is_steep && reached <= 998_u64.saturating_sub(aside).pow(2);
         let end = |c: Q24, r: i64| Real::from_bits(shifted(i64::from(c) + r, 0));
         let [x, y, z] = [0, 1, 2].map(|k: usize| (end(centre[k], -reach[k]), end(centre[k], reach[k])));
         let extent = Extent { low: Vec3::new(x.0, y.0, z.0), high: Vec3::new(x.1, y.1, z.1) };
@@ -218,8 +234,9 @@ impl Site {
             up: (fractional - 14) as u32,
             left: (30 - fractional + inverse.exponent) as u32,
             is_even,
+            is_steep,
             linear,
-            norm: sqrt(rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum()),
+            norm: sqrt(length),
             extent: if bounds.is_some() { extent } else { Extent::SPACE },
         })
     }
@@ -243,7 +260,7 @@ impl Site {
             if !ball.holds(place) {
                 return None;
             }
-            if let Some(approach) = self.brought(steps, place, ray.direction) {
+            if let Some(approach) = self.brought(steps, place, ray) {
                 return Some(approach);
             }
         }
@@ -259,23 +276,39 @@ impl Site {
     /// The ray from a place near the centre on, which is seen from there; none where it has to be moved in
     /// generic coordinates.
     #[inline(always)]
-    fn brought(&self, steps: Q18, place: [Q46; 3], d: [Q28; 3]) -> Option<Approach> {
-        let along: [Q58; 3] = self.inverse.map(|row| dot(row, d));
+    fn brought(&self, steps: Q18, place: [Q46; 3], ray: &Ray) -> Option<Approach> {
+        let way = place.map(|c| narrowed(c, self.up));
+        if !self.is_even && !self.is_nearby(way) {
+            return None;
+        }
+        let (near, places) = self.line(way, ray.fine);
+        Some(Approach::new(near, steps, places + ray.steep))
+    }
+
+    /// Whether a place in the ball is near the shape in generic coordinates.
+    #[cold]
+    #[inline(never)]
+    fn is_nearby(&self, way: [i32; 3]) -> bool {
+        let far = self.inverse.iter().fold(0, |all, row| folded(all, dot(*row, way)));
+        !self.is_steep && far >> (29_u32.wrapping_sub(self.left) & 31) == 0
+    }
+
+    /// A line through a place in the ball, from which `way` leads to the middle with `14 + up` fractional bits, in
+    /// generic coordinates; and the
+    /// logarithm of its direction's unit. The upper words of the products are all that is looked at.
+    #[inline(always)]
+    pub(super) fn line(&self, way: [i32; 3], d: [Q30; 3]) -> (NearRay, i32) {
+        // row by row: each is loaded once
+        let [x, y, z] = self.inverse.map(|row| [d, way].map(|v| high_dot(row, v)));
         // the direction's greatest component gets 29 bits
-        let up = along.into_iter().fold(0, folded).leading_zeros().wrapping_sub(3);
-        if !(1..=31).contains(&up) {
-            return None;
-        }
-        let [dx, dy, dz] = along.map(|c| Near::from_bits(narrowed(c, up)));
-        let place = place.map(|c| narrowed(c, self.up));
-        let origin = self.inverse.map(|row| dot(row, place));
-        if !self.is_even && origin.into_iter().fold(0, folded) >> (29_u32.wrapping_sub(self.left) & 31) > 0 {
-            return None;
-        }
-        let near =
-            |k: usize| Near::from_bits((self.middle[k] >> 1).wrapping_sub(narrowed(origin[k], self.left)));
-        let near = NearRay { origin: Vec3::new(near(0), near(1), near(2)), direction: Vec3::new(dx, dy, dz) };
-        Some(Approach::new(near, steps, self.exponent + 2 - up as i32))
+        let all = [x[0], y[0], z[0]].into_iter().fold(0, |all, c| all | (c ^ (c >> 31)));
+        let up = all.leading_zeros().wrapping_sub(3);
+        let along = |c: Q28| Near::from_bits(c << (up & 31));
+        let direction = Vec3::new(along(x[0]), along(y[0]), along(z[0]));
+        let place = |middle: i32, moved: i32| Near::from_bits(middle.wrapping_sub(moved << (self.left & 31)));
+        let [a, b, c] = self.middle;
+        let origin = Vec3::new(place(a, x[1]), place(b, y[1]), place(c, z[1]));
+        (NearRay { origin, direction }, self.exponent - up as i32)
     }
 
     /// The same for a half-space, of which the height alone counts: its ray goes straight up or down.
@@ -344,7 +377,7 @@ impl Site {
         let place = |k: usize| -> Option<Near> {
             let way = product(n as i32, (along[k] >> 32) as i32)
                 .wrapping_add((product_u(n, along[k] as u32) >> 32) as i64);
-            let from = (origin[k] >> (25 - self.exponent)).wrapping_add(i64::from(self.middle[k]));
+            let from = (origin[k] >> (25 - self.exponent)).wrapping_add(i64::from(self.middle[k]) << 1);
             Some(Near::from_bits(i32::try_from(way.wrapping_add(from)).ok()? >> 1))
         };
         let origin = Vec3::new(place(0)?, place(1)?, place(2)?);
@@ -361,7 +394,7 @@ impl Site {
         let [x, y, z] = [0, 1, 2].map(|k: usize| {
             // 54 fractional bits, then 24
             let v = (dot(self.inverse[k], w) >> (29 - self.exponent)) + 1;
-            let v = (v >> 1) + i64::from(self.middle[k] >> 5);
+            let v = (v >> 1) + i64::from(self.middle[k] >> 4);
             Real::from_bits(i32::try_from(v).unwrap_or(if v < 0 { i32::MIN } else { i32::MAX }))
         });
         Vec3::new(x, y, z)

@@ -4,8 +4,8 @@
 //! A ray is cut to `0 <= z <= 1` first: there is no other nappe then. What is left of it is inside where
 //! `a s^2 + 2 b s + c < 0`, `s` from where `x^2 + y^2 + (1 + (S - 1) z)^2` is least. Where `a` is below 0, that is outside the
 //! roots, and the slab leaves one of the two sides. A ray nearly along the axis has an `a` and a `b` close to
-//! 0, one close to the tip a `b` and a `c`: all powers of two go out of them before 25 fractional bits
-//! are kept.
+//! 0, one close to the tip a `b` and a `c`: where they are that small, all powers of two go out of them before 25
+//! fractional bits are kept.
 //!
 //! Faces: 0 is the side, 1 the base at `z = 0`, 2 the cap at `z = 1`. Texture coordinates: on the side
 //! `u = atan2(y, x) / 2 pi`, `v = z`; on the cap `u = (1 + x) / 2`, on the base `u = (1 - x) / 2`, on both
@@ -18,7 +18,7 @@ use super::shape::{NearCrossing, NearRay, Shape};
 use super::slab::{Part, over, slowness};
 use super::sphere::{PI, radial, turns};
 use crate::Error;
-use crate::num::formats::{Q25, Q28, Q31};
+use crate::num::formats::{Q25, Q28, Q31, Q56};
 use crate::num::{Near, Real, Unit, Vec3, Wide, atan2, product, rough_sqrt};
 
 /// The generic tapered cylinder: a base of radius 1 at `z` = 0, a cap of radius `S` at `z` = 1.
@@ -74,36 +74,18 @@ impl TaperedCylinder {
         let a = level - steep;
         let b = product(x, dx) + product(y, dy) - product(e, de);
         let c = product(x, x) + product(y, y) - product(e, e);
-        // 4^m a, 2^(m + q) b, 4^q c are below 16 and have 25 fractional bits then
-        let places = |v: i64| (v ^ (v >> 63)).leading_zeros().saturating_sub(4);
-        // v 2^up / 2^31, by words: a 64-bit shift by a variable takes three times as long
-        let word = |v: i64, up: u32| {
-            let (high, low) = if up & 32 == 0 { ((v >> 32) as u32, v as u32) } else { (v as u32, 0) };
-            (high << (up & 31) << 1 | low >> (!up & 31)) as i32
+        let roots = if are_ordinary(a, b, c) { plain_roots(a, b, c) } else { scaled_roots(a, b, c) };
+        let (far, near, is_convex) = match roots {
+            Roots::None(is_inside) => return is_inside,
+            Roots::Two { far, near, is_convex } => (far, near, is_convex),
         };
-        let (most, far_up, near_up) = (places(b), places(a) & !1, places(c) & !1);
-        let m = (far_up >> 1).min(most);
-        let q = (near_up >> 1).min(most - m);
-        // for the roots all that a and c have
-        let [far_under, near_over] = [word(a, far_up), word(c, near_up)];
-        let (a, b, c) = (word(a, 2 * m), word(b, m + q), word(c, 2 * q));
-        let discriminant = product(b, b) - product(a, c);
-        if discriminant <= 0 || (a | b) == 0 {
-            // inside everywhere or nowhere
-            return if a == 0 { c < 0 } else { a < 0 };
-        }
-        let root = rough_sqrt(discriminant as u64) as i32;
-        // the sum that does not cancel out; the other root is c over it
-        let sum: Q25 = if b > 0 { -b - root } else { root - b };
-        let (up, far_up, near_up) = ((m + q) as i32, far_up as i32, near_up as i32);
-        let [far, near] = [quotient(sum, far_under, far_up - up), quotient(near_over, sum, up - near_up)]
-            .map(|s| match s {
-                i32::MIN | i32::MAX => s,
-                s => s.saturating_add(start),
-            });
+        let [far, near] = [far, near].map(|s| match s {
+            i32::MIN | i32::MAX => s,
+            s => s.saturating_add(start),
+        });
         // an `a` of nearly 0 may have either sign: that of the far root goes with it
         let (first, second) = if far < near { (far, near) } else { (near, far) };
-        if far_under >= 0 {
+        if is_convex {
             part.from(first, SIDE);
             part.until(second, SIDE);
         } else if part.begin.0 < first {
@@ -113,6 +95,63 @@ impl TaperedCylinder {
         }
         true
     }
+}
+
+/// The roots of `a s^2 + 2 b s + c`, and whether it is below 0 between them or outside; where there are none,
+/// whether it is below 0 everywhere.
+enum Roots {
+    None(bool),
+    Two { far: Q28, near: Q28, is_convex: bool },
+}
+
+/// Whether `a` is from 1/8 to 8, `b` and `c` are below 2 and `c` is at least 1/64 in size.
+#[inline(always)]
+fn are_ordinary(a: Q56, b: Q56, c: Q56) -> bool {
+    let [a, b, c] = [a, b, c].map(|v| (v >> 32) as i32);
+    let [b, c] = [b, c].map(|v| v ^ (v >> 31));
+    (a >> 2 | b | c) >> 25 == 0 && a >= 1 << 21 && c >= 1 << 18
+}
+
+/// The roots of ordinary coefficients: as such they have all bits that it takes.
+#[inline(always)]
+fn plain_roots(a: Q56, b: Q56, c: Q56) -> Roots {
+    let [a, b, c]: [Q28; 3] = [a, b, c].map(|v| (v >> 28) as i32);
+    let discriminant = product(b, b) - product(a, c);
+    if discriminant <= 0 {
+        return Roots::None(false);
+    }
+    let (root, slowness) = (rough_sqrt(discriminant as u64) as i32, slowness(a));
+    let [far, near] = [-root, root].map(|root| over(root - b, slowness));
+    Roots::Two { far, near, is_convex: true }
+}
+
+/// The roots of any coefficients.
+#[cold]
+#[inline(never)]
+fn scaled_roots(a: Q56, b: Q56, c: Q56) -> Roots {
+    // 4^m a, 2^(m + q) b, 4^q c are below 16 and have 25 fractional bits then
+    let places = |v: i64| (v ^ (v >> 63)).leading_zeros().saturating_sub(4);
+    // v 2^up / 2^31, by words: a 64-bit shift by a variable takes three times as long
+    let word = |v: i64, up: u32| {
+        let (high, low) = if up & 32 == 0 { ((v >> 32) as u32, v as u32) } else { (v as u32, 0) };
+        (high << (up & 31) << 1 | low >> (!up & 31)) as i32
+    };
+    let (most, far_up, near_up) = (places(b), places(a) & !1, places(c) & !1);
+    let m = (far_up >> 1).min(most);
+    let q = (near_up >> 1).min(most - m);
+    // for the roots all that a and c have
+    let [far_under, near_over] = [word(a, far_up), word(c, near_up)];
+    let (a, b, c) = (word(a, 2 * m), word(b, m + q), word(c, 2 * q));
+    let discriminant = product(b, b) - product(a, c);
+    if discriminant <= 0 || (a | b) == 0 {
+        return Roots::None(if a == 0 { c < 0 } else { a < 0 });
+    }
+    let root = rough_sqrt(discriminant as u64) as i32;
+    // the sum that does not cancel out; the other root is c over it
+    let sum: Q25 = if b > 0 { -b - root } else { root - b };
+    let (up, far_up, near_up) = ((m + q) as i32, far_up as i32, near_up as i32);
+    let (far, near) = (quotient(sum, far_under, far_up - up), quotient(near_over, sum, up - near_up));
+    Roots::Two { far, near, is_convex: far_under >= 0 }
 }
 
 /// `2^up v / d` for words of one format, 28 fractional bits, saturated.
