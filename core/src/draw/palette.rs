@@ -4,6 +4,7 @@
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
 use super::level::{Level, Leveled};
+use crate::num::sqrt_short;
 
 /// Turns a value into a display-independent colour.
 ///
@@ -170,7 +171,7 @@ impl<V: Leveled, P: Palette<Level>> Palette<V> for Brightened<P> {
         if value.is_inside() {
             return Rgb888::BLACK;
         }
-        let root = (u32::from(value.level().to_bits()) * u32::from(u16::MAX)).isqrt();
+        let root = sqrt_short(u32::from(value.level().to_bits()) * u32::from(u16::MAX));
         self.0.rgb(Level::from_bits(root as u16))
     }
 }

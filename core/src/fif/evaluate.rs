@@ -44,7 +44,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
     /// `values_are_exact_at_an_abscissa_within_two_to_the_minus_40`). Cost: 106 Cortex-M4 instructions
     /// (kernel `fif level`) a level on two equal intervals; at most 63 levels for two equal maps, as many as
     /// it takes until the product of the widths is below `2^-63` or that of the scalings below `2^-40`
-    /// elsewhere, and never more than 32,768; [`super::Compiled`] takes fewer, and [`super::Dyadic`] 7.8
+    /// elsewhere, and never more than 32,768; [`super::Compiled`] takes fewer, and [`super::Dyadic`] 7.1
     /// (kernel `fif dyadic level`) where the partition is dyadic.
     pub fn at(&self, x: Wide) -> Real {
         real_from(self.evaluate(self.unit(x)), FRACTION_Q55)

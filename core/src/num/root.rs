@@ -122,6 +122,24 @@ fn sqrt_by<const BY_HALVES: bool>(v: u64) -> u32 {
     if left < 0 { root.wrapping_sub(1) } else { root.wrapping_add(u32::from(left > 2 * i64::from(root))) }
 }
 
+/// `floor(sqrt(v))` of 32 bits by products of 16. Exact.
+#[inline]
+pub(crate) fn sqrt_short(v: u32) -> u32 {
+    let Some(v) = NonZeroU32::new(v) else { return 0 };
+    let (m, even) = shifted_up_evenly(v);
+    // m has 30 fractional bits, its root 15: with the seed for 1/sqrt(m), which has 16, 8 of them
+    let seed = u32::from(RECIPROCAL_SQRT[(m >> 24) as usize]);
+    let root = (m >> 16).wrapping_mul(seed) >> 15;
+    let rest = |root: u32| m.wrapping_sub(root.wrapping_mul(root)) as i32;
+    // one Newton step: the remainder, below 2^24, over twice the root; at most a unit from the floor
+    let step = (rest(root) >> 10).wrapping_mul(seed as i32) >> 22;
+    let root = root.wrapping_add(step as u32);
+    let left = rest(root);
+    let root =
+        if left < 0 { root.wrapping_sub(1) } else { root.wrapping_add(u32::from(left as u32 > 2 * root)) };
+    root >> ((even >> 1) & 31)
+}
+
 /// `sqrt(v)` within 1 unit, and `1/sqrt(v)` within `2^-26` of itself as `mantissa / 2^(62 - places)`: for
 /// numbers that have been scaled, at a third of the cost of [`sqrt`].
 ///
@@ -253,6 +271,20 @@ mod tests {
             for v in [square, square + 1, square + root, square + 2 * root] {
                 assert_eq!(both(v), [root; 3], "{v}");
             }
+        }
+    }
+
+    /// From the square of every number of 16 bits to the last one before the next.
+    #[test]
+    fn a_short_root_is_the_floor_of_the_exact_one() {
+        for root in 0..=u32::from(u16::MAX) {
+            let square = root * root;
+            for v in [square, square + root, square + 2 * root] {
+                assert_eq!(sqrt_short(v), root, "{v}");
+            }
+        }
+        for v in inputs().map(|v| v as u32) {
+            assert_eq!(sqrt_short(v), v.isqrt(), "{v}");
         }
     }
 

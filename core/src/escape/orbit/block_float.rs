@@ -126,8 +126,8 @@ macro_rules! arithmetic {
                 let places = (<$double>::BITS - <$word>::BITS - magnitude.leading_zeros() + <$word>::BITS
                     - $bits)
                     .clamp($bits - 2, $bits + 1);
-                let half = (1 as $double) << ($bits - 3);
-                let half = half << (places - ($bits - 2));
+                // at most 2^BITS
+                let half = <$double>::from((1 as $word) << ($bits - 3) << (places - ($bits - 2)));
                 let part = |v: $double| {
                     let v = v + half;
                     let (high, low) = ((v >> <$word>::BITS) as $half, v as $half);
@@ -172,7 +172,9 @@ macro_rules! arithmetic {
                     return true;
                 }
                 let (mantissa, exponent) = self.square();
-                mantissa > (1 as $unsigned) << ((2 - exponent) as u32 & (<$double>::BITS - 1))
+                // above 2^(2 - exponent), which is a bit of the upper word
+                let above = (mantissa.wrapping_sub(1) >> <$word>::BITS) as $half;
+                above >> ((2 - exponent) as u32 & (<$word>::BITS - 1)) != 0
             }
 
             #[$inline]
