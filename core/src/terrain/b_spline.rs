@@ -8,32 +8,141 @@
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figure 10; G. Farin,
 //! "Curves and surfaces for CAGD", 1988, section 7.4.
 
-use super::bicubic::Bicubic;
+use super::bicubic::{Bicubic, differences};
 use super::heights::Heights;
-use crate::num::formats::Q24;
+use crate::num::formats::{Q24, Q30};
+use crate::num::{high_u, product};
 
-/// Four vertices, of which the first and the last may be beyond the rim, as Bezier points.
+/// Thirds, 31 fractional bits, and a sixth: each sum of weights is 1.
+const THIRDS: [i32; 2] = [715_827_882, 1_431_655_766];
+const SIXTH: i32 = 357_913_941;
+
+/// Four vertices as Bezier points; the first and the last may be missing beyond the rim.
 #[inline(always)]
-fn four([a, b, c, d]: [Option<Q24>; 4]) -> [Q24; 4] {
-    // a sixth, 32 fractional bits; sums of six heights are below 2^33
-    const SIXTH: i64 = 715_827_883;
-    let sixth = |sum: i64| ((sum * SIXTH + (1 << 31)) >> 32) as i32;
-    let [b, c] = [b, c].map(|h| i64::from(h.unwrap_or(0)));
-    let sum = |before: Option<Q24>, here: i64, behind: i64| match before {
-        Some(a) => sixth(i64::from(a) + 4 * here + behind),
-        None => here as i32,
+fn four([a, b, c, d]: [Q24; 4], [is_first, is_last]: [bool; 2]) -> [Q24; 4] {
+    let rounded = |sum: i64| (sum.wrapping_add(1 << 30) >> 31) as i32;
+    let [one, two] = THIRDS;
+    let end = |a: Q24, b: Q24, c: Q24| {
+        rounded(product(a, SIXTH).wrapping_add(product(b, two)).wrapping_add(product(c, SIXTH)))
     };
-    [sum(a, b, c), sixth(4 * b + 2 * c), sixth(2 * b + 4 * c), sum(d, c, b)]
+    let inner = |b: Q24, c: Q24| rounded(product(b, two).wrapping_add(product(c, one)));
+    [
+        if is_first { b } else { end(a, b, c) },
+        inner(b, c),
+        inner(c, b),
+        if is_last { c } else { end(b, c, d) },
+    ]
 }
 
-/// The patch of a cell of these heights.
-pub(crate) fn b_spline(heights: &Heights<'_>, i: u32, j: u32) -> Bicubic {
-    let around =
-        |k: u32, count: u32| [k.checked_sub(1), Some(k), Some(k + 1), Some(k + 2).filter(|k| *k < count)];
-    let columns = around(i, heights.columns());
-    let rows = around(j, heights.rows())
-        .map(|row| row.map(|row| four(columns.map(|column| column.map(|column| heights.bits(column, row))))));
-    let column = |k: usize| four(rows.map(|row| row.and_then(|row| row.get(k).copied())));
-    let [p, q, r, w] = [column(0), column(1), column(2), column(3)];
-    Bicubic { points: [0, 1, 2, 3].map(|k: usize| [p[k & 3], q[k & 3], r[k & 3], w[k & 3]]) }
+/// A patch by its vertices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct BSpline {
+    /// Those of the cell and round it, row by row from south-west; any beyond the rim. Twice as high: 25 fractional
+    /// bits.
+    vertices: [[i32; 4]; 4],
+    /// Whether it is the first or the last along `u` and along `v`.
+    rims: [[bool; 2]; 2],
+}
+
+/// The weights of four vertices at `s`, 31 fractional bits. They add up to 1, and at 1 they are those at 0 of the
+/// patch that follows.
+#[inline(always)]
+fn weights(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 4] {
+    const ONE: u32 = 1 << 31;
+    // 32 fractional bits
+    const SIXTHS: [u32; 2] = [715_827_884, 715_827_882];
+    let (s, r) = ((s as u32) << 1, ONE - ((s as u32) << 1));
+    let squared = |c: u32| 2 * high_u(c, c);
+    let (ss, rr) = (squared(s), squared(r));
+    let a = high_u(2 * high_u(rr, r), SIXTHS[0]);
+    let d = high_u(2 * high_u(ss, s), SIXTHS[1]);
+    // (1 + 3 s + 3 s^2 - 3 s^3) / 6
+    let c = (SIXTHS[1] >> 1) + high_u(s, ONE + (s - ss));
+    let b = ONE - a - c - d;
+    // beyond the rim a vertex is the mirror image of its inner neighbour
+    let (b, a_in_c) = if is_first { (b + 2 * a, a) } else { (b, 0) };
+    let (c, d_in_b) = if is_last { (c + 2 * d, d) } else { (c, 0) };
+    let a = if is_first { 0 } else { a };
+    let d = if is_last { 0 } else { d };
+    let inner = |weight: u32, less: u32| weight.wrapping_sub(less) as i32;
+    [a as i32, inner(b.min(ONE - 1), d_in_b), inner(c.min(ONE - 1), a_in_c), d as i32]
+}
+
+/// The weights of the three steps between four vertices in the slope at `s`, 31 fractional bits: they add up to 1.
+#[inline(always)]
+fn steps(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 3] {
+    let (s, r) = ((s as u32) << 1, (1 << 31) - ((s as u32) << 1));
+    let (a, c) = (high_u(r, r), high_u(s, s));
+    let b = (1 << 31) - a - c;
+    // beyond the rim a step is as the one before it
+    match (is_first, is_last) {
+        (false, false) => [a as i32, b as i32, c as i32],
+        (true, false) => [0, (a + b) as i32, c as i32],
+        (false, true) => [a as i32, (b + c) as i32, 0],
+        (true, true) => [0, i32::MAX, 0],
+    }
+}
+
+/// The mean of the steps between four heights with 25 fractional bits.
+#[inline(always)]
+fn slope([a, b, c, d]: [i32; 4], [p, q, r]: [i32; 3]) -> Q24 {
+    let step = |from: i32, to: i32| (to >> 1) - (from >> 1);
+    let sum = product(step(a, b), p) + product(step(b, c), q) + product(step(c, d), r);
+    (sum.wrapping_add(1 << 30) >> 31) as i32
+}
+
+/// The mean of four heights with 25 fractional bits, to the nearest.
+#[inline(always)]
+fn mean([a, b, c, d]: [i32; 4], [p, q, r, w]: [i32; 4]) -> Q24 {
+    let sum = (1_i64 << 31).wrapping_add(product(a, p)).wrapping_add(product(b, q));
+    (sum.wrapping_add(product(c, r)).wrapping_add(product(d, w)) >> 32) as i32
+}
+
+impl BSpline {
+    /// The patch of a cell of these heights.
+    #[inline(always)]
+    pub(crate) fn new(heights: &Heights<'_>, i: u32, j: u32) -> Self {
+        let ends = |k: u32, count: u32| [k == 0, k + 2 >= count];
+        let rims = [ends(i, heights.columns()), ends(j, heights.rows())];
+        Self { vertices: heights.around(i, j).map(|row| row.map(|h| h << 1)), rims }
+    }
+
+    pub(crate) fn height(&self, s: Q30, t: Q30) -> Q24 {
+        let [along_u, along_v] = self.rims;
+        let along = weights(s, along_u);
+        mean(self.vertices.map(|row| mean(row, along) << 1), weights(t, along_v))
+    }
+
+    /// `h_s` and `h_t`.
+    pub(crate) fn slopes(&self, s: Q30, t: Q30) -> [Q24; 2] {
+        let [along_u, along_v] = self.rims;
+        let (w_s, w_t) = (weights(s, along_u), weights(t, along_v));
+        let (q_s, q_t) = (steps(s, along_u), steps(t, along_v));
+        let along_s = self.vertices.map(|row| slope(row, q_s));
+        let across = self.vertices.map(|row| mean(row, w_s) << 1);
+        // slopes can be twice as great as heights
+        let sum = along_s.into_iter().zip(w_t).map(|(h, w)| product(h, w)).sum::<i64>();
+        [(sum.wrapping_add(1 << 30) >> 31) as i32, slope(across, q_t)]
+    }
+
+    /// Bounds of `|h_ss|`, `|h_st|` and `|h_tt|`, 16 fractional bits: means of differences of the vertices.
+    #[inline(always)]
+    pub(crate) fn bends(&self) -> [u32; 3] {
+        differences(&self.vertices).map(|c| (c >> 9) + 1)
+    }
+
+    /// Bounds of the heights: those of its Bezier points, and what rounding adds.
+    pub(crate) fn range(&self) -> [Q24; 2] {
+        let [low, high] = self.bezier().range();
+        [low.saturating_sub(4), high.saturating_add(4)]
+    }
+
+    /// Its Bezier points.
+    pub(crate) fn bezier(&self) -> Bicubic {
+        let [along_u, along_v] = self.rims;
+        let [p, q, r, w] = self.vertices.map(|row| four(row.map(|h| h >> 1), along_u));
+        let column = |k: usize| four([p[k & 3], q[k & 3], r[k & 3], w[k & 3]], along_v);
+        let [p, q, r, w] = [column(0), column(1), column(2), column(3)];
+        Bicubic { points: [0, 1, 2, 3].map(|k: usize| [p[k & 3], q[k & 3], r[k & 3], w[k & 3]]) }
+    }
 }

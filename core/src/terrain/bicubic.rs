@@ -1,17 +1,15 @@
 //! Bicubic patches by their Bezier points: what Ferguson's patches and B-splines become.
 //!
-//! The patch lies in the hull of its 16 points: their least and greatest are rigorous bounds. Along a straight
-//! line over it the height is a polynomial of degree 6. Its Bernstein coefficients follow from the points of
-//! the part between the ends of the line (blossoms) along that part's diagonal:
-//! `c_m = sum over i + j = m of C(3, i) C(3, j) / C(6, m) b_ij`.
+//! The patch lies in the hull of its 16 points: their least and greatest are rigorous bounds. So do its
+//! derivatives in those of the points' differences, which tells how far it can bend.
 //!
-//! Source: G. Farin, "Curves and surfaces for CAGD", 1988, sections 4.4 (blossoms) and 15; J. M. Lane et al.,
-//! "Scan line methods for displaying parametrically defined surfaces", 1980.
+//! Source: G. Farin, "Curves and surfaces for CAGD", 1988, section 15 (derivatives: 15.6).
 //!
 //! Formats: heights 24 fractional bits, `s` and `t` 30.
 
 use super::bilinear::between;
 use crate::num::formats::{Q24, Q30};
+use crate::num::{product, product_u};
 
 /// The points of a patch, row by row from south-west.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,15 +17,24 @@ pub(crate) struct Bicubic {
     pub(crate) points: [[Q24; 4]; 4],
 }
 
-/// The four points of the part of a cubic from `s` to `t`.
+/// The four polynomials of Bernstein at `s`; they add up to 1.
 #[inline(always)]
-fn part([a, b, c, d]: [Q24; 4], s: Q30, t: Q30) -> [Q24; 4] {
-    let [ab, bc, cd] = [between(a, b, s), between(b, c, s), between(c, d, s)];
-    let [ab_t, bc_t, cd_t] = [between(a, b, t), between(b, c, t), between(c, d, t)];
-    let (ss_0, ss_1) = (between(ab, bc, s), between(bc, cd, s));
-    let (st_0, st_1) = (between(ab, bc, t), between(bc, cd, t));
-    let (tt_0, tt_1) = (between(ab_t, bc_t, t), between(bc_t, cd_t, t));
-    [between(ss_0, ss_1, s), between(ss_0, ss_1, t), between(st_0, st_1, t), between(tt_0, tt_1, t)]
+fn weights(s: Q30) -> [Q30; 4] {
+    // of 31 fractional bits each: 30
+    let times = |a: u32, b: u32| ((product_u(a, b) + (1 << 31)) >> 32) as u32;
+    let (s, r) = ((s as u32) << 1, (1 << 31) - ((s as u32) << 1));
+    let (ss, rr) = (2 * times(s, s), 2 * times(r, r));
+    let [b, c, d] = [3 * times(rr, s), 3 * times(ss, r), times(ss, s)].map(|c| c as i32);
+    [(1 << 30) - b - c - d, b, c, d]
+}
+
+/// The mean of four heights, to the nearest.
+#[inline(always)]
+fn mean(heights: [Q24; 4], weights: [Q30; 4]) -> Q24 {
+    let ([a, b, c, d], [p, q, r, s]) = (heights, weights);
+    let sum =
+        product(a, p).wrapping_add(product(b, q)).wrapping_add(product(c, r)).wrapping_add(product(d, s));
+    (sum.wrapping_add(1 << 29) >> 30) as i32
 }
 
 /// The value and three times the difference of the last two points: the derivative.
@@ -38,22 +45,16 @@ fn cubic([a, b, c, d]: [Q24; 4], s: Q30) -> [Q24; 2] {
 }
 
 impl Bicubic {
-    /// Height, `h_s` and `h_t`.
-    fn all(&self, s: Q30, t: Q30) -> [Q24; 3] {
-        let rows = self.points.map(|row| cubic(row, s));
-        let [h, along_t] = cubic(rows.map(|[h, _]| h), t);
-        let [along_s, _] = cubic(rows.map(|[_, slope]| slope), t);
-        [h, along_s, along_t]
-    }
-
     pub(crate) fn height(&self, s: Q30, t: Q30) -> Q24 {
-        let [h, ..] = self.all(s, t);
-        h
+        let along = weights(s);
+        mean(self.points.map(|row| mean(row, along)), weights(t))
     }
 
     /// `h_s` and `h_t`.
     pub(crate) fn slopes(&self, s: Q30, t: Q30) -> [Q24; 2] {
-        let [_, along_s, along_t] = self.all(s, t);
+        let rows = self.points.map(|row| cubic(row, s));
+        let [_, along_t] = cubic(rows.map(|[h, _]| h), t);
+        let [along_s, _] = cubic(rows.map(|[_, slope]| slope), t);
         [along_s, along_t]
     }
 
@@ -63,25 +64,35 @@ impl Bicubic {
         self.points.iter().flatten().fold([i32::MAX, i32::MIN], |[low, high], h| [low.min(*h), high.max(*h)])
     }
 
-    /// The heights along the line from `(s_0, t_0)` to `(s_1, t_1)`: Bernstein coefficients.
+    /// Bounds of `|h_ss|`, `|h_st|` and `|h_tt|`, 16 fractional bits: they lie in the hulls of differences of the
+    /// points.
     #[inline(always)]
-    pub(crate) fn chord(&self, [s_0, t_0]: [Q30; 2], [s_1, t_1]: [Q30; 2]) -> [Q24; 7] {
-        let [p, q, r, w] = self.points.map(|row| part(row, s_0, s_1));
-        let columns = [0, 1, 2, 3].map(|k: usize| [p[k & 3], q[k & 3], r[k & 3], w[k & 3]]);
-        // b[i][j]: i along s, j along t
-        let b = columns.map(|column| part(column, t_0, t_1));
-        let wide = |i: usize, j: usize| i64::from(b[i & 3][j & 3]);
-        // sums of at most 20 heights; a fifth and a tenth by multiplication: 0.2 2^32
-        let rounded = |sum: i64, weight: i64| ((sum * weight + (1 << 31)) >> 32) as i32;
-        let (half, fifth, twentieth) = (1_i64 << 31, 858_993_459, 214_748_365);
-        [
-            b[0][0],
-            rounded(wide(0, 1) + wide(1, 0), half),
-            rounded(wide(0, 2) + wide(2, 0) + 3 * wide(1, 1), fifth),
-            rounded(wide(0, 3) + wide(3, 0) + 9 * (wide(1, 2) + wide(2, 1)), twentieth),
-            rounded(wide(1, 3) + wide(3, 1) + 3 * wide(2, 2), fifth),
-            rounded(wide(2, 3) + wide(3, 2), half),
-            b[3][3],
-        ]
+    pub(crate) fn bends(&self) -> [u32; 3] {
+        let [ss, st, tt] = differences(&self.points).map(|c| (c >> 8) + 1);
+        [6 * ss, 9 * st, 6 * tt]
     }
+}
+
+/// The greatest second differences along rows, the greatest mixed ones, and those along columns.
+#[inline(always)]
+pub(super) fn differences(points: &[[i32; 4]; 4]) -> [u32; 3] {
+    let across = points.map(|[a, b, c, d]| [b.wrapping_sub(a), c.wrapping_sub(b), d.wrapping_sub(c)]);
+    let (mut ss, mut st, mut tt) = (0, 0, 0);
+    let greatest = |most: &mut u32, c: i32| *most = (*most).max(c.unsigned_abs());
+    for [p, q, r] in across {
+        greatest(&mut ss, q.wrapping_sub(p));
+        greatest(&mut ss, r.wrapping_sub(q));
+    }
+    let [sw, w, nw, n] = across;
+    for (below, above) in [(sw, w), (w, nw), (nw, n)] {
+        for (a, b) in below.into_iter().zip(above) {
+            greatest(&mut st, b.wrapping_sub(a));
+        }
+    }
+    let [p, q, r, w] = *points;
+    for (((a, b), c), d) in p.into_iter().zip(q).zip(r).zip(w) {
+        greatest(&mut tt, a.wrapping_sub(b).wrapping_add(c.wrapping_sub(b)));
+        greatest(&mut tt, b.wrapping_sub(c).wrapping_add(d.wrapping_sub(c)));
+    }
+    [ss, st, tt]
 }

@@ -1,8 +1,7 @@
 //! Bilinear patches: the simplest inner geometry, figure 8.
 //!
 //! `h(s, t) = (1 - t) ((1 - s) a + s b) + t ((1 - s) c + s d)` between the heights `a`, `b` and, north of
-//! them, `c`, `d`. Along a straight line over the patch the height is a polynomial of degree 2, given here by
-//! its Bernstein coefficients: where these lie, the patch lies between.
+//! them, `c`, `d`.
 //!
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figure 8.
 //!
@@ -33,6 +32,7 @@ impl Bilinear {
         Self { corners: [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)] }
     }
 
+    #[inline(always)]
     pub(crate) fn height(&self, s: Q30, t: Q30) -> Q24 {
         let [a, b, c, d] = self.corners;
         between(between(a, b, s), between(c, d, s), t)
@@ -51,14 +51,11 @@ impl Bilinear {
         [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))]
     }
 
-    /// The heights along the line from `(s_0, t_0)` to `(s_1, t_1)`: Bernstein coefficients.
+    /// `|h_st|`, 16 fractional bits, rounded up: what a patch bends by, as `h_ss` and `h_tt` are 0.
     #[inline(always)]
-    pub(crate) fn chord(&self, [s_0, t_0]: [Q30; 2], [s_1, t_1]: [Q30; 2]) -> [Q24; 3] {
+    pub(crate) fn twist(&self) -> u32 {
         let [a, b, c, d] = self.corners;
-        let (south, north) = (between(a, b, s_0), between(c, d, s_0));
-        let (south_1, north_1) = (between(a, b, s_1), between(c, d, s_1));
-        let crossed = [between(south, north, t_1), between(south_1, north_1, t_0)];
-        let middle = (i64::from(crossed[0]) + i64::from(crossed[1])) >> 1;
-        [between(south, north, t_0), middle as i32, between(south_1, north_1, t_1)]
+        let twist = b.wrapping_sub(a).wrapping_add(c.wrapping_sub(d));
+        (twist.unsigned_abs() >> 8) + 1
     }
 }

@@ -111,6 +111,30 @@ impl<'a> Heights<'a> {
         self.heights.get(index as usize).copied().unwrap_or_default().to_bits()
     }
 
+    /// The heights of a cell and of what is round it, row by row from south-west; the nearest in place of those
+    /// beyond the rim.
+    #[inline(always)]
+    pub(crate) fn around(&self, i: u32, j: u32) -> [[Q24; 4]; 4] {
+        let (columns, rows) = (self.columns(), self.rows());
+        if i == 0 || j == 0 || i + 2 >= columns || j + 2 >= rows {
+            return self.around_at_the_rim(i, j);
+        }
+        let first = (j - 1).wrapping_mul(columns).wrapping_add(i - 1);
+        let (mut rest, mut from) = (self.heights, first);
+        [(); 4].map(|()| {
+            rest = rest.get(from as usize..).unwrap_or_default();
+            from = columns;
+            rest.first_chunk::<4>().map_or([0; 4], |row| row.map(Real::to_bits))
+        })
+    }
+
+    #[inline(never)]
+    fn around_at_the_rim(&self, i: u32, j: u32) -> [[Q24; 4]; 4] {
+        let four = |k: u32, count: u32| [k.saturating_sub(1), k, k + 1, (k + 2).min(count - 1)];
+        let columns = four(i, self.columns());
+        four(j, self.rows()).map(|row| columns.map(|column| self.bits(column, row)))
+    }
+
     /// The least and the greatest height.
     pub fn range(&self) -> [Real; 2] {
         let (mut low, mut high) = (Real::MAX, Real::MIN);

@@ -3,12 +3,12 @@
 //! "The behavior of the geometry inside the inner scale is up to the implementor." Source: L. C. Carpenter,
 //! "Computer rendering of fractal curves and surfaces", 1980, figures 8 to 10.
 
-use super::b_spline::b_spline;
+use super::b_spline::BSpline;
 use super::bicubic::Bicubic;
 use super::bilinear::Bilinear;
 use super::ferguson::ferguson;
 use super::heights::Heights;
-use crate::num::formats::Q24;
+use crate::num::formats::{Q24, Q30};
 use crate::num::{Real, Unit};
 
 /// What spans the cells.
@@ -48,17 +48,44 @@ pub struct Patch(pub(crate) Form);
 pub(crate) enum Form {
     Bilinear(Bilinear),
     Bicubic(Bicubic),
+    BSpline(BSpline),
 }
 
 impl InnerGeometry {
     /// The patch of the cell at this column and row, those beyond the end being the last.
     pub fn patch(self, heights: &Heights<'_>, column: u32, row: u32) -> Patch {
-        let (i, j) = (column.min(heights.columns() - 2), row.min(heights.rows() - 2));
-        Patch(match self {
+        Patch(self.form(heights, column.min(heights.columns() - 2), row.min(heights.rows() - 2)))
+    }
+
+    /// That of a cell which is there.
+    #[inline(always)]
+    pub(crate) fn form(self, heights: &Heights<'_>, i: u32, j: u32) -> Form {
+        match self {
             Self::Bilinear => Form::Bilinear(Bilinear::new(heights, i, j)),
             Self::Ferguson => Form::Bicubic(ferguson(heights, i, j)),
-            Self::BSpline => Form::Bicubic(b_spline(heights, i, j)),
-        })
+            Self::BSpline => Form::BSpline(BSpline::new(heights, i, j)),
+        }
+    }
+}
+
+impl Form {
+    #[inline]
+    pub(crate) fn height(&self, s: Q30, t: Q30) -> Q24 {
+        match self {
+            Self::Bilinear(patch) => patch.height(s, t),
+            Self::Bicubic(patch) => patch.height(s, t),
+            Self::BSpline(patch) => patch.height(s, t),
+        }
+    }
+
+    /// Bounds of `|h_ss|`, `|h_st|` and `|h_tt|`, 16 fractional bits.
+    #[inline(always)]
+    pub(crate) fn bends(&self) -> [u32; 3] {
+        match self {
+            Self::Bilinear(patch) => [0, patch.twist(), 0],
+            Self::Bicubic(patch) => patch.bends(),
+            Self::BSpline(patch) => patch.bends(),
+        }
     }
 }
 
@@ -68,10 +95,7 @@ impl Patch {
     /// Error: below 4 units of `2^-24` (`a_patch_is_within_4_units`).
     pub fn height(&self, s: Unit, t: Unit) -> Real {
         let [s, t] = [s, t].map(|c| c.clamp(Unit::ZERO, Unit::ONE).to_bits());
-        Real::from_bits(match &self.0 {
-            Form::Bilinear(patch) => patch.height(s, t),
-            Form::Bicubic(patch) => patch.height(s, t),
-        })
+        Real::from_bits(self.0.height(s, t))
     }
 
     /// `h_s` and `h_t` at `(s, t)`, each clamped to 0 .. 1: by how much the height grows when one of them
@@ -83,6 +107,7 @@ impl Patch {
         let slopes: [Q24; 2] = match &self.0 {
             Form::Bilinear(patch) => patch.slopes(s, t),
             Form::Bicubic(patch) => patch.slopes(s, t),
+            Form::BSpline(patch) => patch.slopes(s, t),
         };
         slopes.map(Real::from_bits)
     }
@@ -92,6 +117,7 @@ impl Patch {
         let range: [Q24; 2] = match &self.0 {
             Form::Bilinear(patch) => patch.range(),
             Form::Bicubic(patch) => patch.range(),
+            Form::BSpline(patch) => patch.range(),
         };
         range.map(Real::from_bits)
     }

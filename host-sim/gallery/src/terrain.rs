@@ -2,10 +2,9 @@
 
 use attractor::Error;
 use attractor::draw::Srgb;
-use attractor::num::{Affine3, RandomField, Real, Rgb, Unit, Vec3};
+use attractor::num::{RandomField, Real, Rgb, Unit, Vec3};
 use attractor::terrain::{Heights, InnerGeometry, Law, PlaneToLine, Rows};
 use attractor::trace::material::{Hazy, Mixture};
-use attractor::trace::solid::{Placed, Plane};
 use attractor::trace::texture::{Landscape, Noise, Turbulence};
 use attractor::trace::world::{Lamp, Leaf, Object, Op, World, WorldCaster};
 use attractor::trace::{Camera, Extent, Filter, HeightRange, Sampling, Sky, Terrain};
@@ -13,25 +12,14 @@ use embedded_graphics::geometry::Size;
 
 use crate::page::{Display, Watch, draw_field};
 
-attractor::surfaces! {
-    /// What there is.
-    #[derive(Debug, Clone, Copy)]
-    enum Thing<'a> {
-        /// The land.
-        Land(Terrain<'a>),
-        /// The plain or the sea.
-        Level(Placed<Plane>),
-    }
-}
-
 attractor::materials! {
     /// What it is made of.
     #[derive(Debug, Clone, Copy)]
     enum Stuff {
         /// The land.
         Land(Hazy<Mixture<Landscape>>),
-        /// The plain or the sea.
-        Level(Hazy<Mixture>),
+        /// The plain or the sea, and land of one colour.
+        Plain(Hazy<Mixture>),
     }
 }
 
@@ -177,6 +165,7 @@ impl TerrainPicture<'_> {
         let (columns, rows) = self.lattice();
         let heights = memory.heights.get(..self.heights()).unwrap_or_default();
         let land = Terrain::new(Heights::new(columns, rows, heights)?, self.inner, self.over, memory.ranges)?;
+        let land = self.plain.map_or(land, |plain| land.with_plain(plain.level));
         self.draw_land(land, (size, seed), target, watch)
     }
 
@@ -201,32 +190,26 @@ impl TerrainPicture<'_> {
         let ragged = (Turbulence::new(Noise::new(1), ragged.0, 4)?, ragged.1);
         let land_stuff = Landscape { sand, grass, rock, snow, shore, snow_line, steep, passage, ragged };
         let lit = Unit::ONE.saturating_sub(self.ambient);
-        let material = Mixture::matt(land_stuff).with_parts(self.ambient, lit)?;
-        let land_stuff = Stuff::Land(Hazy { material, eye, air, density });
-        // without a plain there is one leaf
+        let land_stuff = if [sand, rock, snow] == [grass; 3] {
+            // of one colour, whatever its height and slope
+            let material = Mixture::matt(grass).with_parts(self.ambient, lit)?;
+            Stuff::Plain(Hazy { material, eye, air, density })
+        } else {
+            let material = Mixture::matt(land_stuff).with_parts(self.ambient, lit)?;
+            Stuff::Land(Hazy { material, eye, air, density })
+        };
         let plain = self.plain.unwrap_or(Floor { level: Real::ZERO, color: Rgb::BLACK, reflect: Rgb::BLACK });
         let material =
             Mixture::matt(plain.color).with_parts(self.ambient, lit)?.with_reflection(plain.reflect);
-        let stuff = [land_stuff, Stuff::Level(Hazy { material, eye, air, density })];
-        let up = Affine3::translate(Vec3::new(Real::ZERO, Real::ZERO, plain.level));
-        let leaves = [
-            Leaf { surface: Thing::Land(land), materials: &[0] },
-            Leaf { surface: Thing::Level(Placed::new(Plane, &up)?), materials: &[1] },
-        ];
+        let stuff = [land_stuff, Stuff::Plain(Hazy { material, eye, air, density })];
+        let leaves = [Leaf { surface: land, materials: &[0, 1] }];
         let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);
-        let (mut land_box, mut plain_box) = ([Extent::NOTHING], [Extent::NOTHING]);
-        let objects = [
-            Object::new(&[Op::Leaf(0)], surface, &mut land_box)?,
-            Object::new(&[Op::Leaf(1)], surface, &mut plain_box)?,
-        ];
-        let things = if self.plain.is_some() { 2 } else { 1 };
-        let (Some(leaves), Some(objects)) = (leaves.get(..things), objects.get(..things)) else {
-            return Ok(());
-        };
+        let mut extents = [Extent::NOTHING];
+        let objects = [Object::new(&[Op::Leaf(0)], surface, &mut extents)?];
         let lamps = [Lamp::distant(self.sun.0, self.sun.1)?];
-        let world = World::new(leaves, objects, &stuff)?.with_lamps(&lamps);
+        let world = World::new(&leaves, &objects, &stuff)?.with_lamps(&lamps);
         let camera = Camera::new(eye, look_at, Vec3::Z, field_of_view)?;
-        let caster = WorldCaster::<_, _, _, 12, 4>::new(world, self.sky, camera, size)?;
+        let caster = WorldCaster::<_, _, _, 9, 4>::new(world, self.sky, camera, size)?;
         let sampling = match self.samples {
             1 => Sampling::Centre,
             n => Sampling::Jittered { n, seed },

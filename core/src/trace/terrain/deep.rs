@@ -182,7 +182,7 @@ impl<R: Randomness> Surface for DeepTerrain<'_, R> {
         let [columns, rows] = &self.frame.rules;
         let width = columns.width().max(rows.width());
         let seen = Seen { terrain: self, footprint: Footprint::new(cone), width };
-        crossings(&seen, &self.frame, ray, found);
+        let _ = crossings(&seen, &self.frame, &ray.axes(), found);
     }
 
     fn value(&self, place: Vec3) -> Wide {

@@ -2,9 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::super::ray::Ray;
+use super::super::ray::{Axis, Ray};
 use super::super::surface::{Chart, Crossing, Extent, SurfacePoint};
 use super::plot::Rule;
+use super::sides::Above;
 use super::walk::{Frame, Place, Tree, walk};
 use crate::num::formats::Q24;
 use crate::num::{Real, Unit, Vec3, Wide, product, unit};
@@ -27,21 +28,22 @@ pub(super) fn error(frame: &Frame) -> Real {
     Real::from_bits((columns.width().min(rows.width()) >> 7).max(1 << 4))
 }
 
-/// Hands over the crossings.
+/// Hands over the crossings; unless it broke off, where the ray is in the end.
+#[inline(always)]
 pub(super) fn crossings<T: Tree>(
     tree: &T,
     frame: &Frame,
-    ray: &Ray,
+    axes: &[Axis; 3],
     found: &mut impl FnMut(Crossing) -> ControlFlow<()>,
-) {
+) -> ControlFlow<(), Above> {
     let mut left = CROSSINGS;
-    let _ = walk(tree, frame, ray, &mut |(t, place, above)| {
+    walk(tree, frame, axes, &mut |(t, place, above)| {
         left -= 1;
         // columns and rows are below 2^16, levels below 2^8
         let memo = [place.column << 16 | place.row & 0xffff, place.level];
         found(Crossing { t: Real::from_bits(t), enters: !above, face: 0, memo })?;
         if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
+    })
 }
 
 /// The patch of a leaf and a place on it.
@@ -84,15 +86,23 @@ pub(super) fn point(
     let (a, b) = (side(columns), side(rows));
     let normal = normal([along_s, along_t], [a, b]);
     let chart = if charted { chart(frame, position, [along_s, along_t], [a, b]) } else { Chart::default() };
-    SurfacePoint {
-        position,
-        place: position,
-        normal,
-        inward: false,
-        chart,
-        face: 0,
-        width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),
-    }
+    let width = Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32);
+    SurfacePoint { position, place: position, normal, inward: false, chart, face: 0, width }
+}
+
+/// The same on the plain.
+pub(super) fn level_point(
+    frame: &Frame,
+    ray: &Ray,
+    cone: Unit,
+    crossing: &Crossing,
+    charted: bool,
+) -> SurfacePoint {
+    let position = ray.at(crossing.t);
+    let chart = if charted { chart(frame, position, [0; 2], [1; 2]) } else { Chart::default() };
+    let width = Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32);
+    let normal = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
+    SurfacePoint { position, place: position, normal, inward: false, chart, face: 1, width }
 }
 
 /// The unit normal for these slopes a leaf of these sides: `(-h_s b, -h_t a, a b)`, made 1 long.

@@ -4,7 +4,7 @@ mod deep;
 mod meet;
 mod plot;
 mod ranges;
-mod signs;
+mod sides;
 mod stored;
 mod walk;
 

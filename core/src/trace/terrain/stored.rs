@@ -2,9 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::super::ray::Ray;
-use super::super::surface::{Crossing, Extent, Surface, SurfacePoint};
-use super::meet::{crossings, extent, point, value};
+use super::super::ball::Ball;
+use super::super::ray::{Axis, Ray};
+use super::super::surface::{Crossing, Extent, SAME, Surface, SurfacePoint};
+use super::meet::{crossings, extent, level_point, point, value};
 use super::plot::Rule;
 use super::ranges::{HeightRange, begins, count, depth, fill};
 use super::walk::{Frame, LEVELS, Place, Tree};
@@ -35,6 +36,9 @@ pub struct Terrain<'a> {
     ranges: &'a [HeightRange],
     begins: [u32; 17],
     frame: Frame,
+    land: Ball,
+    /// The height of the plain.
+    plain: Option<Q24>,
 }
 
 impl<'a> Terrain<'a> {
@@ -74,7 +78,30 @@ impl<'a> Terrain<'a> {
         }
         let top = memory.get(needed - 1).copied().unwrap_or_default();
         let frame = Frame { rules, heights: top.heights(), depth: depth(columns, rows).min(LEVELS) };
-        Ok(Self { heights, inner, ranges: memory, begins: begins(columns, rows), frame })
+        let Extent { low, high } = extent(&frame);
+        let (begins, land) = (begins(columns, rows), Ball::round(low, high));
+        Ok(Self { heights, inner, ranges: memory, begins, frame, land, plain: None })
+    }
+
+    /// On a plain or a sea at this height that goes on all round, as a second face: the surface is the higher of
+    /// both. What lies below it is not looked for.
+    #[must_use]
+    pub fn with_plain(mut self, height: Real) -> Self {
+        let [low, high] = self.frame.heights;
+        self.frame.heights = [low.max(height.to_bits().min(high)), high];
+        let Extent { low, high } = extent(&self.frame);
+        (self.plain, self.land) = (Some(height.to_bits()), Ball::round(low, high));
+        self
+    }
+
+    /// Where a ray with these axes crosses the plain.
+    fn plain_crossing(&self, [.., z]: &[Axis; 3]) -> Option<Crossing> {
+        let t = z.crossing(self.plain?);
+        // what is less than 2^-19 behind
+        let is_there = t >= -SAME && t < i32::MAX;
+        let crossing =
+            Crossing { t: Real::from_bits(t.max(0)), enters: z.direction < 0, face: 1, memo: [0; 2] };
+        is_there.then_some(crossing)
     }
 
     /// The heights.
@@ -103,7 +130,7 @@ impl Tree for Terrain<'_> {
 
     #[inline(always)]
     fn patch(&self, place: Place, _: &()) -> Form {
-        self.inner.patch(&self.heights, place.column, place.row).0
+        self.inner.form(&self.heights, place.column, place.row)
     }
 
     #[inline(always)]
@@ -114,7 +141,20 @@ impl Tree for Terrain<'_> {
 
 impl Surface for Terrain<'_> {
     fn extent(&self) -> Extent {
-        extent(&self.frame)
+        let land = extent(&self.frame);
+        if self.plain.is_none() {
+            return land;
+        }
+        let Extent { low: Vec3 { x, y, .. }, high } = Extent::SPACE;
+        Extent { low: Vec3::new(x, y, land.low.z), high: Vec3::new(high.x, high.y, land.high.z) }
+    }
+
+    /// With a plain what is below the summit.
+    fn ball(&self) -> Ball {
+        match self.plain {
+            None => self.land,
+            Some(_) => Ball { centre: [0, 0, self.frame.heights[1]], up: [0, 0, 1 << 30], ..Ball::SPACE },
+        }
     }
 
     fn is_closed(&self) -> bool {
@@ -122,7 +162,12 @@ impl Surface for Terrain<'_> {
     }
 
     fn most_crossings(&self) -> u32 {
-        super::meet::CROSSINGS
+        super::meet::CROSSINGS + u32::from(self.plain.is_some())
+    }
+
+    /// The plain is the second.
+    fn faces(&self) -> u8 {
+        1 + u8::from(self.plain.is_some())
     }
 
     /// As far as a hundredth of a cell.
@@ -131,14 +176,45 @@ impl Surface for Terrain<'_> {
     }
 
     fn cross(&self, ray: &Ray, _: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
-        crossings(self, &self.frame, ray, found);
+        let axes = ray.axes();
+        let plain = self.plain_crossing(&axes);
+        // a ray comes to the plain after the land on the way down, and before it on the way up
+        let before = plain.filter(|crossing| !crossing.enters);
+        if let Some(crossing) = before
+            && found(crossing).is_break()
+        {
+            return;
+        }
+        if before.is_some() && self.land.is_passed_by(ray) {
+            return;
+        }
+        if let (ControlFlow::Continue(above), Some(crossing)) =
+            (crossings(self, &self.frame, &axes, found), plain)
+            && crossing.enters
+            && above != Some(false)
+        {
+            let _ = found(crossing);
+        }
     }
 
     fn value(&self, place: Vec3) -> Wide {
-        value(&self.frame, place, |place| self.patch(place, &()))
+        let above = value(&self.frame, place, |place| self.patch(place, &()));
+        let [columns, rows] = &self.frame.rules;
+        let is_over = |rule: &Rule, c: Real| {
+            let [from, to] = rule.ends();
+            from <= c.to_bits() && c.to_bits() <= to
+        };
+        match self.plain.map(|plain| Wide::from(place.z) - Wide::from(Real::from_bits(plain))) {
+            None => above,
+            Some(plain) if is_over(columns, place.x) && is_over(rows, place.y) => plain.min(above),
+            Some(plain) => plain,
+        }
     }
 
     fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {
+        if crossing.face > 0 {
+            return level_point(&self.frame, ray, cone, crossing, charted);
+        }
         point(&self.frame, ray, cone, crossing, charted, |place| self.patch(place, &()))
     }
 }

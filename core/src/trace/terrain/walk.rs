@@ -1,26 +1,30 @@
 //! The walk of a ray through a tree of cells, from front to back.
 //!
-//! A node is a square of cells, halved along both axes; at most three of its parts lie on a ray. Where the ray
-//! passes above or below all heights of a node, the node tells on which side it is; else its parts do, and in
-//! the end the patch of a cell. A crossing is where one side follows the other: a ray that comes from above and
+//! A node is a square of cells, halved along both axes. Where the ray passes above or below all heights of a
+//! node, the node tells on which side it is; else its parts do, one behind the other, and in the end the patch
+//! of a cell. A crossing is where one side follows the other: a ray that comes from above and
 //! ends below has crossed the surface, whatever rounding does at the edges of cells. So the surface is
 //! watertight, and no hill is too thin.
 //!
-//! The stack holds three parts a level at most. Formats: lengths and parameters 24 fractional bits.
+//! What is kept is the way from the root to where the ray is, a node a level, each with four parameters: where the
+//! ray leaves it, and where it passes its middle, along x and y. In which part the ray is follows from these.
+//! Formats: lengths and parameters 24 fractional bits.
 
 use core::ops::ControlFlow;
 
 use heapless::Vec;
 
-use super::super::ray::{Axis, Ray};
+use super::super::ray::Axis;
 use super::plot::Rule;
-use super::signs::{Above, signs};
-use crate::num::formats::Q24;
+use super::sides::{Above, sides};
+use crate::num::formats::{Q24, Q30};
+use crate::num::{product, product_u};
 use crate::terrain::Form;
 
-/// The most levels of a tree: `3 LEVELS + 1` parts wait.
-pub(super) const LEVELS: u32 = 21;
-const STACK: usize = 3 * LEVELS as usize + 1;
+/// The most levels of a tree: a side has at most 2^16 cells.
+pub(super) const LEVELS: u32 = 16;
+/// Every node on the way down to a cell.
+const PATH: usize = LEVELS as usize;
 
 /// A square of `2^level` cells a side, by its column and row among those.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,12 +60,63 @@ pub(super) trait Tree {
     fn is_leaf(&self, place: Place, t: Q24) -> bool;
 }
 
-/// A part that waits.
+/// Where the ray passes from the first half of a node to the second along an axis.
 #[derive(Debug, Clone, Copy)]
-struct Waiting<N> {
-    place: Place,
+struct Half {
+    t: Q24,
+    /// How long it takes for a half; 0 where that is not known.
+    time: u32,
+}
+
+/// The cells along an axis, and the ray's way across them.
+struct Across<'a> {
+    rule: &'a Rule,
+    axis: &'a Axis,
+    /// 1 for a ray that comes to the last cell first.
+    first: u32,
+}
+
+impl Across<'_> {
+    /// The middle of a node: so many cells before it are `plane`, and so many are in each half. Those before it are
+    /// half of `half` away from the middle of the node that this is a part of.
+    #[inline(always)]
+    fn half(&self, plane: u32, size: u32, above: Half, is_second: bool) -> Half {
+        if plane >= self.rule.count {
+            // there is no second half: the first is that of the lower index
+            return Half { t: if self.first == 0 { i32::MAX } else { i32::MIN }, time: 0 };
+        }
+        if above.time > 0 {
+            let time = (above.time + 1) >> 1;
+            let t = if is_second {
+                above.t.saturating_add_unsigned(time)
+            } else {
+                above.t.saturating_sub_unsigned(time)
+            };
+            return Half { t, time };
+        }
+        self.looked_up(plane, size)
+    }
+
+    /// The same from the planes themselves.
+    #[inline(never)]
+    fn looked_up(&self, plane: u32, size: u32) -> Half {
+        let [t, begin] =
+            [plane, plane.wrapping_sub(size)].map(|plane| self.axis.crossing(self.rule.plane(plane)));
+        let is_far = [t, begin].iter().any(|t| *t == i32::MAX || *t == i32::MIN);
+        Half { t, time: if is_far { 0 } else { t.abs_diff(begin) } }
+    }
+}
+
+/// A node that the ray is inside of.
+#[derive(Debug)]
+struct Open<N, M> {
     node: N,
-    span: (Q24, Q24),
+    middle: M,
+    /// Column and row of the part that the ray comes to first.
+    first: [u32; 2],
+    halves: [Half; 2],
+    /// Where the ray leaves it along x and along y.
+    ends: [Q24; 2],
 }
 
 /// The box and the cells of a terrain.
@@ -78,75 +133,104 @@ pub(super) struct Frame {
 /// A change of sides: parameter, the leaf, and whether the ray is above from there on.
 pub(super) type Change = (Q24, Place, bool);
 
-/// Hands over where a ray changes sides, in order, until `changed` breaks off.
+/// Hands over where a ray changes sides, in order, until `changed` breaks off; in the end on which side it is.
 #[inline(never)]
 pub(super) fn walk<T: Tree>(
     tree: &T,
     frame: &Frame,
-    ray: &Ray,
+    axes: &[Axis; 3],
     changed: &mut impl FnMut(Change) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    let axes = ray.axes();
-    let [x, y, z] = &axes;
+) -> ControlFlow<(), Above> {
+    let [x, y, z] = axes;
     let [columns, rows] = &frame.rules;
     let ([x_0, x_1], [y_0, y_1], [low, high]) = (columns.ends(), rows.ends(), frame.heights);
-    let span = z.clip(low, high, y.clip(y_0, y_1, x.clip(x_0, x_1, (0, i32::MAX))));
-    let mut above: Above = None;
-    let mut waiting = Vec::<Waiting<T::Node>, STACK>::new();
-    let root = Place { level: frame.depth, column: 0, row: 0 };
-    if span.0 < span.1 {
-        let _ = waiting.push(Waiting { place: root, node: tree.root(), span });
+    let (mut t, end) = z.clip(low, high, y.clip(y_0, y_1, x.clip(x_0, x_1, (0, i32::MAX))));
+    if t >= end {
+        return ControlFlow::Continue(None);
     }
-    while let Some(Waiting { place, node, span }) = waiting.pop() {
-        let (z_in, z_out) = (z.at(span.0), z.at(span.1));
+    let first = |axis: &Axis| u32::from(axis.direction < 0);
+    let across = Across { rule: columns, axis: x, first: first(x) };
+    let down = Across { rule: rows, axis: y, first: first(y) };
+    let mut above: Above = None;
+    let mut path = Vec::<Open<T::Node, T::Middle>, PATH>::new();
+    let (mut place, mut node) = (Place { level: frame.depth, column: 0, row: 0 }, tree.root());
+    let (mut ends, mut z_in, mut second) = ([end; 2], z.at(t), [false; 2]);
+    loop {
+        let out = ends[0].min(ends[1]);
+        let z_out = z.at(out);
         let [low, high] = tree.range(place, &node);
         let passes_above = z_in.min(z_out) > high;
-        if passes_above || z_in.max(z_out) < low {
-            let other = above.replace(passes_above).is_some_and(|before| before != passes_above);
-            if other {
-                // between two nodes: the cell where that is
-                let (column, row) = (columns.index(x.at(span.0)), rows.index(y.at(span.0)));
-                changed((span.0, Place { level: 0, column, row }, passes_above))?;
-            }
-        } else if tree.is_leaf(place, span.0) {
-            let patch = tree.patch(place, &node);
-            cross_leaf(frame, &axes, place, span, &patch, &mut above, changed)?;
-        } else {
+        let passes = passes_above || z_in.max(z_out) < low;
+        if !passes && !tree.is_leaf(place, t) {
+            let size = 1 << (place.level - 1);
+            let plane = |index: u32| (2 * index + 1) * size;
+            let unknown = Half { t: 0, time: 0 };
+            let halves = path.last().map_or([unknown; 2], |open| open.halves);
+            let halves = [
+                across.half(plane(place.column), size, halves[0], second[0]),
+                down.half(plane(place.row), size, halves[1], second[1]),
+            ];
             let middle = tree.middle(place, &node);
-            let level = place.level - 1;
-            let (column, row) = (2 * place.column, 2 * place.row);
-            // where the ray passes from one half to the other: never, where there is no other
-            let turn = |rule: &Rule, axis: &Axis, index: u32| {
-                let plane = (index + 1) << level;
-                if plane < rule.count { Some(axis.crossing(rule.plane(plane))) } else { None }
-            };
-            let (turn_x, turn_y) = (turn(columns, x, column), turn(rows, y, row));
-            let far =
-                |turn: Option<Q24>, axis: &Axis| turn.is_some_and(|t| (t > span.0) == (axis.direction < 0));
-            let (mut east, mut north) = (far(turn_x, x), far(turn_y, y));
-            let mut parts = Vec::<Waiting<T::Node>, 3>::new();
-            let mut t = span.0;
-            loop {
-                let next = |turn: Option<Q24>| turn.filter(|at| *at > t).unwrap_or(i32::MAX);
-                let (next_x, next_y) = (next(turn_x), next(turn_y));
-                let end = next_x.min(next_y).min(span.1);
-                let place = Place { level, column: column + u32::from(east), row: row + u32::from(north) };
-                let node = tree.part(place, &node, &middle);
-                let _ = parts.push(Waiting { place, node, span: (t, end) });
-                if end >= span.1 {
-                    break;
+            let first = [2 * place.column + across.first, 2 * place.row + down.first];
+            // one a level: there is room
+            let _ = path.push(Open { node, middle, first, halves, ends });
+        } else {
+            if passes {
+                let other = above.replace(passes_above).is_some_and(|before| before != passes_above);
+                if other {
+                    // between two nodes: the cell where that is
+                    let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
+                    changed((t, Place { level: 0, column, row }, passes_above))?;
                 }
-                east ^= end == next_x;
-                north ^= end == next_y;
-                t = end;
+            } else {
+                let patch = tree.patch(place, &node);
+                cross_leaf(frame, axes, place, (t, out), &patch, &mut above, changed)?;
             }
-            while let Some(part) = parts.pop() {
-                // three a level: there is room
-                let _ = waiting.push(part);
+            (t, z_in) = (out, z_out);
+            while path.last().is_some_and(|open| t >= open.ends[0].min(open.ends[1])) {
+                let _ = path.pop();
             }
         }
+        // the part where the ray is
+        let level = frame.depth - path.len() as u32;
+        let Some(open) = path.last() else { return ControlFlow::Continue(above) };
+        second = open.halves.map(|half| half.t <= t);
+        let end = |half: Half, end: Q24, is_second: bool| if is_second { end } else { end.min(half.t) };
+        ends = [end(open.halves[0], open.ends[0], second[0]), end(open.halves[1], open.ends[1], second[1])];
+        let part = |first: u32, is_second: bool| first ^ u32::from(is_second);
+        place = Place { level, column: part(open.first[0], second[0]), row: part(open.first[1], second[1]) };
+        node = tree.part(place, &open.node, &open.middle);
     }
-    ControlFlow::Continue(())
+}
+
+/// A ray above a patch, from where it comes over its cell to where it leaves it.
+struct Chord<'a> {
+    patch: &'a Form,
+    from: [Q30; 2],
+    to: [Q30; 2],
+    heights: [Q24; 2],
+}
+
+impl Chord<'_> {
+    /// How high above the patch it is.
+    #[inline(never)]
+    fn over(&self, part: Q30) -> Q24 {
+        let along = |a: i32, b: i32| a.wrapping_add((product(b.wrapping_sub(a), part) >> 30) as i32);
+        let ([s_0, t_0], [s_1, t_1], [z_0, z_1]) = (self.from, self.to, self.heights);
+        along(z_0, z_1).saturating_sub(self.patch.height(along(s_0, s_1), along(t_0, t_1)))
+    }
+
+    /// An eighth of a bound of its second derivative, `|h_ss| ds^2 + 2 |h_st ds dt| + |h_tt| dt^2`, rounded up.
+    #[inline(always)]
+    fn bend(&self) -> u32 {
+        let ([s_0, t_0], [s_1, t_1]) = (self.from, self.to);
+        let (s, t) = (s_0.abs_diff(s_1), t_0.abs_diff(t_1));
+        let [ss, st, tt] = self.patch.bends();
+        // 28 fractional bits, and of the sum 44
+        let part = |a: u32, b: u32, bend: u32| product_u((product_u(a, b) >> 32) as u32 + 1, bend);
+        let eighth = (part(s, s, ss) + 2 * part(s, t, st) + part(t, t, tt)) >> 23;
+        u32::try_from(eighth).map_or(u32::MAX, |eighth| eighth.saturating_add(1))
+    }
 }
 
 /// Where the ray changes sides inside a leaf.
@@ -164,34 +248,10 @@ fn cross_leaf(
     let level = place.level;
     let (column, row) = (place.column << level, place.row << level);
     let inside = |t: Q24| [columns.inside(x.at(t), column, level), rows.inside(y.at(t), row, level)];
-    let (from, to) = (inside(t_in), inside(t_out));
-    let (z_in, z_out) = (i64::from(z.at(t_in)), i64::from(z.at(t_out)));
-    let mut found = |part: i32, is_above: bool| {
-        let along = ((i64::from(t_out) - i64::from(t_in)) * i64::from(part)) >> 30;
+    let heights = [t_in, t_out].map(|t| z.at(t));
+    let chord = Chord { patch, from: inside(t_in), to: inside(t_out), heights };
+    sides(|part| chord.over(part), chord.bend(), above, &mut |part, is_above| {
+        let along = product(t_out.wrapping_sub(t_in), part) >> 30;
         changed((t_in.wrapping_add(along as i32), place, is_above))
-    };
-    // the ray above the patch
-    match patch {
-        Form::Bilinear(patch) => {
-            let [a, b, c] = patch.chord(from, to).map(i64::from);
-            let over = [z_in - a, ((z_in + z_out) >> 1) - b, z_out - c];
-            signs(over.map(saturated), above, &mut found)
-        }
-        Form::Bicubic(patch) => {
-            const SIXTH: i64 = 715_827_883;
-            let step = z_out - z_in;
-            let mut k = 0;
-            let over = patch.chord(from, to).map(|height| {
-                let z = z_in + ((step * k * SIXTH + (1 << 31)) >> 32);
-                k += 1;
-                saturated(z - i64::from(height))
-            });
-            signs(over, above, &mut found)
-        }
-    }
-}
-
-#[inline(always)]
-fn saturated(c: i64) -> Q24 {
-    c.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+    })
 }

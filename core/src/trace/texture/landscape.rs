@@ -42,6 +42,10 @@ pub struct Landscape {
 fn behind(way: i64, width: Unit, places: u32) -> Unit {
     // a passage of no width is a step
     let width = u64::from(width.max(Unit::DELTA).to_bits().unsigned_abs());
+    // most places are in no passage: off a line by more than half its width
+    if (way.unsigned_abs() << (places + 1)) >= width {
+        return if way < 0 { Unit::ZERO } else { Unit::ONE };
+    }
     // way 2^places has 30 fractional bits: the quotient's half is the middle
     let part = quotient(way, places + 30, width).saturating_add(1 << 29);
     Unit::from_bits(part.clamp(0, 1 << 30) as i32)
