@@ -1,9 +1,10 @@
 //! The uniform bicubic B-spline whose vertices are the heights, patch by patch in Bezier form, figure 10.
 //!
 //! Along each axis `b_0 = (v_0 + 4 v_1 + v_2) / 6`, `b_1 = (2 v_1 + v_2) / 3`, `b_2 = (v_1 + 2 v_2) / 3`,
-//! `b_3 = (v_1 + 4 v_2 + v_3) / 6`. What two patches share follows from the same vertices by the same sums, so
-//! that it is the same bit for bit; up to rounding the surface is `C2`. Beyond the rim a vertex is the mirror
-//! image of its inner neighbour, `v_-1 = 2 v_0 - v_1`: at its corners the surface passes through the heights.
+//! `b_3 = (v_1 + 4 v_2 + v_3) / 6`. What two patches share follows from the same vertices by the same sums,
+//! so that it is the same bit for bit; up to rounding the surface is `C2`. Beyond the rim a vertex is the
+//! mirror image of its inner neighbour, `v_-1 = 2 v_0 - v_1`: at its corners the surface passes through the
+//! heights.
 //!
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figure 10; G. Farin,
 //! "Curves and surfaces for CAGD", 1988, section 7.4.
@@ -37,15 +38,15 @@ fn four([a, b, c, d]: [Q24; 4], [is_first, is_last]: [bool; 2]) -> [Q24; 4] {
 /// A patch by its vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct BSpline {
-    /// Those of the cell and round it, row by row from south-west; any beyond the rim. Twice as high: 25 fractional
-    /// bits.
+    /// Those of the cell and round it, row by row from south-west; any beyond the rim. Twice as high: 25
+    /// fractional bits.
     vertices: [[i32; 4]; 4],
     /// Whether it is the first or the last along `u` and along `v`.
     rims: [[bool; 2]; 2],
 }
 
-/// The weights of four vertices at `s`, 31 fractional bits. They add up to 1, and at 1 they are those at 0 of the
-/// patch that follows.
+/// The weights of four vertices at `s`, 31 fractional bits. They add up to 1, and at 1 they are those at 0 of
+/// the patch that follows.
 #[inline(always)]
 fn weights(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 4] {
     const ONE: u32 = 1 << 31;
@@ -68,19 +69,16 @@ fn weights(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 4] {
     [a as i32, inner(b.min(ONE - 1), d_in_b), inner(c.min(ONE - 1), a_in_c), d as i32]
 }
 
-/// The weights of the three steps between four vertices in the slope at `s`, 31 fractional bits: they add up to 1.
+/// The weights of the three steps between four vertices in the slope at `s`, 31 fractional bits: they add up
+/// to 1.
 #[inline(always)]
 fn steps(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 3] {
-    let (s, r) = ((s as u32) << 1, (1 << 31) - ((s as u32) << 1));
+    const ONE: u32 = 1 << 31;
+    let (s, r) = ((s as u32) << 1, ONE - ((s as u32) << 1));
     let (a, c) = (high_u(r, r), high_u(s, s));
-    let b = (1 << 31) - a - c;
     // beyond the rim a step is as the one before it
-    match (is_first, is_last) {
-        (false, false) => [a as i32, b as i32, c as i32],
-        (true, false) => [0, (a + b) as i32, c as i32],
-        (false, true) => [a as i32, (b + c) as i32, 0],
-        (true, true) => [0, i32::MAX, 0],
-    }
+    let (a, c) = (if is_first { 0 } else { a }, if is_last { 0 } else { c });
+    [a as i32, (ONE - a - c).min(ONE - 1) as i32, c as i32]
 }
 
 /// The mean of the steps between four heights with 25 fractional bits.

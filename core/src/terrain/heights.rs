@@ -111,8 +111,8 @@ impl<'a> Heights<'a> {
         self.heights.get(index as usize).copied().unwrap_or_default().to_bits()
     }
 
-    /// The heights of a cell and of what is round it, row by row from south-west; the nearest in place of those
-    /// beyond the rim.
+    /// The heights of a cell and of what is round it, row by row from south-west; the nearest in place of
+    /// those beyond the rim.
     #[inline(always)]
     pub(crate) fn around(&self, i: u32, j: u32) -> [[Q24; 4]; 4] {
         let (columns, rows) = (self.columns(), self.rows());

@@ -1,5 +1,7 @@
 //! Surfaces by subdivision: mountains through given heights, or through four numbers.
 //!
+#![doc = include_str!("../../docs/terrain.md")]
+//!
 //! A [`PlaneToLine`] function knows the height of any point of its lattice on demand; [`Rows`] streams the
 //! lattice, each row from those before. Random numbers are functions of the point ([`Randomness`]), so that
 //! pieces fit together whatever is drawn first, also across [seams](Seam) between patches that lie apart. What

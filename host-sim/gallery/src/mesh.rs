@@ -13,7 +13,7 @@ use crate::terrain::TerrainPicture;
 /// Which lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lines {
-    /// The edges of the cells between knots, and the middles of these.
+    /// The edges of the cells between knots, straight and with their middles.
     Edges,
     /// All lines of the lattice.
     Lattice,
@@ -38,10 +38,11 @@ impl TerrainPicture<'_> {
     ) -> Result<(), Error> {
         let function = self.function()?;
         match lines {
-            Lines::Edges => {
-                self.page(pencil, size, target, watch, || self.ruled(&function, 1 << self.levels))
-            }
-            Lines::Lattice => self.page(pencil, size, target, watch, || self.ruled(&function, 1)),
+            Lines::Edges => self.page(pencil, size, target, watch, || {
+                let cell = 1 << self.levels;
+                self.ruled(&function, (cell, cell)).chain(self.ruled(&function, (cell, 1)))
+            }),
+            Lines::Lattice => self.page(pencil, size, target, watch, || self.ruled(&function, (1, 1))),
             Lines::Triangles(rule) => self.page(pencil, size, target, watch, || self.sewn(&function, rule)),
         }
     }
@@ -63,19 +64,21 @@ impl TerrainPicture<'_> {
         Ok(())
     }
 
-    /// Every so many rows and columns of the lattice.
+    /// Every so many rows and columns of the lattice, by every so many points of each.
     fn ruled<'b>(
         &'b self,
         function: &'b Function<'b>,
-        every: usize,
+        (every, step): (usize, usize),
     ) -> impl Iterator<Item = PathElement> + 'b {
         let (columns, rows) = self.lattice();
         let at = move |i: u32, j: u32, starts: bool| {
             let [u, v] = function.point(self.levels, i, j);
-            step(self.seen([u, v], function.height(u, v)), starts)
+            to(self.seen([u, v], function.height(u, v)), starts)
         };
-        let along = (0..rows).step_by(every).flat_map(move |j| (0..columns).map(move |i| at(i, j, i == 0)));
-        let across = (0..columns).step_by(every).flat_map(move |i| (0..rows).map(move |j| at(i, j, j == 0)));
+        let points = move |count: u32| (0..count).step_by(step);
+        let lines = move |count: u32| (0..count).step_by(every);
+        let along = lines(rows).flat_map(move |j| points(columns).map(move |i| at(i, j, i == 0)));
+        let across = lines(columns).flat_map(move |i| points(rows).map(move |j| at(i, j, j == 0)));
         along.chain(across)
     }
 
@@ -92,7 +95,7 @@ impl TerrainPicture<'_> {
             cells.flat_map(move |cell| Triangles::new(function, 0, cell, &rule).into_iter().flatten());
         triangles.flat_map(move |[a, b, c]| {
             [(a, true), (b, false), (c, false), (a, false)]
-                .map(|(vertex, starts)| step(self.seen([vertex.u, vertex.v], vertex.height), starts))
+                .map(|(vertex, starts)| to(self.seen([vertex.u, vertex.v], vertex.height), starts))
         })
     }
 
@@ -114,6 +117,6 @@ impl TerrainPicture<'_> {
     }
 }
 
-fn step(point: Point2, starts: bool) -> PathElement {
+fn to(point: Point2, starts: bool) -> PathElement {
     if starts { PathElement::MoveTo(point) } else { PathElement::LineTo(point) }
 }

@@ -71,10 +71,8 @@ impl<'a, R: Randomness> DeepTerrain<'a, R> {
             rule("extent along x", along_x, across << finest)?,
             rule("extent along y", along_y, down << finest)?,
         ];
-        let mut level = 0;
-        let reach = [(); 17].map(|()| {
-            let reach = terrain.law().reach(finest.saturating_sub(level), finest);
-            level += 1;
+        let reach = core::array::from_fn(|level| {
+            let reach = terrain.law().reach(finest.saturating_sub(level as u32), finest);
             // and what arithmetic along a ray may add
             (reach.to_bits() >> 24) as i32 + (1 << 6)
         });

@@ -100,11 +100,9 @@ pub(super) fn fill(
 /// Where the levels begin.
 pub(super) fn begins(columns: u32, rows: u32) -> [u32; 17] {
     let mut sum = 0;
-    let mut level = 0;
-    [(); 17].map(|()| {
+    core::array::from_fn(|level| {
         let begin = sum;
-        sum += (nodes(columns, level) * nodes(rows, level)) as u32;
-        level += 1;
+        sum += (nodes(columns, level as u32) * nodes(rows, level as u32)) as u32;
         begin
     })
 }

@@ -83,8 +83,8 @@ impl<'a> Terrain<'a> {
         Ok(Self { heights, inner, ranges: memory, begins, frame, land, plain: None })
     }
 
-    /// On a plain or a sea at this height that goes on all round, as a second face: the surface is the higher of
-    /// both. What lies below it is not looked for.
+    /// On a plain or a sea at this height that goes on all round, as a second face: the surface is the higher
+    /// of both. What lies below it is not looked for.
     #[must_use]
     pub fn with_plain(mut self, height: Real) -> Self {
         let [low, high] = self.frame.heights;

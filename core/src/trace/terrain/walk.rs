@@ -1,14 +1,14 @@
 //! The walk of a ray through a tree of cells, from front to back.
 //!
 //! A node is a square of cells, halved along both axes. Where the ray passes above or below all heights of a
-//! node, the node tells on which side it is; else its parts do, one behind the other, and in the end the patch
-//! of a cell. A crossing is where one side follows the other: a ray that comes from above and
-//! ends below has crossed the surface, whatever rounding does at the edges of cells. So the surface is
-//! watertight, and no hill is too thin.
+//! node, the node tells on which side it is; else its parts do, one behind the other, and in the end the
+//! patch of a cell. A crossing is where one side follows the other: a ray that comes from above and ends
+//! below has crossed the surface, whatever rounding does at the edges of cells. So the surface is watertight,
+//! and no hill is too thin.
 //!
-//! What is kept is the way from the root to where the ray is, a node a level, each with four parameters: where the
-//! ray leaves it, and where it passes its middle, along x and y. In which part the ray is follows from these.
-//! Formats: lengths and parameters 24 fractional bits.
+//! What is kept is the way from the root to where the ray is, a node a level, each with four parameters:
+//! where the ray leaves it, and where it passes its middle, along x and y. In which part the ray is follows
+//! from these. Formats: lengths and parameters 24 fractional bits.
 
 use core::ops::ControlFlow;
 
@@ -77,8 +77,8 @@ struct Across<'a> {
 }
 
 impl Across<'_> {
-    /// The middle of a node: so many cells before it are `plane`, and so many are in each half. Those before it are
-    /// half of `half` away from the middle of the node that this is a part of.
+    /// The middle of a node: so many cells before it are `plane`, and so many are in each half. Those before
+    /// it are half of `half` away from the middle of the node that this is a part of.
     #[inline(always)]
     fn half(&self, plane: u32, size: u32, above: Half, is_second: bool) -> Half {
         if plane >= self.rule.count {
@@ -133,7 +133,8 @@ pub(super) struct Frame {
 /// A change of sides: parameter, the leaf, and whether the ray is above from there on.
 pub(super) type Change = (Q24, Place, bool);
 
-/// Hands over where a ray changes sides, in order, until `changed` breaks off; in the end on which side it is.
+/// Hands over where a ray changes sides, in order, until `changed` breaks off; in the end on which side it
+/// is.
 #[inline(never)]
 pub(super) fn walk<T: Tree>(
     tree: &T,
@@ -220,7 +221,8 @@ impl Chord<'_> {
         along(z_0, z_1).saturating_sub(self.patch.height(along(s_0, s_1), along(t_0, t_1)))
     }
 
-    /// An eighth of a bound of its second derivative, `|h_ss| ds^2 + 2 |h_st ds dt| + |h_tt| dt^2`, rounded up.
+    /// An eighth of a bound of its second derivative, `|h_ss| ds^2 + 2 |h_st ds dt| + |h_tt| dt^2`, rounded
+    /// up.
     #[inline(always)]
     fn bend(&self) -> u32 {
         let ([s_0, t_0], [s_1, t_1]) = (self.from, self.to);
