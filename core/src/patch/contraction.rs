@@ -10,13 +10,15 @@
 //! comes to an end, with no word longer than `d`,
 //!
 //! - `T_s1 T_s2 ...` converges, at least by `rho` every `d` levels;
-//! - every point `phi` has `|phi - c|_1 <= r`, `r = max_w |T_w c - c|_1 / (1 - rho)`, and
-//!   `|phi|_1 <= max_w |T_w c|_1 + rho r`, with any `c`: the mean of the ends or the corners tells most;
+//! - every point `phi` has `|phi - c|_1 <= r`, `r = max_w |T_w c - c|_1 / (1 - |T_w|)`: the points no further from `c` are
+//!   mapped among themselves by every word of the list, whose norm is `|T_w|`. So `|phi|_1` is at most `|c|_1 + r`, and
+//!   `max_w |T_w c|_1 + rho r`. Any `c` will do: the mean of the ends or the corners tells most;
 //! - `k d` levels leave an error of at most `rho^k r` times the difference of the greatest and the least
 //!   control point.
 //!
 //! Words of unequal length prove with hundreds of products what all words of one length do not with thousands: in
-//! a rough surface a few corners contract slowly.
+//! a rough surface a few corners contract slowly. So with `r` too: a word that moves `c` little may have a norm near to
+//! 1, and words are lengthened until the `r` of each is what is asked for.
 //!
 //! Formats: 28 fractional bits in 64; norms and radii are rounded up, with what the rounding of products adds.
 
@@ -29,10 +31,15 @@ use crate::num::{Near, Real, Wide, product, ratio};
 const DEEPEST: usize = 12;
 const MOST_PRODUCTS: usize = 4096;
 
-/// The norms that are tried, 28 fractional bits, with what rounding upwards adds: small ones tell most about where
-/// points are. One nearer to 1 than the last would take millions of levels.
-const NORMS: [i64; 4] =
-    [(1 << 26) + (1 << 15), (1 << 27) + (1 << 15), (3 << 26) + (1 << 15), (1 << 28) - (1 << 18)];
+/// The norms and the radii that are tried, 28 fractional bits, norms with what rounding upwards adds: small ones tell
+/// most about where points are. A norm nearer to 1 than the last would take millions of levels; of the radii the last
+/// is what the formats bear, as `|c|_1` is 1 or little more.
+const ATTEMPTS: [(i64, i64); 4] = [
+    ((1 << 26) + (1 << 15), 32 << 28),
+    ((1 << 27) + (1 << 15), 32 << 28),
+    ((3 << 26) + (1 << 15), 32 << 28),
+    ((1 << 28) - (1 << 18), 27 << 27),
+];
 
 /// What an entry of a product is wrong by at most. Each factor adds half a unit, which the factors behind it make
 /// `|T_v|_1` times as much, and that is at most [`Contraction::reach`] for any word `v`: 12 factors stay within this
@@ -65,8 +72,8 @@ struct Words {
     /// The greatest norm of their products, and of those of their beginnings.
     norm: i64,
     shorter: i64,
-    /// The greatest `|T_w c - c|_1` and `|T_w c|_1`.
-    displacement: i64,
+    /// The greatest `|T_w c - c|_1 / (1 - |T_w|)` and `|T_w c|_1`.
+    radius: i64,
     sum: i64,
 }
 
@@ -138,11 +145,22 @@ fn above(a: i64, b: i64) -> i64 {
     i64::try_from((exact >> 28).saturating_add(1)).unwrap_or(i64::MAX)
 }
 
+/// `displacement / (1 - norm)`, rounded up.
+fn radius(displacement: i64, norm: i64) -> i64 {
+    let left = i64::from(ONE).saturating_sub(norm).max(1);
+    let quotient = ratio(displacement.unsigned_abs(), 28, left.unsigned_abs());
+    i64::try_from(quotient).unwrap_or(i64::MAX).saturating_add(1)
+}
+
 impl Words {
-    /// Words whose products have a norm of at most `most`, depth first; none where they are too many or too long,
-    /// or where a product leaves the format.
-    fn of<const J: usize>(maps: &[Barycentric<J>], c: &[Near; J], size: i64, most: i64) -> Option<Self> {
-        let mut found = Self { depth: 0, norm: 0, shorter: ONE.into(), displacement: 0, sum: 0 };
+    /// Words whose products have a norm and a radius of at most so much, depth first; none where they are too many or
+    /// too long, or where a product leaves the format.
+    fn of<const J: usize>(
+        maps: &[Barycentric<J>],
+        (c, size): (&[Near; J], i64),
+        (most_norm, most_radius): (i64, i64),
+    ) -> Option<Self> {
+        let mut found = Self { depth: 0, norm: 0, shorter: ONE.into(), radius: 0, sum: 0 };
         let mut stack = [[[0; J]; J]; DEEPEST];
         let mut word = [0_usize; DEEPEST];
         let (mut level, mut products) = (0_usize, 0_usize);
@@ -167,11 +185,12 @@ impl Words {
                 None => *map.rows(),
             };
             let norm = norm(&product);
-            if norm <= most {
-                let [displacement, sum] = displacement(&product, c, size);
+            let near = (norm <= most_norm).then(|| displacement(&product, c, size));
+            let near = near.map(|[displacement, sum]| (radius(displacement, norm), sum));
+            if let Some((radius, sum)) = near.filter(|(radius, _)| *radius <= most_radius) {
                 found.depth = found.depth.max(level + 1);
                 found.norm = found.norm.max(norm);
-                found.displacement = found.displacement.max(displacement);
+                found.radius = found.radius.max(radius);
                 found.sum = found.sum.max(sum);
                 *next += 1;
             } else {
@@ -196,19 +215,23 @@ impl Contraction {
     #[inline(never)]
     pub(super) fn prove<const J: usize>(maps: &[Barycentric<J>], c: &[Near; J]) -> Result<Self, Error> {
         let size: i64 = c.iter().map(|weight| i64::from(weight.to_bits().unsigned_abs())).sum();
-        let proven = NORMS.into_iter().find_map(|most| Words::of(maps, c, size, most));
-        let proven = proven.map(|words| Self::from_words(&words, size));
-        let proven = proven.filter(|proof| proof.reach <= MOST_REACH);
-        proven.ok_or(Error::NotContractive { map: 0 })?.within_formats()
+        let mut error = Error::NotContractive { map: 0 };
+        for most in ATTEMPTS {
+            let proof = Words::of(maps, (c, size), most).map(|words| Self::from_words(&words, size));
+            match proof.filter(|proof| proof.reach <= MOST_REACH).map(Self::within_formats) {
+                Some(Ok(proof)) => return Ok(proof),
+                Some(Err(beyond)) => error = beyond,
+                None => {}
+            }
+        }
+        Err(error)
     }
 
     fn from_words(words: &Words, size: i64) -> Self {
-        let left = i64::from(ONE).saturating_sub(words.norm).max(1);
-        let quotient = ratio(words.displacement.unsigned_abs(), 28, left.unsigned_abs());
-        let radius = i64::try_from(quotient).unwrap_or(i64::MAX).saturating_add(1);
         // phi = T_w c + T_w (phi' - c)
-        let sum = words.sum.saturating_add(above(words.norm, radius));
-        let radius = radius.min(sum.saturating_add(size));
+        let sum = words.sum.saturating_add(above(words.norm, words.radius));
+        let sum = sum.min(size.saturating_add(words.radius));
+        let radius = words.radius.min(sum.saturating_add(size));
         // T_w e_k = T_w c + T_w (e_k - c): a point, and what its norm leaves of a vector of at most 1 + |c|
         let between = above(words.shorter, size.saturating_add(ONE.into()));
         Self { depth: words.depth as u32, norm: words.norm, radius, sum, reach: sum.saturating_add(between) }

@@ -11,18 +11,21 @@
 //! invariant under halving", 1987. Formats: matrices and weights 28 fractional bits.
 
 use super::address::{Address, Tail, split};
-use super::barycentric::{Barycentric, mixed, unit};
+use super::affine::Affine;
+use super::barycentric::{Barycentric, add_up, completed, mixed, unit};
 use super::contraction::{Contraction, mean};
 use super::joining::agree;
 use crate::Error;
 use crate::num::formats::Q28;
-use crate::num::{Near, Real, Wide};
+use crate::num::{Near, Real};
 use crate::plane::{PathElement, Point2};
 
 /// A curve by `M` control points in base `N`: its maps and its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ProjectedCurve<const N: usize, const M: usize> {
     maps: [Barycentric<M>; N],
+    /// The same maps.
+    steps: [Affine<M>; N],
     ends: [[Q28; M]; 2],
     contraction: Contraction,
 }
@@ -32,9 +35,11 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than two maps or control points, [`Error::Unjoined`] for maps that do not
-    /// join to the last bit, [`Error::NotContractive`] or [`Error::OutOfRange`] as [`Contraction`] says.
+    /// join to the last bit, [`Error::NotContractive`] or [`Error::OutOfRange`] as [`Contraction`] says;
+    /// [`Error::OutOfRange`] where two entries of a row of a map differ by 8 or more.
     pub fn new(maps: [Barycentric<M>; N]) -> Result<Self, Error> {
-        Self::between(maps, [unit(0), unit(M.wrapping_sub(1))], 0)
+        let ends = [unit(0), unit(M.wrapping_sub(1))].map(|end| end.map(Near::to_bits));
+        Self::between(maps, ends, 0)
     }
 
     /// The curve with these maps and ends, as a B-spline has them inside its control polygon. The ends are
@@ -43,13 +48,11 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
     /// # Errors
     /// As [`ProjectedCurve::new`]; [`Error::NotBarycentric`] for an end that does not add up to 1.
     pub fn with_ends(maps: [Barycentric<M>; N], ends: [[Near; M]; 2]) -> Result<Self, Error> {
-        for (column, end) in ends.iter().enumerate() {
-            let sum = end.iter().fold(Wide::ZERO, |sum, weight| sum + Wide::from(*weight));
-            if (sum - Wide::ONE).abs() > Wide::from(Near::DELTA).saturating_mul_int(M as i64) {
-                return Err(Error::NotBarycentric { column, sum });
-            }
+        let mut exact = ends.map(|end| end.map(Near::to_bits));
+        for (column, end) in exact.iter_mut().enumerate() {
+            add_up(end, column)?;
         }
-        Self::between(maps, ends, 4 * M as i64)
+        Self::between(maps, exact, 4 * M as i64)
     }
 
     /// The curve through a grid of `(M - 1) N + 1` points of the barycentric space: `T_i e_k = q_((M-1) i + k)`.
@@ -73,20 +76,23 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
         Self::new(maps)
     }
 
-    fn between(maps: [Barycentric<M>; N], ends: [[Near; M]; 2], tolerance: i64) -> Result<Self, Error> {
+    fn between(maps: [Barycentric<M>; N], ends: [[Q28; M]; 2], tolerance: i64) -> Result<Self, Error> {
         enough::<N, M>()?;
-        let [first, last] = ends;
-        let at = |map: usize, end: &[Near; M]| {
-            let image = maps.get(map).map_or([0; M], |map| map.image(&end.map(Near::to_bits)));
+        let [first, last] = ends.map(|end| end.map(Near::from_bits));
+        let at = |map: usize, end: usize| {
+            let image = maps.get(map).zip(ends.get(end)).map_or([0; M], |(map, end)| map.image(end));
             image.map(Near::from_bits)
         };
-        agree("T_0 c_0 = c_0", 0, (&at(0, &first), &first), tolerance)?;
-        agree("T_(N-1) c_1 = c_1", N - 1, (&at(N - 1, &last), &last), tolerance)?;
+        agree("T_0 c_0 = c_0", 0, (&at(0, 0), &first), tolerance)?;
+        agree("T_(N-1) c_1 = c_1", N - 1, (&at(N - 1, 1), &last), tolerance)?;
         for map in 1..N {
-            agree("T_(i-1) c_1 = T_i c_0", map, (&at(map - 1, &last), &at(map, &first)), tolerance)?;
+            agree("T_(i-1) c_1 = T_i c_0", map, (&at(map - 1, 1), &at(map, 0)), tolerance)?;
         }
-        let ends = ends.map(|end| end.map(Near::to_bits));
-        Ok(Self { maps, ends, contraction: Contraction::prove(&maps, &mean(ends))? })
+        let mut steps = [Affine::NONE; N];
+        for (step, map) in steps.iter_mut().zip(&maps) {
+            *step = Affine::of(map)?;
+        }
+        Ok(Self { maps, steps, ends, contraction: Contraction::prove(&maps, &mean(ends))? })
     }
 
     /// The proof that it is a curve, and how fast it tends to it.
@@ -106,7 +112,8 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
 
     /// `phi` at an address: how much of each control point. Both addresses of a joint give the same bits.
     ///
-    /// Error: below 2 units of `2^-28` a digit (`weights_are_within_two_units_a_digit`); none where the products need
+    /// They add up to 1 exactly. Error: below `(M - 1) / 2` units of `2^-28` a digit, times how much the maps before
+    /// it contract (`weights_are_within_two_units_a_digit`); none where the products need
     /// no more than 28 fractional bits, as those of a parabola up to 14 binary digits
     /// (`a_parabola_and_takagis_curve_are_exact`).
     pub fn weights(&self, address: Address<N>) -> [Near; M] {
@@ -120,12 +127,12 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
         let mut weights = if address.tail() == Tail::Last { *last } else { *first };
         for _ in 0..levels {
             let (rest, digit) = split::<N>(index);
-            if let Some(map) = self.maps.get(digit as usize) {
-                weights = map.image(&weights);
+            if let Some(step) = self.steps.get(digit as usize) {
+                weights = step.image(&weights);
             }
             index = rest;
         }
-        weights
+        completed(weights)
     }
 
     /// `F` at an address: the weighted mean of numbers, saturated.

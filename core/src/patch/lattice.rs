@@ -13,9 +13,10 @@
 //! patch of Tosan, Guerin, Baskurt (section 4.1) whose boundary is not a control point's. Formats: 28 fractional
 //! bits, a row rounded once.
 
-use super::address::{Address, Pair, split};
+use super::address::{Address, Pair};
 use super::barycentric::{Barycentric, ONE, mixed, wide};
 use super::contraction::{Contraction, mean};
+use super::mask_step::{Square, weights};
 use super::scheme::{CORNERS, Scheme};
 use crate::Error;
 use crate::num::formats::{Q24, Q28};
@@ -66,7 +67,7 @@ impl Mask {
         for (map, (i, j)) in maps.iter_mut().zip([(0, 0), (0, 1), (1, 0), (1, 1)]) {
             *map = mask.map(i, j)?;
         }
-        let middle = mean(CORNERS.map(|corner| mask.stencil(corner)));
+        let middle = mean(CORNERS.map(|corner| flat(&mask.stencil(corner))));
         Ok(Self { contraction: Contraction::prove(&maps, &middle)?, ..mask })
     }
 
@@ -114,7 +115,10 @@ impl Mask {
     /// `phi` at `s` and `t` in a cell: how much of each of its 4 x 4 heights. All addresses of a place give
     /// the same bits.
     ///
-    /// Error: below 2 units of `2^-28` a digit, and 2 (`a_lattice_is_within_two_units_a_digit`).
+    /// They add up to 1 exactly. Error: below 2 units of `2^-28` a digit, and 2
+    /// (`a_lattice_is_within_two_units_a_digit`).
+    ///
+    /// Cost: 84 products a digit (the kernel row `patch lattice` counts a point of 12 digits).
     pub fn weights(&self, at: [Address<2>; 2]) -> [Near; 16] {
         self.weights_bits(&Pair::of(at)).map(Near::from_bits)
     }
@@ -145,9 +149,9 @@ impl Mask {
     }
 
     /// The weights of a corner of the cell: the limit stencil about it.
-    fn stencil(&self, [s, t]: [bool; 2]) -> [Q28; 16] {
-        let mut weights = [0; 16];
-        for (row, of) in weights.chunks_exact_mut(4).skip(s.into()).zip(&self.limit) {
+    fn stencil(&self, [s, t]: [bool; 2]) -> Square {
+        let mut weights = [[0; 4]; 4];
+        for (row, of) in weights.iter_mut().skip(s.into()).zip(&self.limit) {
             for (weight, of) in row.iter_mut().skip(t.into()).zip(of) {
                 *weight = *of;
             }
@@ -157,44 +161,16 @@ impl Mask {
 
     #[inline(always)]
     fn weights_bits(&self, pair: &Pair) -> [Q28; 16] {
-        let mut weights = self.stencil(pair.at_end);
-        let [mut s, mut t] = pair.indices;
-        for _ in 0..pair.levels {
-            let ((rest_s, i), (rest_t, j)) = (split::<2>(s), split::<2>(t));
-            weights = self.image(&weights, i, j);
-            (s, t) = (rest_s, rest_t);
-        }
-        weights
-    }
-
-    /// `T_ij lambda`: the entries that a height has in the rows and columns of the part.
-    fn image(&self, weights: &[Q28; 16], i: u32, j: u32) -> [Q28; 16] {
-        let mut result = [0; 16];
-        for (a, row) in result.chunks_exact_mut(4).enumerate() {
-            for (b, to) in row.iter_mut().enumerate() {
-                let mut sum = 1_i64 << 27;
-                // the part's height k is entry i + 3 + k - 2 a of the mask
-                let (skip_s, first_s) = overlap(i, a);
-                let (skip_t, first_t) = overlap(j, b);
-                for (weights, entries) in
-                    weights.chunks_exact(4).skip(skip_s).zip(self.entries.iter().skip(first_s))
-                {
-                    for (weight, entry) in weights.iter().skip(skip_t).zip(entries.iter().skip(first_t)) {
-                        sum = product(*weight, *entry).wrapping_add(sum);
-                    }
-                }
-                *to = (sum >> 28) as i32;
-            }
-        }
-        result
+        weights(&self.entries, pair, &self.stencil(pair.at_end))
     }
 }
 
-/// The first height of a part that a height takes part in, and its entry there.
-#[inline(always)]
-fn overlap(digit: u32, from: usize) -> (usize, usize) {
-    let (entry, twice) = (digit as usize + 3, 2 * from);
-    (twice.saturating_sub(entry), entry.saturating_sub(twice))
+fn flat(weights: &Square) -> [Q28; 16] {
+    let mut all = [0; 16];
+    for (to, weight) in all.iter_mut().zip(weights.as_flattened()) {
+        *to = *weight;
+    }
+    all
 }
 
 /// The stencil that is fixed by one refinement about a grid point, by iteration with 56 fractional bits.
@@ -260,7 +236,7 @@ impl Scheme<16> for Mask {
     }
 
     fn corner(&self, heights: &[Q24; 16], at_end: [bool; 2]) -> Q24 {
-        mixed(heights, &self.stencil(at_end))
+        mixed(heights, &flat(&self.stencil(at_end)))
     }
 
     fn at(&self, heights: &[Q24; 16], at: [u32; 2], levels: u32) -> Q24 {

@@ -1,5 +1,7 @@
 //! Curves and surfaces by control points: fractals that are shaped as splines are.
 //!
+#![doc = include_str!("../../docs/patch.md")]
+//!
 //! `F(s) = P phi(s)`: control points `P`, and the attractor `phi` of matrices whose columns add up to 1, the
 //! projected iterated function system of E. Tosan, E. Guerin and A. Baskurt, "Design and Reconstruction of Fractal
 //! Surfaces", 2002. Bezier curves and B-splines are cases of it, and so are Takagi's curve and rough terrain.
@@ -25,6 +27,7 @@
 //! [`Sheet`] puts many cells side by side, which [`crate::trace`] shows.
 
 mod address;
+mod affine;
 mod aspect;
 mod barycentric;
 mod catalogue;
@@ -33,9 +36,11 @@ mod curve;
 mod grid;
 mod joining;
 mod lattice;
+mod mask_step;
 mod scheme;
 mod sheet;
 mod standard_grid;
+mod standard_step;
 mod tensor;
 
 pub use address::{Address, Tail};

@@ -12,11 +12,20 @@ use crate::num::formats::Q24;
 use crate::num::{Real, Vec3, Wide};
 
 /// Heights of a square of cells, refined by a scheme.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Sheet<'a, S, const J: usize> {
     scheme: &'a S,
     heights: &'a [Real],
     cells: u32,
+}
+
+// a copy of the references: schemes need not be `Copy`
+impl<S, const J: usize> Copy for Sheet<'_, S, J> {}
+
+impl<S, const J: usize> Clone for Sheet<'_, S, J> {
+    fn clone(&self) -> Self {
+        *self
+    }
 }
 
 /// The most cells along a side.
@@ -117,6 +126,60 @@ impl<'a, S: Scheme<J>, const J: usize> Sheet<'a, S, J> {
         let corners = [at(i, j), at(i, next[1]), at(next[0], j), at(next[0], next[1])];
         let parts = u64::from(self.cells) * u64::from(S::BASE.checked_pow(levels).unwrap_or(1));
         mean_normal(corners, parts)
+    }
+}
+
+/// Of a place where a normal is looked for: so many parts along a side at most, so that what heights are rounded by
+/// changes slopes by less than `2^-8`.
+const FINE: u64 = 1 << 14;
+
+impl<S: Scheme<J>, const J: usize> Sheet<'_, S, J> {
+    /// The normal `(-h_x, -h_y, 1)` at `index / (cells N^levels)`, components saturated at ±64; none where there is none.
+    ///
+    /// A surface has a normal where a plane touches it: here, where the eight neighbours, as far away as parts of the
+    /// two finest levels up to `2^14` along a side are wide, are off a plane by at most `tolerance` times as much. A
+    /// rough surface is off by more the nearer they are. Smooth ones need about `2^-6`, and more where they are curved
+    /// much.
+    ///
+    /// Result: none for a place outside, or with fewer than two finer levels.
+    pub fn normal(&self, index: [u32; 2], levels: u32, tolerance: Real) -> Option<Vec3> {
+        let base = u64::from(S::BASE);
+        let coarse = u64::from(self.cells).checked_mul(base.checked_pow(levels)?)?;
+        let (mut level, mut parts) = (levels, coarse);
+        while parts.saturating_mul(base) <= FINE && base > 1 {
+            (level, parts) = (level.saturating_add(1), parts.saturating_mul(base));
+        }
+        if level < levels.saturating_add(2) || index.iter().any(|index| u64::from(*index) > coarse) {
+            return None;
+        }
+        // how much a place is higher that is so many parts away, times the parts
+        let rise = |[i, j]: [i64; 2], level: u32, parts: u64| {
+            let finer = parts.checked_div(coarse)?;
+            let place = |index: u32, by: i64| {
+                let place = (u64::from(index) * finer).checked_add_signed(by)?;
+                u32::try_from(place).ok().filter(|place| u64::from(*place) <= parts)
+            };
+            let at = |i, j| Some(self.at([place(index[0], i)?, place(index[1], j)?], level).to_bits());
+            Some((i64::from(at(i, j)?) - i64::from(at(0, 0)?)) * parts as i64)
+        };
+        let slope = |[i, j]: [i64; 2]| {
+            let [ahead, behind] = [[i, j], [-i, -j]].map(|by| rise(by, level, parts));
+            match (ahead, behind) {
+                (Some(ahead), Some(behind)) => Some((ahead - behind) / 2),
+                (ahead, behind) => ahead.or(behind.map(|rise| -rise)),
+            }
+        };
+        let (x, y) = (slope([1, 0])?, slope([0, 1])?);
+        for (level, parts) in [(level, parts), (level.wrapping_sub(1), parts / base.max(1))] {
+            for [i, j] in (0..9).map(|k| [k / 3 - 1, k % 3 - 1]) {
+                let off = rise([i, j], level, parts).map(|rise| rise - i * x - j * y);
+                if off.is_some_and(|off| off.abs() > i64::from(tolerance.to_bits())) {
+                    return None;
+                }
+            }
+        }
+        let component = |slope: i64| Real::from_bits((-slope).clamp(-(64 << 24), 64 << 24) as i32);
+        Some(Vec3::new(component(x), component(y), Real::ONE))
     }
 }
 
