@@ -135,10 +135,10 @@ impl Leaf {
         let scan = scan(size);
         let models = context::LAST + (plane * 8 + kind) * NUMBER;
         self.last = number(coder, models, self.last).min(scan.len() as u32 - 1);
-        let mut before = 0;
         for (i, place) in (1..=self.last).zip(scan.iter().skip(1)) {
             let level = self.levels.get(*place);
             let models = kind * CLASSES + class(i);
+            let before = self.levels.about(*place);
             if i < self.last && !coder.bin(context::SIGNIFICANT + models * 3 + before, level != 0) {
                 continue;
             }
@@ -149,7 +149,6 @@ impl Leaf {
             }
             let negative = coder.raw(1, u32::from(level < 0)) == 1;
             self.levels.set(*place, if negative { -magnitude } else { magnitude });
-            before = (before + 1).min(2);
         }
     }
 }

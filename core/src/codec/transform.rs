@@ -96,6 +96,15 @@ impl Levels {
         self.levels.get(usize::from(place)).map_or(0, |level| i32::from(*level))
     }
 
+    /// How much lies above and to the left.
+    #[inline]
+    pub fn about(&self, place: u8) -> usize {
+        let (v, u) = (place >> 4, place & 15);
+        let up = if v > 0 { self.get(place - 16).unsigned_abs() } else { 0 };
+        let left = if u > 0 { self.get(place - 1).unsigned_abs() } else { 0 };
+        (up + left).min(2) as usize
+    }
+
     /// Makes all 0.
     #[inline]
     pub fn clear(&mut self) {

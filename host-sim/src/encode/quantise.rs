@@ -43,14 +43,13 @@ impl Quantiser<'_> {
         let last = context::LAST + (setting.chroma as usize * 8 + kind) * NUMBER;
         let magnitude = context::MAGNITUDE + (kind & 1) * NUMBER;
         let mut chosen = [0_i32; 256];
-        let mut before = 0;
         // of what was chosen so far, as if it went on
         let mut sum = 0.0;
         let (mut least, mut end) = (self.lambda * self.number(last, 0), (0, 0));
         for (i, place) in chosen.iter_mut().enumerate().take(most + 1).skip(1) {
             let length = value(i).abs();
             let models = kind * CLASSES + class(i as u32);
-            let significant = context::SIGNIFICANT + models * 3 + before;
+            let significant = context::SIGNIFICANT + models * 3 + leaf.levels.about(scan[i]);
             let zero = self.lambda * self.bin(significant, false);
             let nearest = ((length / self.step + 0.5) as i32).min(attractor::codec::LARGEST);
             if nearest == 0 {
@@ -75,14 +74,15 @@ impl Quantiser<'_> {
             let kept = cost + self.lambda * self.bin(significant, true);
             if kept < zero {
                 *place = level;
+                leaf.levels.set(scan[i], level);
                 sum += kept;
-                before = (before + 1).min(2);
             } else {
                 sum += zero;
             }
         }
         chosen[end.0] = end.1;
         leaf.last = end.0 as u32;
+        leaf.levels.clear();
         let mut error = 0.0;
         for (i, level) in chosen.iter().enumerate().take(end.0 + 1).skip(1).filter(|(_, level)| **level != 0)
         {
