@@ -26,7 +26,7 @@ impl<I: Iterator<Item = u8>> Opened<I> {
         let mut decoder = planes.decoder(source, crc);
         let mut row = 0;
         while row < header.size.height {
-            planes.decode(row, &mut decoder, false, &mut seen)?;
+            planes.decode(row, &mut decoder, 0, &mut seen)?;
             row += BAND;
         }
         Planes::<S>::end(&mut decoder)

@@ -19,9 +19,12 @@
 //! with a
 //! coder that writes.
 
+mod area;
 pub mod context;
 mod crc;
 mod domain;
+mod draw;
+mod edge;
 mod header;
 mod leaf;
 mod leaves;
@@ -34,6 +37,7 @@ mod range_decoder;
 #[cfg(feature = "embedded-io")]
 mod read;
 mod sample;
+mod settled;
 mod shape;
 mod stream;
 mod streamed;
@@ -46,12 +50,13 @@ pub use header::{Header, Planes, Profile, Step};
 pub use leaf::{CLASSES, Domain, Leaf, Setting, class, scan};
 pub use models::{Coder, Model, number};
 pub use opened::{Opened, check, open};
-pub use plane::{Edge, Plane};
+pub use edge::Edge;
+pub use plane::Plane;
 pub use planes::{Luma, Part};
 #[cfg(feature = "embedded-io")]
 pub use read::Bytes;
 pub use sample::Sample;
-pub use shape::Shape;
+pub use shape::{Place, Shape};
 pub use stream::Stream;
 pub use streamed::Streamed;
 pub use sweeps::Sweeps;

@@ -74,7 +74,7 @@ impl<'a, S: Sample, I: Iterator<Item = u8>> Stream<'a, S, I> {
             self.ended = true;
             return Ok(None);
         }
-        self.planes.decode(self.next, &mut self.decoder, false, |_, _, _, _| {})?;
+        self.planes.decode(self.next, &mut self.decoder, 0, |_, _, _, _| {})?;
         let top = self.planes.drawn(self.next);
         self.next += BAND;
         let rows = self.planes.drawn(BAND).min(self.planes.size().height - top);

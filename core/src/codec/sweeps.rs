@@ -52,7 +52,7 @@ impl<'a, S: Sample, I: Iterator<Item = u8> + Clone> Sweeps<'a, S, I> {
         let mut decoder = self.planes.decoder(self.source.clone(), self.crc);
         let mut row = 0;
         while row < self.planes.header().size.height {
-            self.planes.decode(row, &mut decoder, self.done > 0, |_, _, _, _| {})?;
+            self.planes.decode(row, &mut decoder, self.done, |_, _, _, _| {})?;
             row += BAND;
         }
         Planes::<S>::end(&mut decoder)?;

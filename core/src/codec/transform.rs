@@ -8,8 +8,7 @@
 //! `k_0 = 1/sqrt 2`, else 1; frequencies of `m` and above are left out. In three steps:
 //!
 //! 1. `t(i, u) = sum_v c_v L(v, u)`, exact: `c` has 14 fractional bits, `|L| <= 8191`, 32 bits hold the sum;
-//! 2. `T(i, u) = t q 2/n k_u`, for samples of 8 bits rounded to 3 fractional bits and cut off at 1024,
-//!    else to 4 and at `2^19`;
+//! 2. `T(i, u) = t q 2/n k_u`, rounded to 4 fractional bits, of 14 bits for samples of 8 bits, else of 24;
 //! 3. `x(i, j) = sum_u c_u T(i, u)`, exact, for samples of 8 bits in 32, rounded to 7 fractional bits.
 //!
 //! To nearest, halves upwards. Rows `i` and `m-1-i`, and columns likewise, have the same products but for
@@ -20,9 +19,6 @@ use super::sample::Sample;
 
 /// Frequencies along each axis.
 pub const FREQUENCIES: usize = 16;
-/// Where `T` is cut off: sums of eight terms stay below `2^30`, what 16 bits make of it below `2^31`.
-const MOST_8: i64 = (1 << 13) - 1;
-const MOST_16: i64 = 1 << 23;
 /// The largest level.
 pub const LARGEST: i32 = 8191;
 
@@ -61,6 +57,7 @@ fn cosine(phase: u32) -> i32 {
 /// What a block's coefficients are.
 #[derive(Debug, Clone)]
 pub struct Levels {
+    /// `16 u + v`: a column of the transform lies together.
     levels: [i16; FREQUENCIES * FREQUENCIES],
     /// One more than the greatest `u` and `v` of a level that was set.
     columns: u32,
@@ -73,6 +70,12 @@ impl Default for Levels {
     }
 }
 
+/// Where a level is kept.
+#[inline]
+const fn at(place: u8) -> usize {
+    (place >> 4 | place << 4) as usize
+}
+
 impl Levels {
     /// Whether all are 0.
     #[inline]
@@ -83,7 +86,7 @@ impl Levels {
     /// Sets the level at `v`, `u`, a nibble each, cut off at [`LARGEST`].
     #[inline]
     pub fn set(&mut self, place: u8, level: i32) {
-        if let Some(slot) = self.levels.get_mut(usize::from(place)) {
+        if let Some(slot) = self.levels.get_mut(at(place)) {
             *slot = level.clamp(-LARGEST, LARGEST) as i16;
             self.columns = self.columns.max((u32::from(place) & 15) + 1);
             self.rows = self.rows.max((u32::from(place) >> 4) + 1);
@@ -93,23 +96,23 @@ impl Levels {
     /// The level at a place.
     #[inline]
     pub fn get(&self, place: u8) -> i32 {
-        self.levels.get(usize::from(place)).map_or(0, |level| i32::from(*level))
+        self.levels.get(at(place)).map_or(0, |level| i32::from(*level))
     }
 
-    /// How much lies above and to the left.
+    /// How much is at the next lower frequencies along both axes: 0, 1, or 2 for more.
     #[inline]
     pub fn about(&self, place: u8) -> usize {
-        let (v, u) = (place >> 4, place & 15);
-        let up = if v > 0 { self.get(place - 16).unsigned_abs() } else { 0 };
-        let left = if u > 0 { self.get(place - 1).unsigned_abs() } else { 0 };
-        (up + left).min(2) as usize
+        // outside there is the mean, whose level is not kept here
+        let above = if place & 0xf0 != 0 { self.get(place - 16) } else { 0 };
+        let left = if place & 0x0f != 0 { self.get(place - 1) } else { 0 };
+        (above.unsigned_abs() + left.unsigned_abs()).min(2) as usize
     }
 
     /// Makes all 0.
     #[inline]
     pub fn clear(&mut self) {
-        for row in self.levels.chunks_exact_mut(FREQUENCIES).take(self.rows as usize) {
-            for level in row.iter_mut().take(self.columns as usize) {
+        for column in self.levels.chunks_exact_mut(FREQUENCIES).take(self.columns as usize) {
+            for level in column.iter_mut().take(self.rows as usize) {
                 *level = 0;
             }
         }
@@ -117,11 +120,8 @@ impl Levels {
     }
 }
 
-/// The frequencies of one row of a block.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
-    terms: [i32; FREQUENCIES],
-}
+/// The frequencies of a row of a block and of the one that mirrors it.
+pub(super) type Pair = [[i32; 2]; FREQUENCIES];
 
 /// A block's transform.
 #[derive(Debug)]
@@ -129,91 +129,77 @@ pub(super) struct Inverse<'a> {
     levels: &'a Levels,
     /// With 8 fractional bits.
     step: i64,
-    /// What makes 3 or 4 fractional bits of a sum times the step, and where they are cut off.
+    /// What makes 4 fractional bits of a sum times the step.
     shift: u32,
-    most: i64,
     /// Phase of half a pixel for frequency 1.
     half: u32,
-    columns: u32,
-    rows: u32,
+    /// Of the frequencies, by twos.
+    columns: usize,
+    rows: usize,
 }
 
 impl<'a> Inverse<'a> {
     /// Of a block of `2^size` pixels a side, drawn with `2^drawn`.
     #[inline]
-    pub(super) fn new<S: Sample>(levels: &'a Levels, step: u32, size: u32, drawn: u32) -> Self {
+    pub(super) fn new(levels: &'a Levels, step: u32, size: u32, drawn: u32) -> Self {
         let drawn = drawn.min(7);
-        let most = 1 << drawn;
+        let pairs = |frequencies: u32| (frequencies.min(1 << drawn) as usize).div_ceil(2);
         Self {
             levels,
             step: i64::from(step),
-            shift: size.min(5) + if S::BITS == 8 { 18 } else { 17 },
-            most: if S::BITS == 8 { MOST_8 } else { MOST_16 },
+            shift: size.min(5) + 17,
             half: 128 >> drawn,
-            columns: levels.columns.min(most),
-            rows: levels.rows.min(most),
+            columns: pairs(levels.columns),
+            rows: pairs(levels.rows),
         }
     }
 
-    /// Row `i` and the one that mirrors it.
+    /// Row `i` and the one that mirrors it, into terms that were 0 before the block's first row.
     #[inline(never)]
-    pub(super) fn rows(&self, i: u32) -> (Row, Row) {
-        let columns = self.columns as usize;
-        let (mut even, mut odd) = ([0_i32; FREQUENCIES], [0_i32; FREQUENCIES]);
+    pub(super) fn rows<S: Sample>(&self, i: u32, pair: &mut Pair) {
         let turn = (2 * i + 1) * self.half;
-        for (v, row) in (0..self.rows).zip(self.levels.levels.chunks_exact(FREQUENCIES)) {
-            let c = if v == 0 { ROOT_HALF } else { cosine(v * turn) };
-            let sums = if v & 1 == 0 { &mut even } else { &mut odd };
-            for (sum, level) in sums.iter_mut().zip(row).take(columns) {
-                *sum = sum.wrapping_add(c.wrapping_mul(i32::from(*level)));
+        let columns = self.levels.levels.chunks_exact(FREQUENCIES);
+        let mut norm = ROOT_HALF;
+        for (terms, column) in pair.iter_mut().zip(columns).take(2 * self.columns) {
+            let (mut even, mut odd, mut phase, mut c) = (0_i32, 0_i32, 0, ROOT_HALF);
+            for levels in column.chunks_exact(2).take(self.rows) {
+                if let [a, b] = levels {
+                    even += c * i32::from(*a);
+                    odd += cosine(phase + turn) * i32::from(*b);
+                }
+                phase += 2 * turn;
+                c = cosine(phase);
+            }
+            *terms = [self.term::<S>(even + odd), self.term::<S>(even - odd)];
+            if norm != 0 {
+                *terms = terms.map(|term| ((i64::from(term) * i64::from(norm) + (1 << 13)) >> 14) as i32);
+                norm = 0;
             }
         }
-        let (mut top, mut bottom) = (even, even);
-        for ((top, bottom), odd) in top.iter_mut().zip(&mut bottom).zip(odd).take(columns) {
-            (*top, *bottom) = (self.scaled(top.wrapping_add(odd)), self.scaled(bottom.wrapping_sub(odd)));
-        }
-        for terms in [&mut top, &mut bottom] {
-            let [first, ..] = terms;
-            *first = ((i64::from(*first) * i64::from(ROOT_HALF) + (1 << 13)) >> 14) as i32;
-        }
-        (Row { terms: top }, Row { terms: bottom })
     }
 
     #[inline]
-    fn scaled(&self, sum: i32) -> i32 {
-        let half_unit = 1 << (self.shift - 1);
-        ((i64::from(sum) * self.step + half_unit) >> self.shift).max(-self.most).min(self.most) as i32
+    fn term<S: Sample>(&self, sum: i32) -> i32 {
+        S::term(((i64::from(sum) * self.step + (1 << self.shift >> 1)) >> self.shift) as i32)
     }
 
     /// The pixels of a row and the one that mirrors it, at `j` and at the place that mirrors that, with 7
     /// fractional bits: upper left, upper right, lower left, lower right.
     #[inline]
-    pub(super) fn pixels<S: Sample>(&self, (top, bottom): &(Row, Row), j: u32) -> [i32; 4] {
+    pub(super) fn pixels<S: Sample>(&self, pair: &Pair, j: u32) -> [i32; 4] {
         let turn = (2 * j + 1) * self.half;
-        let terms = top.terms.iter().zip(&bottom.terms).take(self.columns as usize);
-        if S::BITS == 8 {
-            // half a unit of the result
-            let (mut even, mut odd, mut phase) = ([1_i32 << 9; 2], [0_i32; 2], 0);
-            for (u, (upper, lower)) in terms.enumerate() {
-                let c = cosine(phase);
-                let sums = if u & 1 == 0 { &mut even } else { &mut odd };
-                sums[0] = sums[0].wrapping_add(c.wrapping_mul(*upper));
-                sums[1] = sums[1].wrapping_add(c.wrapping_mul(*lower));
-                phase += turn;
+        // half a unit of the result
+        let (mut even, mut odd) = ([S::Sum::from(1 << 10); 2], [S::Sum::from(0); 2]);
+        let mut phase = 0;
+        for terms in pair.chunks_exact(2).take(self.columns) {
+            if let [[a, b], [c, d]] = terms {
+                let (p, q) = (cosine(phase), cosine(phase + turn));
+                even = [even[0] + S::product(p, *a), even[1] + S::product(p, *b)];
+                odd = [odd[0] + S::product(q, *c), odd[1] + S::product(q, *d)];
             }
-            let ([e0, e1], [o0, o1]) = (even, odd);
-            let sums = [e0.wrapping_add(o0), e0.wrapping_sub(o0), e1.wrapping_add(o1), e1.wrapping_sub(o1)];
-            return sums.map(|sum| sum >> 10);
+            phase += 2 * turn;
         }
-        let (mut even, mut odd, mut phase) = ([1_i64 << 10; 2], [0_i64; 2], 0);
-        for (u, (upper, lower)) in terms.enumerate() {
-            let c = i64::from(cosine(phase));
-            let sums = if u & 1 == 0 { &mut even } else { &mut odd };
-            sums[0] += c * i64::from(*upper);
-            sums[1] += c * i64::from(*lower);
-            phase += turn;
-        }
-        let ([e0, e1], [o0, o1]) = (even, odd);
-        [e0 + o0, e0 - o0, e1 + o1, e1 - o1].map(|sum| (sum >> 11) as i32)
+        let ([e, f], [o, p]) = (even, odd);
+        [e + o, e - o, f + p, f - p].map(|sum| (sum.into() >> 11) as i32)
     }
 }

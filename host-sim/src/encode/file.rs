@@ -7,7 +7,7 @@ use attractor::codec::{Header, Plane, Planes, Profile, Sample, Shape, Step, crc3
 use embedded_graphics::geometry::Size;
 
 use super::cosine::Cosine;
-use super::partition::{Partition, Without};
+use super::partition::{Partition, Settled, Without};
 use super::range_encoder::{Prices, RangeEncoder};
 use super::samples::Samples;
 use super::search::{Candidates, Effort};
@@ -25,6 +25,14 @@ pub(crate) struct Plan {
     /// Chroma's step in sixteenths.
     pub(crate) chroma: u8,
     pub(crate) without: Without,
+}
+
+/// A plane as an encoding before left it: what domains of sweeps lie in.
+#[derive(Clone, Debug)]
+pub(super) struct Pool {
+    pub(super) samples: Vec<u16>,
+    /// By the first sweep.
+    pub(super) settled: Settled,
 }
 
 /// A picture ready to be encoded.
@@ -99,8 +107,8 @@ impl<'a> Source<'a> {
         &self,
         step: Step,
         candidates: &[Candidates],
-        pools: Option<&[Vec<u16>]>,
-    ) -> Result<Vec<u8>, Error> {
+        pools: Option<&[Pool]>,
+    ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
         if self.deep {
             self.encode_as::<u16>(step, candidates, pools)
         } else {
@@ -112,8 +120,8 @@ impl<'a> Source<'a> {
         &self,
         step: Step,
         candidates: &[Candidates],
-        pools: Option<&[Vec<u16>]>,
-    ) -> Result<Vec<u8>, Error> {
+        pools: Option<&[Pool]>,
+    ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
         let header = self.header(step, 0);
         let shapes = self.shapes(step);
         let mut memory = vec![S::default(); shapes.iter().map(Plane::<S>::samples).sum()];
@@ -121,15 +129,19 @@ impl<'a> Source<'a> {
         let mut planes: Vec<Plane<'_, S>> =
             shapes.iter().map(|shape| Plane::new(*shape, &mut rest)).collect();
         if self.plan.profile != Profile::Streaming {
-            for (plane, pool) in planes.iter().zip(pools.unwrap_or(self.values)) {
+            for (index, plane) in planes.iter().enumerate() {
+                let pool = pools.map_or(&self.values[index], |pools| &pools[index].samples);
                 plane.picture().iter().zip(pool).for_each(|(to, from)| to.set(S::cut(i32::from(*from))));
             }
         }
+        let padded = |shape: &Shape| (shape.padded(), shape.height.next_multiple_of(shape.side()));
+        let mut settled: Vec<Settled> =
+            shapes.iter().map(padded).map(|(width, height)| Settled::new(width, height)).collect();
         let mut out = RangeEncoder::new();
         for row in (0..self.size.height).step_by(32) {
             for (index, plane) in (0..).zip(&mut planes) {
                 let band = row >> header.halved(index);
-                plane.begin(band, false);
+                plane.begin(band, 0);
                 let q = header.step_of(index) as f32 / 256.0;
                 let mut partition = Partition {
                     plane,
@@ -142,6 +154,8 @@ impl<'a> Source<'a> {
                     lambda: self.lambda() * q * q,
                     without: self.plan.without,
                     models: out.models,
+                    before: pools.map(|pools| &pools[index as usize].settled),
+                    settled: &mut settled[index as usize],
                 };
                 partition.band(band, &mut out);
             }
@@ -151,7 +165,7 @@ impl<'a> Source<'a> {
         let length = self.header(step, payload.len() as u32).write(&mut start)?;
         let mut bytes = [&start[..length], &payload].concat();
         bytes.extend(crc32(&bytes).to_le_bytes());
-        Ok(bytes)
+        Ok((bytes, settled))
     }
 }
 

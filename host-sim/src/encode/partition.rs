@@ -29,6 +29,36 @@ pub(crate) struct Without {
     pub(crate) split: bool,
 }
 
+/// Cells of 4 x 4 that stay as they are.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Settled {
+    across: u32,
+    cells: Vec<bool>,
+}
+
+impl Settled {
+    /// None, for a plane of so many columns and rows, whole squares.
+    pub(super) fn new(width: u32, height: u32) -> Self {
+        Self { across: width / 4, cells: vec![false; (width / 4 * height / 4) as usize] }
+    }
+
+    fn square(&self, x: u32, y: u32, side: u32) -> impl Iterator<Item = usize> {
+        let (across, columns) = (self.across, x / 4..(x + side).div_ceil(4));
+        let rows = y / 4..(y + side).div_ceil(4);
+        rows.flat_map(move |row| columns.clone().map(move |column| (row * across + column) as usize))
+    }
+
+    fn has(&self, x: u32, y: u32, side: u32) -> bool {
+        self.square(x, y, side).all(|cell| self.cells[cell])
+    }
+
+    fn add(&mut self, x: u32, y: u32, side: u32) {
+        for cell in self.square(x, y, side).collect::<Vec<_>>() {
+            self.cells[cell] = true;
+        }
+    }
+}
+
 /// Encodes a plane, band by band.
 pub(super) struct Partition<'a, 'm, S: Sample> {
     pub(super) plane: &'a mut Plane<'m, S>,
@@ -41,6 +71,9 @@ pub(super) struct Partition<'a, 'm, S: Sample> {
     pub(super) lambda: f32,
     pub(super) without: Without,
     pub(super) models: [Model; MODELS],
+    /// What the first sweep of the encoding before this one settled, and what that of this one does.
+    pub(super) before: Option<&'a Settled>,
+    pub(super) settled: &'a mut Settled,
 }
 
 /// The pixels of a square, mean off.
@@ -51,6 +84,7 @@ struct Target {
     /// In steps, and the squared error that stays.
     mean: i32,
     mean_error: f32,
+    mean_off: f32,
 }
 
 impl<S: Sample> Partition<'_, '_, S> {
@@ -107,6 +141,14 @@ impl<S: Sample> Partition<'_, '_, S> {
                 }
                 leaf.code(out, &self.plane.setting(x, y, size));
                 self.draw(leaf, x, y, size);
+                let place = |domain| self.plane.shape().place(domain, x, y, size);
+                let settled = match leaf.domain.as_ref().and_then(place) {
+                    Some(place) => self.settled.has(2 * place.x, 2 * place.y, 2 << size),
+                    None => true,
+                };
+                if settled {
+                    self.settled.add(x, y, 1 << size);
+                }
             }
             Node::Divided(nodes) => {
                 out.bin(self.plane.split_context(x, y, size), true);
@@ -145,6 +187,13 @@ impl<S: Sample> Partition<'_, '_, S> {
             if !self.plane.copied(&candidate.domain, x, y, size, &mut copied) {
                 continue;
             }
+            // a sweep more for what is not there in time, and for all that copies it
+            let late = match self.plane.shape().place(&candidate.domain, x, y, size) {
+                Some(place) if !place.decoded => {
+                    if self.before.is_some_and(|b| b.has(2 * place.x, 2 * place.y, 2 << size)) { std::env::var("PEN").map_or(2.0, |v| v.parse().unwrap()) } else { std::env::var("PEN2").map_or(24.0, |v| v.parse().unwrap()) }
+                }
+                _ => 0.0,
+            };
             let (mut dot, mut energy) = (0.0, 0.0);
             for ((domain, copied), value) in domain.iter_mut().zip(&copied).zip(&target.values).take(count) {
                 *domain = *copied as f32 / 128.0;
@@ -165,6 +214,7 @@ impl<S: Sample> Partition<'_, '_, S> {
                 rest.iter_mut().zip(&frequencies).for_each(|(rest, domain)| *rest -= contrast * domain);
                 let energy = target.energy - 2.0 * contrast * dot + contrast * contrast * energy;
                 let tried = self.cost(&target, &rest, energy, Some(domain), &setting);
+                let tried = (tried.0 + self.lambda * late, tried.1);
                 if tried.0 < best.0 {
                     best = tried;
                 }
@@ -183,7 +233,7 @@ impl<S: Sample> Partition<'_, '_, S> {
         let off = mean - self.plane.expected(x, y, size) as f32 / 128.0;
         let steps = (off * n as f32 / self.step).round();
         let left = off - steps * self.step / n as f32;
-        Target { values, energy, coefficients, mean: steps as i32, mean_error: left * left * (n * n) as f32 }
+        Target { values, energy, coefficients, mean_off: off, mean: steps as i32, mean_error: left * left * (n * n) as f32 }
     }
 
     fn cost(
@@ -198,11 +248,22 @@ impl<S: Sample> Partition<'_, '_, S> {
         let mut error = energy;
         if setting.transform && !self.without.transform {
             let quantiser =
-                Quantiser { models: &self.models, prices: self.prices, step: self.step, lambda: self.lambda };
+                Quantiser { models: &self.models, prices: self.prices, step: self.step, lambda: self.lambda * std::env::var("LQ").map_or(1.0, |v| v.parse().unwrap()) };
             error += quantiser.levels(coefficients, setting, &mut leaf);
         }
         let mut cost = Cost { models: &self.models, prices: self.prices, bits: 0.0 };
         leaf.code(&mut cost, setting);
-        (error.max(0.0) + target.mean_error + self.lambda * cost.bits, leaf)
+        let all = error.max(0.0) + target.mean_error + self.lambda * cost.bits;
+        if leaf.mean != 0 {
+            let n = (1 << setting.size) as f32;
+            let left = target.mean_off - (leaf.mean - leaf.mean.signum()) as f32 * self.step / n;
+            leaf.mean -= leaf.mean.signum();
+            let mut cost = Cost { models: &self.models, prices: self.prices, bits: 0.0 };
+            leaf.code(&mut cost, setting);
+            let other = error.max(0.0) + left * left * n * n + self.lambda * cost.bits;
+            if other < all { return (other, leaf); }
+            leaf.mean = target.mean;
+        }
+        (all, leaf)
     }
 }

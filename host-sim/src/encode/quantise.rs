@@ -39,16 +39,15 @@ impl Quantiser<'_> {
         let Some(most) = (1..scan.len()).rev().find(|i| value(*i).abs() > 0.5 * self.step) else {
             return 0.0;
         };
-        let kind = 2 * (setting.size - 2) as usize + usize::from(leaf.domain.is_some());
-        let last = context::LAST + (setting.chroma as usize * 8 + kind) * NUMBER;
-        let magnitude = context::MAGNITUDE + (kind & 1) * NUMBER;
+        let k = (setting.size - 2) as usize;
+        let last = context::LAST + (setting.chroma as usize * 4 + k) * NUMBER;
         let mut chosen = [0_i32; 256];
         // of what was chosen so far, as if it went on
         let mut sum = 0.0;
         let (mut least, mut end) = (self.lambda * self.number(last, 0), (0, 0));
         for (i, place) in chosen.iter_mut().enumerate().take(most + 1).skip(1) {
             let length = value(i).abs();
-            let models = kind * CLASSES + class(i as u32);
+            let models = k * CLASSES + class(i as u32);
             let significant = context::SIGNIFICANT + models * 3 + leaf.levels.about(scan[i]);
             let zero = self.lambda * self.bin(significant, false);
             let nearest = ((length / self.step + 0.5) as i32).min(attractor::codec::LARGEST);
@@ -59,7 +58,7 @@ impl Quantiser<'_> {
             let price = |level: i32| {
                 let off = length - level as f32 * self.step;
                 let large = self.bin(context::LARGE + models, level > 1);
-                let rest = if level > 1 { self.number(magnitude, level as u32 - 2) } else { 0.0 };
+                let rest = if level > 1 { self.number(context::MAGNITUDE, level as u32 - 2) } else { 0.0 };
                 off * off - length * length + self.lambda * (1.0 + large + rest)
             };
             let (mut level, mut cost) = (nearest, price(nearest));

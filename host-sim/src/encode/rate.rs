@@ -6,7 +6,7 @@
 use attractor::Error;
 use attractor::codec::{Profile, Step};
 
-use super::file::{Plan, Source};
+use super::file::{Plan, Pool, Source};
 use super::quality::psnr;
 use super::search::Effort;
 use crate::decode::{decoded, planes_of};
@@ -26,7 +26,7 @@ pub(crate) struct Encoded {
     pub(crate) psnr: f64,
     pub(crate) picture: Still,
     pub(crate) step: u16,
-    planes: Vec<Vec<u16>>,
+    pools: Vec<Pool>,
 }
 
 /// The most encodings.
@@ -73,13 +73,14 @@ pub(crate) fn meet(
     let (kind, values) = still.planes(halved);
     let source = Source::new(still.size, kind, still.peak() > 255, &values, plan);
     let truth = still.samples();
-    let mut one = |step: u16, candidates: &[super::search::Candidates], pools: Option<&[Vec<u16>]>| {
+    let mut one = |step: u16, candidates: &[super::search::Candidates], pools: Option<&[Pool]>| {
         let step = Step::from_bits(step).unwrap_or(Step::MAX);
-        let bytes = source.encode(step, candidates, pools)?;
+        let (bytes, settled) = source.encode(step, candidates, pools)?;
         let picture = decoded(&bytes, 0, None)?;
-        let planes = planes_of(&bytes)?;
+        let planes = planes_of(&bytes)?.into_iter().zip(settled);
+        let pools = planes.map(|(samples, settled)| Pool { samples, settled }).collect();
         let psnr = psnr(&truth, &picture.samples(), still.peak());
-        let encoded = Encoded { bytes, psnr, picture, step: step.to_bits(), planes };
+        let encoded = Encoded { bytes, psnr, picture, step: step.to_bits(), pools };
         said(&encoded);
         Ok::<_, Error>(encoded)
     };
@@ -92,14 +93,14 @@ pub(crate) fn meet(
     };
     let candidates = source.candidates(Some(effort), Step::from_bits(rough.step).unwrap_or(Step::MAX));
     let sweeps = plan.profile != Profile::Streaming;
-    let (mut pool, mut passes): (Option<Vec<Vec<u16>>>, u32) = (None, 0);
+    let (mut pool, mut passes): (Option<Vec<Pool>>, u32) = (None, 0);
     let tried = narrow(target, rough.step, PASSES, 0.0, |step| {
         let encoded = one(step, &candidates, pool.as_deref().filter(|_| sweeps))?;
         // the next ones take their domains from what this one looks like; then the pool stays, or no step
         // would
         // meet the target
         if passes < 2 {
-            pool = Some(encoded.planes.clone());
+            pool = Some(encoded.pools.clone());
             passes += 1;
         }
         Ok(encoded)
