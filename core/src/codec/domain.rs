@@ -5,6 +5,16 @@ use core::cell::Cell;
 use super::area::Area;
 use super::sample::Sample;
 
+/// The mean of a sample, its right neighbour and the two below.
+#[inline(never)]
+pub(super) fn halved<S: Sample>(samples: &[Cell<S>], at: u32, pitch: u32) -> i32 {
+    let two = |at: u32| match samples.get(at as usize..).and_then(|rest| rest.first_chunk()) {
+        Some([a, b]) => a.get().number() + b.get().number(),
+        None => 0,
+    };
+    (two(at) + two(at.wrapping_add(pitch)) + 2) >> 2
+}
+
 /// A domain, halved and turned.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a, S: Sample> {
@@ -39,12 +49,10 @@ impl<S: Sample> Source<'_, S> {
 
     #[inline]
     fn sample(&self, at: u32) -> i32 {
-        let one = |at: u32| self.samples.get(at as usize).map_or(0, |s| s.get().number());
         if self.lower == 0 {
-            return one(at);
+            return self.samples.get(at as usize).map_or(0, |s| s.get().number());
         }
-        let below = at.wrapping_add(self.lower);
-        (one(at) + one(at.wrapping_add(1)) + one(below) + one(below.wrapping_add(1)) + 2) >> 2
+        halved(self.samples, at, self.lower)
     }
 
     /// Lays the domain into a leaf and tells its mean, with 4 fractional bits.
@@ -80,7 +88,7 @@ impl<S: Sample> Source<'_, S> {
             }
         }
         let mean = mean(sum, drawn);
-        into.iter_mut().for_each(|slot| *slot = 8 * ((*slot << 4) - mean));
+        into.iter_mut().take(1 << (2 * drawn)).for_each(|slot| *slot = 8 * ((*slot << 4) - mean));
     }
 }
 

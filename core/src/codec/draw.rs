@@ -6,7 +6,7 @@
 //! leaf.
 
 use super::area::Area;
-use super::domain::Source;
+use super::domain::{Source, halved};
 use super::leaf::{Domain, Leaf};
 use super::plane::{Plane, rounded};
 use super::sample::Sample;
@@ -160,12 +160,12 @@ impl<'a, S: Sample> Plane<'a, S> {
         let mut pair = Pair::default();
         for i in 0..n / 2 {
             inverse.rows::<S>(i, &mut pair);
-            let [_, upper, _, lower] = inverse.pixels::<S>(&pair, 0);
+            let [_, upper, _, lower] = inverse.pixels_apart::<S>(&pair, 0);
             self.set_left(y + i, base(upper));
             self.set_left(y + n - 1 - i, base(lower));
             if i == 0 {
                 for j in 0..n / 2 {
-                    let [_, _, left, right] = inverse.pixels::<S>(&pair, j);
+                    let [_, _, left, right] = inverse.pixels_apart::<S>(&pair, j);
                     self.set_above(x + j, base(left));
                     self.set_above(x + n - 1 - j, base(right));
                 }
@@ -193,18 +193,11 @@ impl<'a, S: Sample> Plane<'a, S> {
             if 2 * y + 1 >= rows {
                 break;
             }
-            let upper = ((2 * y - band) * columns + 2 * x0) as usize;
-            let lower = upper + columns as usize;
-            let (Some(upper), Some(lower)) = (self.picture.get(upper..), self.picture.get(lower..)) else {
-                break;
-            };
+            let from = (2 * y - band) * columns + 2 * x0;
             let at = ((y - (band >> 1) + offset) * width + x0) as usize;
             let Some(to) = self.half.get(at..at + n.min(width - x0) as usize) else { break };
-            for ((to, upper), lower) in to.iter().zip(upper.chunks_exact(2)).zip(lower.chunks_exact(2)) {
-                if let ([a, b], [c, d]) = (upper, lower) {
-                    let sum = a.get().number() + b.get().number() + c.get().number() + d.get().number();
-                    to.set(S::cut((sum + 2) >> 2));
-                }
+            for (to, k) in to.iter().zip(0..) {
+                to.set(S::cut(halved(self.picture, from + 2 * k, columns)));
             }
         }
     }

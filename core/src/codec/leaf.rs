@@ -144,7 +144,8 @@ impl Leaf {
             }
             let mut magnitude = 1;
             if coder.bin(context::LARGE + models, level.unsigned_abs() > 1) {
-                magnitude = 2 + number(coder, context::MAGNITUDE, level.unsigned_abs().saturating_sub(2)) as i32;
+                magnitude =
+                    2 + number(coder, context::MAGNITUDE, level.unsigned_abs().saturating_sub(2)) as i32;
             }
             let negative = coder.raw(1, u32::from(level < 0)) == 1;
             self.levels.set(*place, if negative { -magnitude } else { magnitude });

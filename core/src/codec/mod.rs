@@ -13,13 +13,11 @@
 //! | [`Pure`](Profile::Pure) | anywhere; no transform | the same |
 //!
 //! Bytes come from any iterator; with the feature `embedded-io` from any of its readers, by `Bytes`. The
-//! format
-//! is written down in `docs/IMAGE-FORMAT.md` of the repository; the command `attractor encode` writes it.
-//! [`Plane`], [`Leaf`] and [`Coder`] are what an encoder shares with the decoder: it walks the same syntax
-//! with a
-//! coder that writes.
+//! format is written down in `docs/IMAGE-FORMAT.md` of the repository; the command `attractor encode` writes
+//! it.
 
 mod area;
+#[doc(hidden)]
 pub mod context;
 mod crc;
 mod domain;
@@ -39,25 +37,19 @@ mod read;
 mod sample;
 mod settled;
 mod shape;
+#[doc(hidden)]
+pub mod shared;
 mod stream;
 mod streamed;
 mod sweeps;
 mod transform;
 
-pub use context::{COUNT as MODELS, NUMBER};
-pub use crc::crc32;
 pub use header::{Header, Planes, Profile, Step};
-pub use leaf::{CLASSES, Domain, Leaf, Setting, class, scan};
-pub use models::{Coder, Model, number};
 pub use opened::{Opened, check, open};
-pub use edge::Edge;
-pub use plane::Plane;
 pub use planes::{Luma, Part};
 #[cfg(feature = "embedded-io")]
 pub use read::Bytes;
 pub use sample::Sample;
-pub use shape::{Place, Shape};
 pub use stream::Stream;
 pub use streamed::Streamed;
 pub use sweeps::Sweeps;
-pub use transform::{FREQUENCIES, LARGEST, Levels};

@@ -78,6 +78,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// Takes its memory from the front of `memory`.
+    #[inline(never)]
     pub fn new(shape: Shape, memory: &mut &'a [Cell<S>]) -> Self {
         let mut take = |length: usize| {
             let (taken, rest) = memory.split_at(length.min(memory.len()));
@@ -126,6 +127,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// Makes ready for a band, after so many sweeps.
+    #[inline(never)]
     pub fn begin(&mut self, band: u32, done: u32) {
         self.done = done;
         if band == 0 {

@@ -5,9 +5,8 @@ use core::cell::Cell;
 use embedded_graphics_core::geometry::Size;
 
 use super::crc::Crc;
-use super::header::Header;
+use super::header::{Header, WHAT};
 use super::leaf::{Leaf, Setting};
-use super::opened::WHAT;
 use super::plane::Plane;
 use super::range_decoder::RangeDecoder;
 use super::sample::Sample;

@@ -17,10 +17,13 @@ pub trait Sample: Copy + sealed::Sealed + 'static {
     /// As a number.
     fn number(self) -> i32;
     /// What sums of a transform's products fit.
+    #[doc(hidden)]
     type Sum: Copy + From<i32> + Into<i64> + Add<Output = Self::Sum> + Sub<Output = Self::Sum>;
     /// The product of a cosine and a term.
+    #[doc(hidden)]
     fn product(cosine: i32, term: i32) -> Self::Sum;
     /// A term as it is kept: 16 of them times cosines of 14 bits stay within a sum.
+    #[doc(hidden)]
     fn term(value: i32) -> i32;
 }
 

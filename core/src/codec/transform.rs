@@ -183,6 +183,16 @@ impl<'a> Inverse<'a> {
         S::term(((i64::from(sum) * self.step + (1 << self.shift >> 1)) >> self.shift) as i32)
     }
 
+    /// [`Inverse::pixels`] where it is seldom asked for.
+    #[inline(never)]
+    pub(super) fn pixels_apart<S: Sample>(&self, pair: &Pair, j: u32) -> [i32; 4] {
+        self.pixels::<S>(pair, j)
+    }
+
+    /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns` those
+    /// of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is rounded to
+    /// `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
+    ///
     /// The pixels of a row and the one that mirrors it, at `j` and at the place that mirrors that, with 7
     /// fractional bits: upper left, upper right, lower left, lower right.
     #[inline]
@@ -201,5 +211,97 @@ impl<'a> Inverse<'a> {
         }
         let ([e, f], [o, p]) = (even, odd);
         [e + o, e - o, f + p, f - p].map(|sum| (sum.into() >> 11) as i32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    fn worst<S: Sample>(most: f64) -> f64 {
+        let (mut worst, mut state, mut tried) = (0.0_f64, 1_u64, 0);
+        let mut random = |below: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % below
+        };
+        for round in 0..240_u32 {
+            let size = 2 + round % 4;
+            let n = 1_usize << size;
+            let mut levels = Levels::default();
+            let step = 16 + random(1 << (5 + round % 9)) as u32;
+            let q = f64::from(step) / 256.0;
+            let (mut sum, mut exact, mut columns) = (0.0, std::vec![0.0; n * n], 0);
+            for _ in 0..1 + random(12) {
+                let (v, u) = (random(n.min(16) as u64) as usize, random(n.min(16) as u64) as usize);
+                let place = (v << 4 | u) as u8;
+                let level = random(1 << (1 + round % 7)) as i32 - (1 << (round % 7));
+                let next = sum + 2.0 / n as f64 * q * f64::from(level.abs());
+                if place == 0 || levels.get(place) != 0 || next > most {
+                    continue;
+                }
+                levels.set(place, level);
+                (sum, columns) = (next, columns.max(u + 1));
+                let k = |w: usize| if w == 0 { 0.5_f64.sqrt() } else { 1.0 };
+                for (at, value) in exact.iter_mut().enumerate() {
+                    let wave =
+                        |w: usize, i: usize| k(w) * (PI * ((2 * i + 1) * w) as f64 / (2 * n) as f64).cos();
+                    *value += 2.0 / n as f64 * q * f64::from(level) * wave(v, at / n) * wave(u, at % n);
+                }
+            }
+            let bound = 1.0 / 256.0 + (columns + 1) as f64 / 32.0 + sum / 16384.0;
+            let inverse = Inverse::new(&levels, step, size, size);
+            let mut pair = Pair::default();
+            for i in 0..n / 2 {
+                inverse.rows::<S>(i as u32, &mut pair);
+                for j in 0..n / 2 {
+                    let four = inverse.pixels::<S>(&pair, j as u32);
+                    let (below, right) = (n - 1 - i, n - 1 - j);
+                    for ((i, j), got) in
+                        [(i, j), (i, right), (below, j), (below, right)].into_iter().zip(four)
+                    {
+                        let off = (f64::from(got) / 128.0 - exact[i * n + j]).abs();
+                        assert!(off < bound, "{n} ({i}, {j}): {off}, allowed {bound}");
+                        worst = worst.max(off / bound);
+                        tried += 1;
+                    }
+                }
+            }
+        }
+        assert!(tried > 50_000, "{tried}");
+        worst
+    }
+
+    #[test]
+    fn a_transform_keeps_the_bound_of_its_arithmetic() {
+        let (small, deep) = (worst::<u8>(500.0), worst::<u16>(60_000.0));
+        std::println!("{small:.3} and {deep:.3} of the bound");
+        assert!(small > 0.3 && deep > 0.3, "{small} {deep}");
+    }
+
+    #[test]
+    fn the_greatest_levels_stay_within_32_bits() {
+        for negative in [0, 1, 2] {
+            let mut levels = Levels::default();
+            for place in 1..=255_u8 {
+                let sign = if negative == 2 { place.count_ones() % 2 } else { negative };
+                levels.set(place, if sign == 1 { -9999 } else { 9999 });
+            }
+            assert_eq!(levels.get(17).abs(), LARGEST);
+            let inverse = Inverse::new(&levels, (511 << 23) >> 4, 2, 5);
+            let mut pair = Pair::default();
+            for i in 0..16 {
+                inverse.rows::<u8>(i, &mut pair);
+                assert!(pair.as_flattened().iter().all(|term| (-8192..8192).contains(term)));
+                (0..16).for_each(|j| {
+                    inverse.pixels::<u8>(&pair, j);
+                });
+                inverse.rows::<u16>(i, &mut pair);
+                (0..16).for_each(|j| {
+                    inverse.pixels::<u16>(&pair, j);
+                });
+            }
+        }
     }
 }

@@ -3,7 +3,8 @@
 use std::cell::Cell;
 
 use attractor::Error;
-use attractor::codec::{Header, Plane, Planes, Profile, Sample, Shape, Step, crc32};
+use attractor::codec::shared::{Plane, Shape, crc32};
+use attractor::codec::{Header, Planes, Profile, Sample, Step};
 use embedded_graphics::geometry::Size;
 
 use super::cosine::Cosine;
@@ -97,28 +98,38 @@ impl<'a> Source<'a> {
         (0..).zip(self.shapes(step).iter().zip(&self.originals)).map(find).collect()
     }
 
-    fn lambda(&self) -> f32 {
-        if let Ok(l) = std::env::var("LAM") { return l.parse().unwrap(); }
+    /// What a domain costs besides its bits that the first sweep does not find ready: where all of it is settled
+    /// by that sweep, and else. Whatever copies it waits for it as well, so few sweeps allow few of them.
+    const fn late(&self) -> [f32; 2] {
+        match self.plan.reach {
+            0..=2 => [2.0, 1e4],
+            3 => [12.0, 16.0],
+            _ => [0.0; 2],
+        }
+    }
+
+    const fn lambda(&self) -> f32 {
         if matches!(self.plan.profile, Profile::Pure) { LAMBDA_PURE } else { LAMBDA }
     }
 
-    /// The stream. Domains of sweeps lie in `pools`, the planes as they will be decoded, or else the picture.
+    /// The stream, and what its first sweep settles. Domains of sweeps lie in `pools`, the planes as they will
+    /// be decoded, or else the picture. A bit is worth `thrift` times as much as it should be.
     pub(super) fn encode(
         &self,
-        step: Step,
+        (step, thrift): (Step, f32),
         candidates: &[Candidates],
         pools: Option<&[Pool]>,
     ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
         if self.deep {
-            self.encode_as::<u16>(step, candidates, pools)
+            self.encode_as::<u16>((step, thrift), candidates, pools)
         } else {
-            self.encode_as::<u8>(step, candidates, pools)
+            self.encode_as::<u8>((step, thrift), candidates, pools)
         }
     }
 
     fn encode_as<S: Sample + Default>(
         &self,
-        step: Step,
+        (step, thrift): (Step, f32),
         candidates: &[Candidates],
         pools: Option<&[Pool]>,
     ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
@@ -151,7 +162,8 @@ impl<'a> Source<'a> {
                     prices: &self.prices,
                     profile: self.plan.profile,
                     step: q,
-                    lambda: self.lambda() * q * q,
+                    lambda: thrift * self.lambda() * q * q,
+                    late: self.late(),
                     without: self.plan.without,
                     models: out.models,
                     before: pools.map(|pools| &pools[index as usize].settled),

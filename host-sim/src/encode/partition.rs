@@ -4,7 +4,9 @@
 //! (G. Sullivan, T. Wiegand, "Rate-distortion optimization for video compression", 1998). What a bit costs is
 //! asked of the models as they stand before the square; they learn when it is written.
 
-use attractor::codec::{Coder as _, Domain, Leaf, MODELS, Model, Plane, Profile, Sample, Setting};
+use attractor::codec::shared::Coder as _;
+use attractor::codec::shared::{Domain, Leaf, MODELS, Model, Plane, Setting};
+use attractor::codec::{Profile, Sample};
 
 use super::cosine::{Coefficients, Cosine};
 use super::quantise::Quantiser;
@@ -69,6 +71,8 @@ pub(super) struct Partition<'a, 'm, S: Sample> {
     pub(super) profile: Profile,
     pub(super) step: f32,
     pub(super) lambda: f32,
+    /// Bits for domains that a sweep more must wait for.
+    pub(super) late: [f32; 2],
     pub(super) without: Without,
     pub(super) models: [Model; MODELS],
     /// What the first sweep of the encoding before this one settled, and what that of this one does.
@@ -81,10 +85,9 @@ struct Target {
     values: [f32; 1024],
     energy: f32,
     coefficients: Coefficients,
-    /// In steps, and the squared error that stays.
+    /// Of the mean, what is left of what the neighbours let expect, and the nearest number of steps.
+    off: f32,
     mean: i32,
-    mean_error: f32,
-    mean_off: f32,
 }
 
 impl<S: Sample> Partition<'_, '_, S> {
@@ -190,7 +193,9 @@ impl<S: Sample> Partition<'_, '_, S> {
             // a sweep more for what is not there in time, and for all that copies it
             let late = match self.plane.shape().place(&candidate.domain, x, y, size) {
                 Some(place) if !place.decoded => {
-                    if self.before.is_some_and(|b| b.has(2 * place.x, 2 * place.y, 2 << size)) { std::env::var("PEN").map_or(2.0, |v| v.parse().unwrap()) } else { std::env::var("PEN2").map_or(24.0, |v| v.parse().unwrap()) }
+                    let [ready, else_] = self.late;
+                    let settled = self.before.is_some_and(|b| b.has(2 * place.x, 2 * place.y, 2 << size));
+                    self.lambda * if settled { ready } else { else_ }
                 }
                 _ => 0.0,
             };
@@ -213,10 +218,9 @@ impl<S: Sample> Partition<'_, '_, S> {
                 let mut rest = target.coefficients;
                 rest.iter_mut().zip(&frequencies).for_each(|(rest, domain)| *rest -= contrast * domain);
                 let energy = target.energy - 2.0 * contrast * dot + contrast * contrast * energy;
-                let tried = self.cost(&target, &rest, energy, Some(domain), &setting);
-                let tried = (tried.0 + self.lambda * late, tried.1);
-                if tried.0 < best.0 {
-                    best = tried;
+                let (cost, leaf) = self.cost(&target, &rest, energy, Some(domain), &setting);
+                if cost + late < best.0 {
+                    best = (cost + late, leaf);
                 }
             }
         }
@@ -231,9 +235,8 @@ impl<S: Sample> Partition<'_, '_, S> {
         let mut coefficients = [0.0; 256];
         self.cosine.forward(size, &values[..n * n], &mut coefficients);
         let off = mean - self.plane.expected(x, y, size) as f32 / 128.0;
-        let steps = (off * n as f32 / self.step).round();
-        let left = off - steps * self.step / n as f32;
-        Target { values, energy, coefficients, mean_off: off, mean: steps as i32, mean_error: left * left * (n * n) as f32 }
+        let mean = (off * n as f32 / self.step).round() as i32;
+        Target { values, energy, coefficients, off, mean }
     }
 
     fn cost(
@@ -248,21 +251,23 @@ impl<S: Sample> Partition<'_, '_, S> {
         let mut error = energy;
         if setting.transform && !self.without.transform {
             let quantiser =
-                Quantiser { models: &self.models, prices: self.prices, step: self.step, lambda: self.lambda * std::env::var("LQ").map_or(1.0, |v| v.parse().unwrap()) };
+                Quantiser { models: &self.models, prices: self.prices, step: self.step, lambda: self.lambda };
             error += quantiser.levels(coefficients, setting, &mut leaf);
         }
-        let mut cost = Cost { models: &self.models, prices: self.prices, bits: 0.0 };
-        leaf.code(&mut cost, setting);
-        let all = error.max(0.0) + target.mean_error + self.lambda * cost.bits;
-        if leaf.mean != 0 {
-            let n = (1 << setting.size) as f32;
-            let left = target.mean_off - (leaf.mean - leaf.mean.signum()) as f32 * self.step / n;
-            leaf.mean -= leaf.mean.signum();
+        // the nearest mean, or one that is a step nearer to what the neighbours let expect
+        let n = (1 << setting.size) as f32;
+        let price = |leaf: &mut Leaf, mean: i32| {
+            leaf.mean = mean;
             let mut cost = Cost { models: &self.models, prices: self.prices, bits: 0.0 };
             leaf.code(&mut cost, setting);
-            let other = error.max(0.0) + left * left * n * n + self.lambda * cost.bits;
-            if other < all { return (other, leaf); }
-            leaf.mean = target.mean;
+            let off = target.off * n - mean as f32 * self.step;
+            error.max(0.0) + off * off + self.lambda * cost.bits
+        };
+        let nearer = target.mean - target.mean.signum();
+        let (less, all) = (price(&mut leaf, nearer), price(&mut leaf, target.mean));
+        if less < all {
+            leaf.mean = nearer;
+            return (less, leaf);
         }
         (all, leaf)
     }

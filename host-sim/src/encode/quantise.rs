@@ -5,7 +5,7 @@
 //! the
 //! models as they stand; then the place to stop is the one where the sum was least.
 
-use attractor::codec::{CLASSES, Leaf, MODELS, Model, NUMBER, Setting, class, context, number, scan};
+use attractor::codec::shared::{CLASSES, Leaf, MODELS, Model, NUMBER, Setting, class, context, number, scan};
 
 use super::cosine::Coefficients;
 use super::range_encoder::{Cost, Prices};
@@ -50,7 +50,7 @@ impl Quantiser<'_> {
             let models = k * CLASSES + class(i as u32);
             let significant = context::SIGNIFICANT + models * 3 + leaf.levels.about(scan[i]);
             let zero = self.lambda * self.bin(significant, false);
-            let nearest = ((length / self.step + 0.5) as i32).min(attractor::codec::LARGEST);
+            let nearest = ((length / self.step + 0.5) as i32).min(attractor::codec::shared::LARGEST);
             if nearest == 0 {
                 sum += zero;
                 continue;
