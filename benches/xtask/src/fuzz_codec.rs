@@ -148,7 +148,7 @@ impl Coder for Writer<'_> {
 fn payload<S: Sample>(header: &Header, random: &mut Random, memory: &mut [S]) -> Vec<u8> {
     let mut rest = Cell::from_mut(memory).as_slice_of_cells();
     let mut planes = header.shapes(0).map(|shape| Plane::new(shape, &mut rest));
-    let [domains, ones] = [[0, 8, 40, 160], [20, 70, 128, 200]].map(|rates| rates[random.below(4)]);
+    let [domains, ones] = [[0, 4, 16, 120], [20, 70, 128, 200]].map(|rates| rates[random.below(4)]);
     let models = [Model::NEW; MODELS];
     let mut writer = Writer { random, domains, ones, low: 0, range: u32::MAX, bytes: Vec::new(), models };
     let count = if header.planes == Planes::Grey { 1 } else { 3 };
@@ -169,7 +169,7 @@ fn payload<S: Sample>(header: &Header, random: &mut Random, memory: &mut [S]) ->
     writer.bytes
 }
 
-/// A stream: made, and then changed here and there in three of four.
+/// A stream: made, and then changed here and there in two of three.
 fn stream(random: &mut Random, memory: &mut [u8], deep: &mut [u16]) -> Result<Vec<u8>> {
     let planes = [Planes::Grey, Planes::Grey, Planes::Colour, Planes::ColourHalved][random.below(4)];
     let profile = [Profile::Streaming, Profile::Iterated, Profile::Pure][random.below(3)];
@@ -185,7 +185,7 @@ fn stream(random: &mut Random, memory: &mut [u8], deep: &mut [u16]) -> Result<Ve
     };
     let mut payload =
         if header.deep { payload(&header, random, deep) } else { payload(&header, random, memory) };
-    if random.below(4) > 0 {
+    if random.below(3) > 0 {
         for _ in 0..=random.below(3) {
             let at = random.below(payload.len());
             payload[at] = random.next() as u8;

@@ -1,6 +1,8 @@
 //! Images by fractals: a picture is a partition into squares, each of which says how it copies itself from a
 //! square twice as large, and what is missing then.
 //!
+#![doc = include_str!("../../docs/codec.md")]
+//!
 //! "The original image is processed to create the list of affine maps, resulting in a greatly compressed
 //! representation of the image. In the decompression phase the list of affine maps is used and an algorithm
 //! such as the Chaos Game reconstructs the image." (CS2401 Computer Graphics, unit V, 5.3.4.) What is missing
