@@ -17,6 +17,7 @@ mod patches;
 mod pictures;
 mod pictures_of_worlds;
 mod promises;
+mod pure_maps;
 mod robust;
 mod solids;
 mod terrain;

@@ -216,6 +216,9 @@ pub(crate) struct Encode {
     /// How it is decoded
     #[arg(long, value_name = "PROFILE", default_value = "streaming")]
     pub(crate) profile: EncodeProfile,
+    /// How many sweeps a decoder may need; fewer leave fewer domains to choose from [default: 4, pure: 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=8))]
+    pub(crate) sweeps: Option<u8>,
     /// How hard to look for domains
     #[arg(long, value_name = "EFFORT", default_value = "best")]
     pub(crate) effort: EncodeEffort,

@@ -3,7 +3,8 @@
 use std::io::Write as _;
 
 use attractor::Error;
-use attractor::codec::{Coder, Leaf, MODELS, Model, Profile, Sample, Setting, context, open};
+use attractor::codec::shared::{Coder, Leaf, MODELS, Model, Setting, context};
+use attractor::codec::{Profile, Sample, open};
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::*;
 use embedded_graphics_simulator::SimulatorDisplay;
@@ -72,7 +73,7 @@ fn leaves<S: Sample + Default>(bytes: &[u8], counter: &mut Counter) -> Result<Ve
     opened.leaves(&mut memory, |plane, leaf: &Leaf, setting: &Setting, at| {
         leaf.clone().code(counter, setting);
         let place = |domain| shapes[plane as usize].place(domain, at[0], at[1], setting.size);
-        let domain = leaf.domain.as_ref().map(|d| (d.near, place(d).map_or([0; 2], |(x, y)| [2 * x, 2 * y])));
+        let domain = leaf.domain.as_ref().map(|d| (d.near, place(d).map_or([0; 2], |p| [2 * p.x, 2 * p.y])));
         all.push((plane, at, setting.size, domain));
     })?;
     Ok(all)

@@ -1,9 +1,9 @@
 //! Images: whatever the bytes, a decoder ends, and what an encoder shares with it takes whatever it is given.
 
-use attractor::codec::{
-    Bytes, Coder, Domain, Header, Leaf, Levels, Luma, MODELS, Model, Part, Plane, Planes, Profile, Setting,
-    Shape, Step, Streamed, Sweeps, check, class, context, crc32, number, open, scan,
+use attractor::codec::shared::{
+    Coder, Domain, Leaf, Levels, MODELS, Model, Plane, Setting, Shape, class, context, crc32, number, scan,
 };
+use attractor::codec::{Bytes, Header, Luma, Part, Planes, Profile, Step, Streamed, Sweeps, check, open};
 use attractor::draw::{Palette, YCoCg};
 
 use std::cell::Cell;
@@ -126,7 +126,7 @@ fn models_stay_probabilities() {
         least = least.min(model.zero());
         most = most.max(model.zero());
     }
-    assert!((32..64).contains(&least) && (8128..=8160).contains(&most), "{least} {most}");
+    assert!((31..64).contains(&least) && (8128..=8160).contains(&most), "{least} {most}");
 }
 
 #[test]
@@ -207,11 +207,11 @@ fn a_plane_takes_any_leaf() {
         let mut leaf = Leaf::default();
         let mut leaves = 0;
         for band in (0..height).step_by(1 << largest) {
-            plane.begin(band, seed % 2 == 0);
+            plane.begin(band, (seed % 3) as u32);
             plane.decode(&mut coder, &mut leaf, |_| false, |_, _, _| leaves += 1);
         }
         // what an encoder asks
-        plane.begin(0, false);
+        plane.begin(0, 0);
         let edge = plane.edge(0, 0, largest);
         let setting = plane.setting(0, 0, 3);
         assert!(plane.split_context(0, 0, 3) < context::DOMAIN && setting.far == shape.far(3));

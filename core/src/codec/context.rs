@@ -21,13 +21,13 @@ pub const SCALING: usize = ROW + 4 * 16;
 pub const MEAN: usize = SCALING + 4 * 16;
 /// By plane and size.
 pub const MEAN_SIGN: usize = MEAN + 2 * 4 * NUMBER;
-/// By plane, size and whether there is a domain.
+/// By plane and size, a number.
 pub const LAST: usize = MEAN_SIGN + 2 * 4;
-/// By size, domain, class of the frequency and how many coefficients before it are not 0.
-pub const SIGNIFICANT: usize = LAST + 2 * 8 * NUMBER;
-/// By size, domain and class of the frequency.
-pub const LARGE: usize = SIGNIFICANT + 8 * 13 * 3;
-/// By size class and domain.
-pub const MAGNITUDE: usize = LARGE + 8 * 13;
+/// By size, class of the frequency and what is at the next lower ones.
+pub const SIGNIFICANT: usize = LAST + 2 * 4 * NUMBER;
+/// By size and class of the frequency.
+pub const LARGE: usize = SIGNIFICANT + 4 * 13 * 3;
+/// A number.
+pub const MAGNITUDE: usize = LARGE + 4 * 13;
 /// How many models there are.
-pub const COUNT: usize = MAGNITUDE + 2 * NUMBER;
+pub const COUNT: usize = MAGNITUDE + NUMBER;

@@ -2,7 +2,18 @@
 
 use core::cell::Cell;
 
+use super::area::Area;
 use super::sample::Sample;
+
+/// The mean of a sample, its right neighbour and the two below.
+#[inline(never)]
+pub(super) fn halved<S: Sample>(samples: &[Cell<S>], at: u32, pitch: u32) -> i32 {
+    let two = |at: u32| match samples.get(at as usize..).and_then(|rest| rest.first_chunk()) {
+        Some([a, b]) => a.get().number() + b.get().number(),
+        None => 0,
+    };
+    (two(at) + two(at.wrapping_add(pitch)) + 2) >> 2
+}
 
 /// A domain, halved and turned.
 #[derive(Debug, Clone, Copy)]
@@ -14,29 +25,13 @@ pub(super) struct Source<'a, S: Sample> {
     pub(super) down: u32,
     /// How far the pixel below one is, where four of them are averaged; 0 where that was done.
     pub(super) lower: u32,
-    /// Eight times the contrast.
-    pub(super) contrast: i32,
-    /// With 4 fractional bits.
-    pub(super) mean: i32,
 }
 
 impl<S: Sample> Source<'_, S> {
-    /// Takes the mean of a domain drawn with `2^drawn` samples a side, then turns it.
+    /// Turns a domain drawn with `2^drawn` samples a side by an isometry: where (i, j) goes as both grow.
     #[inline]
-    pub(super) fn prepare(&mut self, isometry: u32, drawn: u32) {
-        let m = 1_u32 << drawn;
-        // the mean first, in the order in which the samples lie
-        let mut sum = 0_u32;
-        for i in 0..m {
-            let mut at = self.row(i);
-            for _ in 0..m {
-                sum = sum.wrapping_add(self.sample(at));
-                at = at.wrapping_add(self.right);
-            }
-        }
-        self.mean = (((u64::from(sum) << 4) + ((1 << (2 * drawn)) >> 1)) >> (2 * drawn)) as i32;
-        // then the isometry: where (i, j) goes as both grow
-        let end = m - 1;
+    pub(super) fn turned(mut self, isometry: u32, drawn: u32) -> Self {
+        let end = (1 << drawn) - 1;
         let (down, right) = (self.down, self.right);
         if isometry & 1 != 0 {
             self.start = self.start.wrapping_add(end * right);
@@ -49,35 +44,56 @@ impl<S: Sample> Source<'_, S> {
         if isometry & 4 != 0 {
             (self.down, self.right) = (self.right, self.down);
         }
+        self
     }
 
     #[inline]
-    pub(super) fn row(&self, i: u32) -> u32 {
-        self.start.wrapping_add(i.wrapping_mul(self.down))
-    }
-
-    #[inline]
-    pub(super) fn sample(&self, at: u32) -> u32 {
-        let one = |at: u32| self.samples.get(at as usize).map_or(0, |s| s.get().number() as u32);
+    fn sample(&self, at: u32) -> i32 {
         if self.lower == 0 {
-            return one(at);
+            return self.samples.get(at as usize).map_or(0, |s| s.get().number());
         }
-        let below = at.wrapping_add(self.lower);
-        (one(at) + one(at.wrapping_add(1)) + one(below) + one(below.wrapping_add(1)) + 2) >> 2
+        halved(self.samples, at, self.lower)
     }
 
-    /// What a place of a row adds, with 7 fractional bits; goes to the next.
-    #[inline]
-    pub(super) fn next(&self, at: &mut u32) -> i32 {
-        let added = self.contrast * (((self.sample(*at) << 4) as i32) - self.mean);
-        *at = at.wrapping_add(self.right);
-        added
+    /// Lays the domain into a leaf and tells its mean, with 4 fractional bits.
+    #[inline(never)]
+    pub(super) fn lay(&self, leaf: &Area<'_, S>, drawn: u32) -> i32 {
+        let mut sum = 0_u32;
+        let m = 1 << drawn;
+        let mut start = self.start;
+        for i in 0..m {
+            let (row, mut at) = (leaf.row(i), start);
+            for j in 0..m {
+                let value = self.sample(at);
+                sum = sum.wrapping_add(value as u32);
+                if let Some(slot) = row.get(j as usize) {
+                    slot.set(S::cut(value));
+                }
+                at = at.wrapping_add(self.right);
+            }
+            start = start.wrapping_add(self.down);
+        }
+        mean(sum, drawn)
     }
 
-    /// The same for the pixel in row `i` and column `j`.
-    #[inline]
-    pub(super) fn at(&self, i: u32, j: u32) -> i32 {
-        let mut at = self.row(i).wrapping_add(j.wrapping_mul(self.right));
-        self.next(&mut at)
+    /// What the domain less its mean is at full contrast, with 7 fractional bits: for an encoder.
+    pub(super) fn copied(&self, drawn: u32, into: &mut [i32]) {
+        let (m, mut sum) = (1 << drawn, 0_u32);
+        for (i, row) in (0..m).zip(into.chunks_exact_mut(1 << drawn)) {
+            let mut at = self.start.wrapping_add(self.down.wrapping_mul(i));
+            for slot in row {
+                *slot = self.sample(at);
+                sum = sum.wrapping_add(*slot as u32);
+                at = at.wrapping_add(self.right);
+            }
+        }
+        let mean = mean(sum, drawn);
+        into.iter_mut().take(1 << (2 * drawn)).for_each(|slot| *slot = 8 * ((*slot << 4) - mean));
     }
+}
+
+/// The mean of a sum of so many samples, with 4 fractional bits.
+#[inline]
+fn mean(sum: u32, drawn: u32) -> i32 {
+    (((u64::from(sum) << 4) + (1 << (2 * drawn) >> 1)) >> (2 * drawn)) as i32
 }

@@ -7,6 +7,9 @@ use crate::Error;
 use crate::num::Wide;
 use crate::plane::checked_size;
 
+/// What complaints call a stream.
+pub(super) const WHAT: &str = "image";
+
 /// How a picture is made of its stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -85,67 +88,73 @@ impl Header {
     pub const MAGIC: [u8; 4] = *b"ATFI";
     /// The version that this code reads and writes.
     pub const VERSION: u8 = 1;
+    /// Bytes before the payload's length.
+    const FIXED: usize = 14;
     /// The most bytes that a header has.
     pub const LONGEST: usize = 18;
 
     /// Reads a header.
+    #[inline(never)]
     pub(super) fn read(source: &mut impl Iterator<Item = u8>) -> Result<(Self, Crc), Error> {
-        let mut reader = Reader { source, crc: Crc::NEW, position: 0 };
-        for letter in Self::MAGIC {
-            if reader.byte()? != letter {
-                return Err(reader.wrong());
+        let mut crc = Crc::NEW;
+        let wrong = |position: usize| Error::Malformed { what: WHAT, position };
+        // those of fixed length, then the payload's length
+        let (mut fixed, mut payload) = ([0; Self::FIXED], 0_u32);
+        for position in 0..Self::LONGEST {
+            let byte = source.next().ok_or(Error::Ended { what: WHAT, position })?;
+            crc.add(byte);
+            if let Some(slot) = fixed.get_mut(position) {
+                *slot = byte;
+                if Self::MAGIC.get(position).is_some_and(|letter| *letter != byte) {
+                    return Err(wrong(position));
+                }
+                if position == 4 && byte != Self::VERSION {
+                    return Err(Error::Unsupported { what: "version of an image", allowed: "1" });
+                }
+                continue;
+            }
+            payload |= u32::from(byte & 127) << (7 * (position - Self::FIXED));
+            if byte < 128 {
+                break;
+            }
+            if position + 1 == Self::LONGEST {
+                return Err(wrong(position));
             }
         }
-        if reader.byte()? != Self::VERSION {
-            return Err(Error::Unsupported { what: "version of an image", allowed: "1" });
-        }
-        let flags = reader.byte()?;
+        let [_, _, _, _, _, flags, w0, w1, h0, h1, s0, s1, reach, chroma] = fixed;
         let profile = match flags & 3 {
             0 => Profile::Streaming,
             1 => Profile::Iterated,
             2 => Profile::Pure,
-            _ => return Err(reader.wrong()),
+            _ => return Err(wrong(5)),
         };
         let planes = match flags >> 2 & 3 {
             0 => Planes::Grey,
             1 => Planes::Colour,
             2 => Planes::ColourHalved,
-            _ => return Err(reader.wrong()),
+            _ => return Err(wrong(5)),
         };
         if flags >> 5 != 0 {
-            return Err(reader.wrong());
+            return Err(wrong(5));
         }
-        let [width, height] = [reader.pair()?, reader.pair()?];
+        let [width, height, step] = [[w0, w1], [h0, h1], [s0, s1]].map(u16::from_le_bytes);
         let size = checked_size(Size::new(width.into(), height.into()))?;
-        let step = reader.pair()?;
-        let Some(step) = Step::from_bits(step) else { return Err(reader.wrong()) };
-        let reach = reader.byte()?;
+        let Some(step) = Step::from_bits(step) else { return Err(wrong(11)) };
         if reach > 8 || (reach == 0 && profile != Profile::Streaming) {
-            return Err(reader.wrong());
+            return Err(wrong(12));
         }
-        let chroma = reader.byte()?;
         if (chroma == 0) != (planes == Planes::Grey) {
-            return Err(reader.wrong());
-        }
-        let mut payload = 0_u32;
-        for shift in [0, 7, 14, 21] {
-            let byte = reader.byte()?;
-            payload |= u32::from(byte & 127) << shift;
-            if byte < 128 {
-                break;
-            }
-            if shift == 21 {
-                return Err(reader.wrong());
-            }
+            return Err(wrong(13));
         }
         let deep = flags >> 4 & 1 == 1;
-        Ok((Self { size, profile, planes, deep, step, reach, chroma, payload }, reader.crc))
+        Ok((Self { size, profile, planes, deep, step, reach, chroma, payload }, crc))
     }
 
     /// Writes the header into `bytes` and says how many it took.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a payload of `2^28` bytes or more.
+    #[doc(hidden)]
     pub fn write(&self, bytes: &mut [u8; Self::LONGEST]) -> Result<usize, Error> {
         if self.payload >> 28 != 0 {
             let (value, max) = (Wide::MAX, Wide::MAX);
@@ -226,28 +235,5 @@ impl Header {
     pub const fn plane_size(&self, plane: u32) -> Size {
         let k = self.halved(plane);
         Size::new((self.size.width + k) >> k, (self.size.height + k) >> k)
-    }
-}
-
-struct Reader<'a, I> {
-    source: &'a mut I,
-    crc: Crc,
-    position: usize,
-}
-
-impl<I: Iterator<Item = u8>> Reader<'_, I> {
-    fn byte(&mut self) -> Result<u8, Error> {
-        let byte = self.source.next().ok_or(Error::Ended { what: "image", position: self.position })?;
-        self.crc.add(byte);
-        self.position += 1;
-        Ok(byte)
-    }
-
-    fn pair(&mut self) -> Result<u16, Error> {
-        Ok(u16::from_le_bytes([self.byte()?, self.byte()?]))
-    }
-
-    fn wrong(&self) -> Error {
-        Error::Malformed { what: "image", position: self.position.saturating_sub(1) }
     }
 }

@@ -126,30 +126,29 @@ impl Leaf {
         let negative = magnitude != 0 && coder.bin(context::MEAN_SIGN + plane * 4 + k, self.mean < 0);
         self.mean = if negative { -magnitude } else { magnitude };
         if setting.transform {
-            self.code_levels(coder, setting.size, plane, 2 * k + usize::from(self.domain.is_some()));
+            self.code_levels(coder, setting.size, plane, k);
         }
     }
 
     #[inline(never)]
-    fn code_levels(&mut self, coder: &mut impl Coder, size: u32, plane: usize, kind: usize) {
+    fn code_levels(&mut self, coder: &mut impl Coder, size: u32, plane: usize, k: usize) {
         let scan = scan(size);
-        let models = context::LAST + (plane * 8 + kind) * NUMBER;
+        let models = context::LAST + (plane * 4 + k) * NUMBER;
         self.last = number(coder, models, self.last).min(scan.len() as u32 - 1);
-        let mut before = 0;
         for (i, place) in (1..=self.last).zip(scan.iter().skip(1)) {
             let level = self.levels.get(*place);
-            let models = kind * CLASSES + class(i);
-            if i < self.last && !coder.bin(context::SIGNIFICANT + models * 3 + before, level != 0) {
+            let models = k * CLASSES + class(i);
+            let about = self.levels.about(*place);
+            if i < self.last && !coder.bin(context::SIGNIFICANT + models * 3 + about, level != 0) {
                 continue;
             }
             let mut magnitude = 1;
             if coder.bin(context::LARGE + models, level.unsigned_abs() > 1) {
-                let models = context::MAGNITUDE + (kind & 1) * NUMBER;
-                magnitude = 2 + number(coder, models, level.unsigned_abs().saturating_sub(2)) as i32;
+                magnitude =
+                    2 + number(coder, context::MAGNITUDE, level.unsigned_abs().saturating_sub(2)) as i32;
             }
             let negative = coder.raw(1, u32::from(level < 0)) == 1;
             self.levels.set(*place, if negative { -magnitude } else { magnitude });
-            before = (before + 1).min(2);
         }
     }
 }

@@ -11,10 +11,11 @@ use crate::Error;
 
 impl<I: Iterator<Item = u8>> Opened<I> {
     /// Shows each leaf in turn: its plane, what it says, how it was said, its column and row in the plane.
-    /// [`Shape::place`](super::Shape::place) says where its domain lies.
+    /// `Shape::place` says where its domain lies.
     ///
     /// # Errors
     /// As [`Opened::stream`] and [`Stream::next_band`](super::Stream::next_band), of any profile.
+    #[doc(hidden)]
     pub fn leaves<S: Sample>(
         self,
         memory: &mut [S],
@@ -26,7 +27,7 @@ impl<I: Iterator<Item = u8>> Opened<I> {
         let mut decoder = planes.decoder(source, crc);
         let mut row = 0;
         while row < header.size.height {
-            planes.decode(row, &mut decoder, false, &mut seen)?;
+            planes.decode(row, &mut decoder, 0, &mut seen)?;
             row += BAND;
         }
         Planes::<S>::end(&mut decoder)

@@ -1,6 +1,8 @@
 //! Images by fractals: a picture is a partition into squares, each of which says how it copies itself from a
 //! square twice as large, and what is missing then.
 //!
+#![doc = include_str!("../../docs/codec.md")]
+//!
 //! "The original image is processed to create the list of affine maps, resulting in a greatly compressed
 //! representation of the image. In the decompression phase the list of affine maps is used and an algorithm
 //! such as the Chaos Game reconstructs the image." (CS2401 Computer Graphics, unit V, 5.3.4.) What is missing
@@ -13,15 +15,16 @@
 //! | [`Pure`](Profile::Pure) | anywhere; no transform | the same |
 //!
 //! Bytes come from any iterator; with the feature `embedded-io` from any of its readers, by `Bytes`. The
-//! format
-//! is written down in `docs/IMAGE-FORMAT.md` of the repository; the command `attractor encode` writes it.
-//! [`Plane`], [`Leaf`] and [`Coder`] are what an encoder shares with the decoder: it walks the same syntax
-//! with a
-//! coder that writes.
+//! format is written down in `docs/IMAGE-FORMAT.md` of the repository; the command `attractor encode` writes
+//! it.
 
+mod area;
+#[doc(hidden)]
 pub mod context;
 mod crc;
 mod domain;
+mod draw;
+mod edge;
 mod header;
 mod leaf;
 mod leaves;
@@ -34,25 +37,21 @@ mod range_decoder;
 #[cfg(feature = "embedded-io")]
 mod read;
 mod sample;
+mod settled;
 mod shape;
+#[doc(hidden)]
+pub mod shared;
 mod stream;
 mod streamed;
 mod sweeps;
 mod transform;
 
-pub use context::{COUNT as MODELS, NUMBER};
-pub use crc::crc32;
 pub use header::{Header, Planes, Profile, Step};
-pub use leaf::{CLASSES, Domain, Leaf, Setting, class, scan};
-pub use models::{Coder, Model, number};
 pub use opened::{Opened, check, open};
-pub use plane::{Edge, Plane};
 pub use planes::{Luma, Part};
 #[cfg(feature = "embedded-io")]
 pub use read::Bytes;
 pub use sample::Sample;
-pub use shape::Shape;
 pub use stream::Stream;
 pub use streamed::Streamed;
 pub use sweeps::Sweeps;
-pub use transform::{FREQUENCIES, LARGEST, Levels};

@@ -1,7 +1,7 @@
 //! A stream whose header has been read: what it needs, and what it becomes.
 
 use super::crc::{Crc, crc32};
-use super::header::{Header, Profile};
+use super::header::{Header, Profile, WHAT};
 use super::plane::Plane;
 use super::sample::Sample;
 use super::shape::Shape;
@@ -70,9 +70,6 @@ pub fn check(bytes: &[u8]) -> Result<Header, Error> {
     if stated == computed { Ok(header) } else { Err(Error::Checksum { what: WHAT, stated, computed }) }
 }
 
-/// What complaints call a stream.
-pub(super) const WHAT: &str = "image";
-
 impl<I> Opened<I> {
     /// What the stream says of itself.
     pub const fn header(&self) -> &Header {
@@ -115,11 +112,13 @@ impl<I> Opened<I> {
 
 impl Header {
     /// Its planes as they are drawn; those of a grey picture beyond the first are empty.
+    #[doc(hidden)]
     pub fn shapes(&self, scale: i32) -> [Shape; 3] {
         [0, 1, 2].map(|plane| self.shape(plane, scale))
     }
 
     /// A plane as it is drawn.
+    #[inline(never)]
     fn shape(&self, plane: u32, scale: i32) -> Shape {
         let there = plane < self.count();
         let halved = self.halved(plane);

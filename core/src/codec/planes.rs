@@ -5,9 +5,8 @@ use core::cell::Cell;
 use embedded_graphics_core::geometry::Size;
 
 use super::crc::Crc;
-use super::header::Header;
+use super::header::{Header, WHAT};
 use super::leaf::{Leaf, Setting};
-use super::opened::WHAT;
 use super::plane::Plane;
 use super::range_decoder::RangeDecoder;
 use super::sample::Sample;
@@ -37,11 +36,11 @@ impl<'a, S: Sample> Planes<'a, S> {
         &mut self,
         row: u32,
         decoder: &mut RangeDecoder<I>,
-        again: bool,
+        done: u32,
         mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2]),
     ) -> Result<(), Error> {
         for (index, plane) in (0..self.header.count()).zip(&mut self.planes) {
-            plane.begin(row >> self.header.halved(index), again);
+            plane.begin(row >> self.header.halved(index), done);
             let sound = plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at| {
                 seen(index, leaf, setting, at);
             });

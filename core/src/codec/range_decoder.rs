@@ -56,6 +56,14 @@ impl<I: Iterator<Item = u8>> RangeDecoder<I> {
 
     #[inline]
     fn normalise(&mut self) {
+        if self.range < 1 << 24 {
+            self.refill();
+        }
+    }
+
+    /// Apart, as few bins come here.
+    #[inline(never)]
+    fn refill(&mut self) {
         while self.range < 1 << 24 {
             self.range <<= 8;
             self.code = self.code << 8 | self.byte();

@@ -1,5 +1,7 @@
 //! What a plane's samples are: 8 or 16 bits.
 
+use core::ops::{Add, Sub};
+
 mod sealed {
     pub trait Sealed {}
     impl Sealed for u8 {}
@@ -14,6 +16,15 @@ pub trait Sample: Copy + sealed::Sealed + 'static {
     fn cut(value: i32) -> Self;
     /// As a number.
     fn number(self) -> i32;
+    /// What sums of a transform's products fit.
+    #[doc(hidden)]
+    type Sum: Copy + From<i32> + Into<i64> + Add<Output = Self::Sum> + Sub<Output = Self::Sum>;
+    /// The product of a cosine and a term.
+    #[doc(hidden)]
+    fn product(cosine: i32, term: i32) -> Self::Sum;
+    /// A term as it is kept: 16 of them times cosines of 14 bits stay within a sum.
+    #[doc(hidden)]
+    fn term(value: i32) -> i32;
 }
 
 impl Sample for u8 {
@@ -26,6 +37,15 @@ impl Sample for u8 {
     fn number(self) -> i32 {
         self.into()
     }
+    type Sum = i32;
+    #[inline]
+    fn product(cosine: i32, term: i32) -> i32 {
+        cosine * term
+    }
+    #[inline]
+    fn term(value: i32) -> i32 {
+        value.clamp(-(1 << 13), (1 << 13) - 1)
+    }
 }
 
 impl Sample for u16 {
@@ -37,5 +57,14 @@ impl Sample for u16 {
     #[inline]
     fn number(self) -> i32 {
         self.into()
+    }
+    type Sum = i64;
+    #[inline]
+    fn product(cosine: i32, term: i32) -> i64 {
+        i64::from(cosine) * i64::from(term)
+    }
+    #[inline]
+    fn term(value: i32) -> i32 {
+        value.clamp(-(1 << 23), (1 << 23) - 1)
     }
 }

@@ -86,9 +86,9 @@ impl Shape {
         if size == 2 || columns == 0 || rows == 0 { None } else { Some((columns, rows)) }
     }
 
-    /// Where a leaf's domain begins in the halved picture; none where it is not decoded by then.
-    #[inline]
-    pub fn place(&self, domain: &Domain, x: u32, y: u32, size: u32) -> Option<(u32, u32)> {
+    /// Where a leaf's domain begins in the halved picture; none where it may not lie.
+    #[inline(never)]
+    pub fn place(&self, domain: &Domain, x: u32, y: u32, size: u32) -> Option<Place> {
         let n = 1_i32 << size;
         let band = y >> self.largest << self.largest;
         let top = self.window.map_or(0, |rows| (band >> 1) as i32 - (rows >> 1) as i32);
@@ -106,14 +106,24 @@ impl Shape {
         {
             return None;
         }
-        if self.window.is_some() && 2 * bottom as u32 > band {
-            let last = 2 * bottom as u32 - 1 - band;
-            if last >= self.side()
-                || order(2 * right as u32 - 1, last, self.largest) >= order(x, y - band, self.largest)
-            {
-                return None;
-            }
-        }
-        Some((px as u32, py as u32))
+        // the last pixel of it that is decoded
+        let (last_x, last_y) = (2 * right as u32 - 1, 2 * bottom as u32 - 1);
+        let decoded = last_y < band
+            || last_y < band + self.side()
+                && order(last_x, last_y - band, self.largest) < order(x, y - band, self.largest);
+        let apart = |v: u32, from: i32, last: u32| last < v || 2 * from as u32 >= v + n as u32;
+        let allowed = decoded || self.window.is_none() && (apart(x, px, last_x) || apart(y, py, last_y));
+        allowed.then_some(Place { x: px as u32, y: py as u32, decoded })
     }
+}
+
+/// Where a domain lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Its first column in the halved picture.
+    pub x: u32,
+    /// Its first row.
+    pub y: u32,
+    /// Whether all of it is decoded before its leaf.
+    pub decoded: bool,
 }

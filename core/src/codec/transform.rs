@@ -8,8 +8,7 @@
 //! `k_0 = 1/sqrt 2`, else 1; frequencies of `m` and above are left out. In three steps:
 //!
 //! 1. `t(i, u) = sum_v c_v L(v, u)`, exact: `c` has 14 fractional bits, `|L| <= 8191`, 32 bits hold the sum;
-//! 2. `T(i, u) = t q 2/n k_u`, for samples of 8 bits rounded to 3 fractional bits and cut off at 1024,
-//!    else to 4 and at `2^19`;
+//! 2. `T(i, u) = t q 2/n k_u`, rounded to 4 fractional bits, of 14 bits for samples of 8 bits, else of 24;
 //! 3. `x(i, j) = sum_u c_u T(i, u)`, exact, for samples of 8 bits in 32, rounded to 7 fractional bits.
 //!
 //! To nearest, halves upwards. Rows `i` and `m-1-i`, and columns likewise, have the same products but for
@@ -20,9 +19,6 @@ use super::sample::Sample;
 
 /// Frequencies along each axis.
 pub const FREQUENCIES: usize = 16;
-/// Where `T` is cut off: sums of eight terms stay below `2^30`, what 16 bits make of it below `2^31`.
-const MOST_8: i64 = (1 << 13) - 1;
-const MOST_16: i64 = 1 << 23;
 /// The largest level.
 pub const LARGEST: i32 = 8191;
 
@@ -61,6 +57,7 @@ fn cosine(phase: u32) -> i32 {
 /// What a block's coefficients are.
 #[derive(Debug, Clone)]
 pub struct Levels {
+    /// `16 u + v`: a column of the transform lies together.
     levels: [i16; FREQUENCIES * FREQUENCIES],
     /// One more than the greatest `u` and `v` of a level that was set.
     columns: u32,
@@ -73,6 +70,12 @@ impl Default for Levels {
     }
 }
 
+/// Where a level is kept.
+#[inline]
+const fn at(place: u8) -> usize {
+    (place >> 4 | place << 4) as usize
+}
+
 impl Levels {
     /// Whether all are 0.
     #[inline]
@@ -83,7 +86,7 @@ impl Levels {
     /// Sets the level at `v`, `u`, a nibble each, cut off at [`LARGEST`].
     #[inline]
     pub fn set(&mut self, place: u8, level: i32) {
-        if let Some(slot) = self.levels.get_mut(usize::from(place)) {
+        if let Some(slot) = self.levels.get_mut(at(place)) {
             *slot = level.clamp(-LARGEST, LARGEST) as i16;
             self.columns = self.columns.max((u32::from(place) & 15) + 1);
             self.rows = self.rows.max((u32::from(place) >> 4) + 1);
@@ -93,14 +96,23 @@ impl Levels {
     /// The level at a place.
     #[inline]
     pub fn get(&self, place: u8) -> i32 {
-        self.levels.get(usize::from(place)).map_or(0, |level| i32::from(*level))
+        self.levels.get(at(place)).map_or(0, |level| i32::from(*level))
+    }
+
+    /// How much is at the next lower frequencies along both axes: 0, 1, or 2 for more.
+    #[inline]
+    pub fn about(&self, place: u8) -> usize {
+        // outside there is the mean, whose level is not kept here
+        let above = if place & 0xf0 != 0 { self.get(place - 16) } else { 0 };
+        let left = if place & 0x0f != 0 { self.get(place - 1) } else { 0 };
+        (above.unsigned_abs() + left.unsigned_abs()).min(2) as usize
     }
 
     /// Makes all 0.
     #[inline]
     pub fn clear(&mut self) {
-        for row in self.levels.chunks_exact_mut(FREQUENCIES).take(self.rows as usize) {
-            for level in row.iter_mut().take(self.columns as usize) {
+        for column in self.levels.chunks_exact_mut(FREQUENCIES).take(self.columns as usize) {
+            for level in column.iter_mut().take(self.rows as usize) {
                 *level = 0;
             }
         }
@@ -108,11 +120,8 @@ impl Levels {
     }
 }
 
-/// The frequencies of one row of a block.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
-    terms: [i32; FREQUENCIES],
-}
+/// The frequencies of a row of a block and of the one that mirrors it.
+pub(super) type Pair = [[i32; 2]; FREQUENCIES];
 
 /// A block's transform.
 #[derive(Debug)]
@@ -120,91 +129,179 @@ pub(super) struct Inverse<'a> {
     levels: &'a Levels,
     /// With 8 fractional bits.
     step: i64,
-    /// What makes 3 or 4 fractional bits of a sum times the step, and where they are cut off.
+    /// What makes 4 fractional bits of a sum times the step.
     shift: u32,
-    most: i64,
     /// Phase of half a pixel for frequency 1.
     half: u32,
-    columns: u32,
-    rows: u32,
+    /// Of the frequencies, by twos.
+    columns: usize,
+    rows: usize,
 }
 
 impl<'a> Inverse<'a> {
     /// Of a block of `2^size` pixels a side, drawn with `2^drawn`.
     #[inline]
-    pub(super) fn new<S: Sample>(levels: &'a Levels, step: u32, size: u32, drawn: u32) -> Self {
+    pub(super) fn new(levels: &'a Levels, step: u32, size: u32, drawn: u32) -> Self {
         let drawn = drawn.min(7);
-        let most = 1 << drawn;
+        let pairs = |frequencies: u32| (frequencies.min(1 << drawn) as usize).div_ceil(2);
         Self {
             levels,
             step: i64::from(step),
-            shift: size.min(5) + if S::BITS == 8 { 18 } else { 17 },
-            most: if S::BITS == 8 { MOST_8 } else { MOST_16 },
+            shift: size.min(5) + 17,
             half: 128 >> drawn,
-            columns: levels.columns.min(most),
-            rows: levels.rows.min(most),
+            columns: pairs(levels.columns),
+            rows: pairs(levels.rows),
         }
     }
 
-    /// Row `i` and the one that mirrors it.
+    /// Row `i` and the one that mirrors it, into terms that were 0 before the block's first row.
     #[inline(never)]
-    pub(super) fn rows(&self, i: u32) -> (Row, Row) {
-        let columns = self.columns as usize;
-        let (mut even, mut odd) = ([0_i32; FREQUENCIES], [0_i32; FREQUENCIES]);
+    pub(super) fn rows<S: Sample>(&self, i: u32, pair: &mut Pair) {
         let turn = (2 * i + 1) * self.half;
-        for (v, row) in (0..self.rows).zip(self.levels.levels.chunks_exact(FREQUENCIES)) {
-            let c = if v == 0 { ROOT_HALF } else { cosine(v * turn) };
-            let sums = if v & 1 == 0 { &mut even } else { &mut odd };
-            for (sum, level) in sums.iter_mut().zip(row).take(columns) {
-                *sum = sum.wrapping_add(c.wrapping_mul(i32::from(*level)));
+        let columns = self.levels.levels.chunks_exact(FREQUENCIES);
+        let mut norm = ROOT_HALF;
+        for (terms, column) in pair.iter_mut().zip(columns).take(2 * self.columns) {
+            let (mut even, mut odd, mut phase, mut c) = (0_i32, 0_i32, 0, ROOT_HALF);
+            for levels in column.chunks_exact(2).take(self.rows) {
+                if let [a, b] = levels {
+                    even += c * i32::from(*a);
+                    odd += cosine(phase + turn) * i32::from(*b);
+                }
+                phase += 2 * turn;
+                c = cosine(phase);
+            }
+            *terms = [self.term::<S>(even + odd), self.term::<S>(even - odd)];
+            if norm != 0 {
+                *terms = terms.map(|term| ((i64::from(term) * i64::from(norm) + (1 << 13)) >> 14) as i32);
+                norm = 0;
             }
         }
-        let (mut top, mut bottom) = (even, even);
-        for ((top, bottom), odd) in top.iter_mut().zip(&mut bottom).zip(odd).take(columns) {
-            (*top, *bottom) = (self.scaled(top.wrapping_add(odd)), self.scaled(bottom.wrapping_sub(odd)));
-        }
-        for terms in [&mut top, &mut bottom] {
-            let [first, ..] = terms;
-            *first = ((i64::from(*first) * i64::from(ROOT_HALF) + (1 << 13)) >> 14) as i32;
-        }
-        (Row { terms: top }, Row { terms: bottom })
     }
 
     #[inline]
-    fn scaled(&self, sum: i32) -> i32 {
-        let half_unit = 1 << (self.shift - 1);
-        ((i64::from(sum) * self.step + half_unit) >> self.shift).max(-self.most).min(self.most) as i32
+    fn term<S: Sample>(&self, sum: i32) -> i32 {
+        S::term(((i64::from(sum) * self.step + (1 << self.shift >> 1)) >> self.shift) as i32)
     }
 
+    /// [`Inverse::pixels`] where it is seldom asked for.
+    #[inline(never)]
+    pub(super) fn pixels_apart<S: Sample>(&self, pair: &Pair, j: u32) -> [i32; 4] {
+        self.pixels::<S>(pair, j)
+    }
+
+    /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns` those
+    /// of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is rounded to
+    /// `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
+    ///
     /// The pixels of a row and the one that mirrors it, at `j` and at the place that mirrors that, with 7
     /// fractional bits: upper left, upper right, lower left, lower right.
     #[inline]
-    pub(super) fn pixels<S: Sample>(&self, (top, bottom): &(Row, Row), j: u32) -> [i32; 4] {
+    pub(super) fn pixels<S: Sample>(&self, pair: &Pair, j: u32) -> [i32; 4] {
         let turn = (2 * j + 1) * self.half;
-        let terms = top.terms.iter().zip(&bottom.terms).take(self.columns as usize);
-        if S::BITS == 8 {
-            // half a unit of the result
-            let (mut even, mut odd, mut phase) = ([1_i32 << 9; 2], [0_i32; 2], 0);
-            for (u, (upper, lower)) in terms.enumerate() {
-                let c = cosine(phase);
-                let sums = if u & 1 == 0 { &mut even } else { &mut odd };
-                sums[0] = sums[0].wrapping_add(c.wrapping_mul(*upper));
-                sums[1] = sums[1].wrapping_add(c.wrapping_mul(*lower));
-                phase += turn;
+        // half a unit of the result
+        let (mut even, mut odd) = ([S::Sum::from(1 << 10); 2], [S::Sum::from(0); 2]);
+        let mut phase = 0;
+        for terms in pair.chunks_exact(2).take(self.columns) {
+            if let [[a, b], [c, d]] = terms {
+                let (p, q) = (cosine(phase), cosine(phase + turn));
+                even = [even[0] + S::product(p, *a), even[1] + S::product(p, *b)];
+                odd = [odd[0] + S::product(q, *c), odd[1] + S::product(q, *d)];
             }
-            let ([e0, e1], [o0, o1]) = (even, odd);
-            let sums = [e0.wrapping_add(o0), e0.wrapping_sub(o0), e1.wrapping_add(o1), e1.wrapping_sub(o1)];
-            return sums.map(|sum| sum >> 10);
+            phase += 2 * turn;
         }
-        let (mut even, mut odd, mut phase) = ([1_i64 << 10; 2], [0_i64; 2], 0);
-        for (u, (upper, lower)) in terms.enumerate() {
-            let c = i64::from(cosine(phase));
-            let sums = if u & 1 == 0 { &mut even } else { &mut odd };
-            sums[0] += c * i64::from(*upper);
-            sums[1] += c * i64::from(*lower);
-            phase += turn;
+        let ([e, f], [o, p]) = (even, odd);
+        [e + o, e - o, f + p, f - p].map(|sum| (sum.into() >> 11) as i32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    fn worst<S: Sample>(most: f64) -> f64 {
+        let (mut worst, mut state, mut tried) = (0.0_f64, 1_u64, 0);
+        let mut random = |below: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % below
+        };
+        for round in 0..240_u32 {
+            let size = 2 + round % 4;
+            let n = 1_usize << size;
+            let mut levels = Levels::default();
+            let step = 16 + random(1 << (5 + round % 9)) as u32;
+            let q = f64::from(step) / 256.0;
+            let (mut sum, mut exact, mut columns) = (0.0, std::vec![0.0; n * n], 0);
+            for _ in 0..1 + random(12) {
+                let (v, u) = (random(n.min(16) as u64) as usize, random(n.min(16) as u64) as usize);
+                let place = (v << 4 | u) as u8;
+                let level = random(1 << (1 + round % 7)) as i32 - (1 << (round % 7));
+                let next = sum + 2.0 / n as f64 * q * f64::from(level.abs());
+                if place == 0 || levels.get(place) != 0 || next > most {
+                    continue;
+                }
+                levels.set(place, level);
+                (sum, columns) = (next, columns.max(u + 1));
+                let k = |w: usize| if w == 0 { 0.5_f64.sqrt() } else { 1.0 };
+                for (at, value) in exact.iter_mut().enumerate() {
+                    let wave =
+                        |w: usize, i: usize| k(w) * (PI * ((2 * i + 1) * w) as f64 / (2 * n) as f64).cos();
+                    *value += 2.0 / n as f64 * q * f64::from(level) * wave(v, at / n) * wave(u, at % n);
+                }
+            }
+            let bound = 1.0 / 256.0 + (columns + 1) as f64 / 32.0 + sum / 16384.0;
+            let inverse = Inverse::new(&levels, step, size, size);
+            let mut pair = Pair::default();
+            for i in 0..n / 2 {
+                inverse.rows::<S>(i as u32, &mut pair);
+                for j in 0..n / 2 {
+                    let four = inverse.pixels::<S>(&pair, j as u32);
+                    let (below, right) = (n - 1 - i, n - 1 - j);
+                    for ((i, j), got) in
+                        [(i, j), (i, right), (below, j), (below, right)].into_iter().zip(four)
+                    {
+                        let off = (f64::from(got) / 128.0 - exact[i * n + j]).abs();
+                        assert!(off < bound, "{n} ({i}, {j}): {off}, allowed {bound}");
+                        worst = worst.max(off / bound);
+                        tried += 1;
+                    }
+                }
+            }
         }
-        let ([e0, e1], [o0, o1]) = (even, odd);
-        [e0 + o0, e0 - o0, e1 + o1, e1 - o1].map(|sum| (sum >> 11) as i32)
+        assert!(tried > 50_000, "{tried}");
+        worst
+    }
+
+    #[test]
+    fn a_transform_keeps_the_bound_of_its_arithmetic() {
+        let (small, deep) = (worst::<u8>(500.0), worst::<u16>(60_000.0));
+        std::println!("{small:.3} and {deep:.3} of the bound");
+        assert!(small > 0.3 && deep > 0.3, "{small} {deep}");
+    }
+
+    #[test]
+    fn the_greatest_levels_stay_within_32_bits() {
+        for negative in [0, 1, 2] {
+            let mut levels = Levels::default();
+            for place in 1..=255_u8 {
+                let sign = if negative == 2 { place.count_ones() % 2 } else { negative };
+                levels.set(place, if sign == 1 { -9999 } else { 9999 });
+            }
+            assert_eq!(levels.get(17).abs(), LARGEST);
+            let inverse = Inverse::new(&levels, (511 << 23) >> 4, 2, 5);
+            let mut pair = Pair::default();
+            for i in 0..16 {
+                inverse.rows::<u8>(i, &mut pair);
+                assert!(pair.as_flattened().iter().all(|term| (-8192..8192).contains(term)));
+                (0..16).for_each(|j| {
+                    inverse.pixels::<u8>(&pair, j);
+                });
+                inverse.rows::<u16>(i, &mut pair);
+                (0..16).for_each(|j| {
+                    inverse.pixels::<u16>(&pair, j);
+                });
+            }
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use attractor::codec::FREQUENCIES;
+use attractor::codec::shared::FREQUENCIES;
 
 /// Coefficients, `16 v + u`.
 pub(super) type Coefficients = [f32; FREQUENCIES * FREQUENCIES];

@@ -3,11 +3,12 @@
 use std::cell::Cell;
 
 use attractor::Error;
-use attractor::codec::{Header, Plane, Planes, Profile, Sample, Shape, Step, crc32};
+use attractor::codec::shared::{Plane, Shape, crc32};
+use attractor::codec::{Header, Planes, Profile, Sample, Step};
 use embedded_graphics::geometry::Size;
 
 use super::cosine::Cosine;
-use super::partition::{Partition, Without};
+use super::partition::{Partition, Settled, Without};
 use super::range_encoder::{Prices, RangeEncoder};
 use super::samples::Samples;
 use super::search::{Candidates, Effort};
@@ -25,6 +26,14 @@ pub(crate) struct Plan {
     /// Chroma's step in sixteenths.
     pub(crate) chroma: u8,
     pub(crate) without: Without,
+}
+
+/// A plane as an encoding before left it: what domains of sweeps lie in.
+#[derive(Clone, Debug)]
+pub(super) struct Pool {
+    pub(super) samples: Vec<u16>,
+    /// By the first sweep.
+    pub(super) settled: Settled,
 }
 
 /// A picture ready to be encoded.
@@ -89,30 +98,41 @@ impl<'a> Source<'a> {
         (0..).zip(self.shapes(step).iter().zip(&self.originals)).map(find).collect()
     }
 
+    /// What a domain costs besides its bits that the first sweep does not find ready: where all of it is settled
+    /// by that sweep, and else. Whatever copies it waits for it as well, so few sweeps allow few of them.
+    const fn late(&self) -> [f32; 2] {
+        match self.plan.reach {
+            0..=2 => [2.0, 1e4],
+            3 => [12.0, 16.0],
+            _ => [0.0; 2],
+        }
+    }
+
     const fn lambda(&self) -> f32 {
         if matches!(self.plan.profile, Profile::Pure) { LAMBDA_PURE } else { LAMBDA }
     }
 
-    /// The stream. Domains of sweeps lie in `pools`, the planes as they will be decoded, or else the picture.
+    /// The stream, and what its first sweep settles. Domains of sweeps lie in `pools`, the planes as they will
+    /// be decoded, or else the picture. A bit is worth `thrift` times as much as it should be.
     pub(super) fn encode(
         &self,
-        step: Step,
+        (step, thrift): (Step, f32),
         candidates: &[Candidates],
-        pools: Option<&[Vec<u16>]>,
-    ) -> Result<Vec<u8>, Error> {
+        pools: Option<&[Pool]>,
+    ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
         if self.deep {
-            self.encode_as::<u16>(step, candidates, pools)
+            self.encode_as::<u16>((step, thrift), candidates, pools)
         } else {
-            self.encode_as::<u8>(step, candidates, pools)
+            self.encode_as::<u8>((step, thrift), candidates, pools)
         }
     }
 
     fn encode_as<S: Sample + Default>(
         &self,
-        step: Step,
+        (step, thrift): (Step, f32),
         candidates: &[Candidates],
-        pools: Option<&[Vec<u16>]>,
-    ) -> Result<Vec<u8>, Error> {
+        pools: Option<&[Pool]>,
+    ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
         let header = self.header(step, 0);
         let shapes = self.shapes(step);
         let mut memory = vec![S::default(); shapes.iter().map(Plane::<S>::samples).sum()];
@@ -120,15 +140,19 @@ impl<'a> Source<'a> {
         let mut planes: Vec<Plane<'_, S>> =
             shapes.iter().map(|shape| Plane::new(*shape, &mut rest)).collect();
         if self.plan.profile != Profile::Streaming {
-            for (plane, pool) in planes.iter().zip(pools.unwrap_or(self.values)) {
+            for (index, plane) in planes.iter().enumerate() {
+                let pool = pools.map_or(&self.values[index], |pools| &pools[index].samples);
                 plane.picture().iter().zip(pool).for_each(|(to, from)| to.set(S::cut(i32::from(*from))));
             }
         }
+        let padded = |shape: &Shape| (shape.padded(), shape.height.next_multiple_of(shape.side()));
+        let mut settled: Vec<Settled> =
+            shapes.iter().map(padded).map(|(width, height)| Settled::new(width, height)).collect();
         let mut out = RangeEncoder::new();
         for row in (0..self.size.height).step_by(32) {
             for (index, plane) in (0..).zip(&mut planes) {
                 let band = row >> header.halved(index);
-                plane.begin(band, false);
+                plane.begin(band, 0);
                 let q = header.step_of(index) as f32 / 256.0;
                 let mut partition = Partition {
                     plane,
@@ -138,9 +162,12 @@ impl<'a> Source<'a> {
                     prices: &self.prices,
                     profile: self.plan.profile,
                     step: q,
-                    lambda: self.lambda() * q * q,
+                    lambda: thrift * self.lambda() * q * q,
+                    late: self.late(),
                     without: self.plan.without,
                     models: out.models,
+                    before: pools.map(|pools| &pools[index as usize].settled),
+                    settled: &mut settled[index as usize],
                 };
                 partition.band(band, &mut out);
             }
@@ -150,7 +177,7 @@ impl<'a> Source<'a> {
         let length = self.header(step, payload.len() as u32).write(&mut start)?;
         let mut bytes = [&start[..length], &payload].concat();
         bytes.extend(crc32(&bytes).to_le_bytes());
-        Ok(bytes)
+        Ok((bytes, settled))
     }
 }
 

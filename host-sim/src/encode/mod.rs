@@ -67,7 +67,10 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
         transform: args.without == Some(EncodePart::Transform),
         split: args.without == Some(EncodePart::Split),
     };
-    let plan = Plan { without, ..plan };
+    if args.sweeps.is_some() && plan.profile == Profile::Streaming {
+        return Err(Fail::new(format_args!("--sweeps: profile streaming is decoded in one pass")));
+    }
+    let plan = Plan { without, reach: args.sweeps.unwrap_or(plan.reach), ..plan };
     let effort = match args.effort {
         EncodeEffort::Fast => Effort::FAST,
         EncodeEffort::Best => Effort::BEST,

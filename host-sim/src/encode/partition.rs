@@ -4,7 +4,9 @@
 //! (G. Sullivan, T. Wiegand, "Rate-distortion optimization for video compression", 1998). What a bit costs is
 //! asked of the models as they stand before the square; they learn when it is written.
 
-use attractor::codec::{Coder as _, Domain, Leaf, MODELS, Model, Plane, Profile, Sample, Setting};
+use attractor::codec::shared::Coder as _;
+use attractor::codec::shared::{Domain, Leaf, MODELS, Model, Plane, Setting};
+use attractor::codec::{Profile, Sample};
 
 use super::cosine::{Coefficients, Cosine};
 use super::quantise::Quantiser;
@@ -29,6 +31,36 @@ pub(crate) struct Without {
     pub(crate) split: bool,
 }
 
+/// Cells of 4 x 4 that stay as they are.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Settled {
+    across: u32,
+    cells: Vec<bool>,
+}
+
+impl Settled {
+    /// None, for a plane of so many columns and rows, whole squares.
+    pub(super) fn new(width: u32, height: u32) -> Self {
+        Self { across: width / 4, cells: vec![false; (width / 4 * height / 4) as usize] }
+    }
+
+    fn square(&self, x: u32, y: u32, side: u32) -> impl Iterator<Item = usize> {
+        let (across, columns) = (self.across, x / 4..(x + side).div_ceil(4));
+        let rows = y / 4..(y + side).div_ceil(4);
+        rows.flat_map(move |row| columns.clone().map(move |column| (row * across + column) as usize))
+    }
+
+    fn has(&self, x: u32, y: u32, side: u32) -> bool {
+        self.square(x, y, side).all(|cell| self.cells[cell])
+    }
+
+    fn add(&mut self, x: u32, y: u32, side: u32) {
+        for cell in self.square(x, y, side).collect::<Vec<_>>() {
+            self.cells[cell] = true;
+        }
+    }
+}
+
 /// Encodes a plane, band by band.
 pub(super) struct Partition<'a, 'm, S: Sample> {
     pub(super) plane: &'a mut Plane<'m, S>,
@@ -39,8 +71,13 @@ pub(super) struct Partition<'a, 'm, S: Sample> {
     pub(super) profile: Profile,
     pub(super) step: f32,
     pub(super) lambda: f32,
+    /// Bits for domains that a sweep more must wait for.
+    pub(super) late: [f32; 2],
     pub(super) without: Without,
     pub(super) models: [Model; MODELS],
+    /// What the first sweep of the encoding before this one settled, and what that of this one does.
+    pub(super) before: Option<&'a Settled>,
+    pub(super) settled: &'a mut Settled,
 }
 
 /// The pixels of a square, mean off.
@@ -48,9 +85,9 @@ struct Target {
     values: [f32; 1024],
     energy: f32,
     coefficients: Coefficients,
-    /// In steps, and the squared error that stays.
+    /// Of the mean, what is left of what the neighbours let expect, and the nearest number of steps.
+    off: f32,
     mean: i32,
-    mean_error: f32,
 }
 
 impl<S: Sample> Partition<'_, '_, S> {
@@ -107,6 +144,14 @@ impl<S: Sample> Partition<'_, '_, S> {
                 }
                 leaf.code(out, &self.plane.setting(x, y, size));
                 self.draw(leaf, x, y, size);
+                let place = |domain| self.plane.shape().place(domain, x, y, size);
+                let settled = match leaf.domain.as_ref().and_then(place) {
+                    Some(place) => self.settled.has(2 * place.x, 2 * place.y, 2 << size),
+                    None => true,
+                };
+                if settled {
+                    self.settled.add(x, y, 1 << size);
+                }
             }
             Node::Divided(nodes) => {
                 out.bin(self.plane.split_context(x, y, size), true);
@@ -145,6 +190,15 @@ impl<S: Sample> Partition<'_, '_, S> {
             if !self.plane.copied(&candidate.domain, x, y, size, &mut copied) {
                 continue;
             }
+            // a sweep more for what is not there in time, and for all that copies it
+            let late = match self.plane.shape().place(&candidate.domain, x, y, size) {
+                Some(place) if !place.decoded => {
+                    let [ready, else_] = self.late;
+                    let settled = self.before.is_some_and(|b| b.has(2 * place.x, 2 * place.y, 2 << size));
+                    self.lambda * if settled { ready } else { else_ }
+                }
+                _ => 0.0,
+            };
             let (mut dot, mut energy) = (0.0, 0.0);
             for ((domain, copied), value) in domain.iter_mut().zip(&copied).zip(&target.values).take(count) {
                 *domain = *copied as f32 / 128.0;
@@ -164,9 +218,9 @@ impl<S: Sample> Partition<'_, '_, S> {
                 let mut rest = target.coefficients;
                 rest.iter_mut().zip(&frequencies).for_each(|(rest, domain)| *rest -= contrast * domain);
                 let energy = target.energy - 2.0 * contrast * dot + contrast * contrast * energy;
-                let tried = self.cost(&target, &rest, energy, Some(domain), &setting);
-                if tried.0 < best.0 {
-                    best = tried;
+                let (cost, leaf) = self.cost(&target, &rest, energy, Some(domain), &setting);
+                if cost + late < best.0 {
+                    best = (cost + late, leaf);
                 }
             }
         }
@@ -181,9 +235,8 @@ impl<S: Sample> Partition<'_, '_, S> {
         let mut coefficients = [0.0; 256];
         self.cosine.forward(size, &values[..n * n], &mut coefficients);
         let off = mean - self.plane.expected(x, y, size) as f32 / 128.0;
-        let steps = (off * n as f32 / self.step).round();
-        let left = off - steps * self.step / n as f32;
-        Target { values, energy, coefficients, mean: steps as i32, mean_error: left * left * (n * n) as f32 }
+        let mean = (off * n as f32 / self.step).round() as i32;
+        Target { values, energy, coefficients, off, mean }
     }
 
     fn cost(
@@ -201,8 +254,21 @@ impl<S: Sample> Partition<'_, '_, S> {
                 Quantiser { models: &self.models, prices: self.prices, step: self.step, lambda: self.lambda };
             error += quantiser.levels(coefficients, setting, &mut leaf);
         }
-        let mut cost = Cost { models: &self.models, prices: self.prices, bits: 0.0 };
-        leaf.code(&mut cost, setting);
-        (error.max(0.0) + target.mean_error + self.lambda * cost.bits, leaf)
+        // the nearest mean, or one that is a step nearer to what the neighbours let expect
+        let n = (1 << setting.size) as f32;
+        let price = |leaf: &mut Leaf, mean: i32| {
+            leaf.mean = mean;
+            let mut cost = Cost { models: &self.models, prices: self.prices, bits: 0.0 };
+            leaf.code(&mut cost, setting);
+            let off = target.off * n - mean as f32 * self.step;
+            error.max(0.0) + off * off + self.lambda * cost.bits
+        };
+        let nearer = target.mean - target.mean.signum();
+        let (less, all) = (price(&mut leaf, nearer), price(&mut leaf, target.mean));
+        if less < all {
+            leaf.mean = nearer;
+            return (less, leaf);
+        }
+        (all, leaf)
     }
 }

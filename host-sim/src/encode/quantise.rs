@@ -5,7 +5,7 @@
 //! the
 //! models as they stand; then the place to stop is the one where the sum was least.
 
-use attractor::codec::{CLASSES, Leaf, MODELS, Model, NUMBER, Setting, class, context, number, scan};
+use attractor::codec::shared::{CLASSES, Leaf, MODELS, Model, NUMBER, Setting, class, context, number, scan};
 
 use super::cosine::Coefficients;
 use super::range_encoder::{Cost, Prices};
@@ -39,20 +39,18 @@ impl Quantiser<'_> {
         let Some(most) = (1..scan.len()).rev().find(|i| value(*i).abs() > 0.5 * self.step) else {
             return 0.0;
         };
-        let kind = 2 * (setting.size - 2) as usize + usize::from(leaf.domain.is_some());
-        let last = context::LAST + (setting.chroma as usize * 8 + kind) * NUMBER;
-        let magnitude = context::MAGNITUDE + (kind & 1) * NUMBER;
+        let k = (setting.size - 2) as usize;
+        let last = context::LAST + (setting.chroma as usize * 4 + k) * NUMBER;
         let mut chosen = [0_i32; 256];
-        let mut before = 0;
         // of what was chosen so far, as if it went on
         let mut sum = 0.0;
         let (mut least, mut end) = (self.lambda * self.number(last, 0), (0, 0));
         for (i, place) in chosen.iter_mut().enumerate().take(most + 1).skip(1) {
             let length = value(i).abs();
-            let models = kind * CLASSES + class(i as u32);
-            let significant = context::SIGNIFICANT + models * 3 + before;
+            let models = k * CLASSES + class(i as u32);
+            let significant = context::SIGNIFICANT + models * 3 + leaf.levels.about(scan[i]);
             let zero = self.lambda * self.bin(significant, false);
-            let nearest = ((length / self.step + 0.5) as i32).min(attractor::codec::LARGEST);
+            let nearest = ((length / self.step + 0.5) as i32).min(attractor::codec::shared::LARGEST);
             if nearest == 0 {
                 sum += zero;
                 continue;
@@ -60,7 +58,7 @@ impl Quantiser<'_> {
             let price = |level: i32| {
                 let off = length - level as f32 * self.step;
                 let large = self.bin(context::LARGE + models, level > 1);
-                let rest = if level > 1 { self.number(magnitude, level as u32 - 2) } else { 0.0 };
+                let rest = if level > 1 { self.number(context::MAGNITUDE, level as u32 - 2) } else { 0.0 };
                 off * off - length * length + self.lambda * (1.0 + large + rest)
             };
             let (mut level, mut cost) = (nearest, price(nearest));
@@ -75,14 +73,15 @@ impl Quantiser<'_> {
             let kept = cost + self.lambda * self.bin(significant, true);
             if kept < zero {
                 *place = level;
+                leaf.levels.set(scan[i], level);
                 sum += kept;
-                before = (before + 1).min(2);
             } else {
                 sum += zero;
             }
         }
         chosen[end.0] = end.1;
         leaf.last = end.0 as u32;
+        leaf.levels.clear();
         let mut error = 0.0;
         for (i, level) in chosen.iter().enumerate().take(end.0 + 1).skip(1).filter(|(_, level)| **level != 0)
         {

@@ -1,7 +1,7 @@
 //! What writes bins: a binary range coder whose carry waits behind bytes of 255, as in I. Pavlov's LZMA, and
 //! what only counts them.
 
-use attractor::codec::{Coder, MODELS, Model};
+use attractor::codec::shared::{Coder, MODELS, Model};
 
 /// All models as a stream begins.
 pub(super) const NEW: [Model; MODELS] = [Model::NEW; MODELS];

@@ -4,11 +4,12 @@
 //! target and narrow it down. Domains are looked for once, when the step is roughly known.
 
 use attractor::Error;
-use attractor::codec::{Profile, Step};
+use attractor::codec::shared::crc32;
+use attractor::codec::{Profile, Step, check};
 
-use super::file::{Plan, Source};
+use super::file::{Plan, Pool, Source};
 use super::quality::psnr;
-use super::search::Effort;
+use super::search::{Candidates, Effort};
 use crate::decode::{decoded, planes_of};
 use crate::still::Still;
 
@@ -26,11 +27,15 @@ pub(crate) struct Encoded {
     pub(crate) psnr: f64,
     pub(crate) picture: Still,
     pub(crate) step: u16,
-    planes: Vec<Vec<u16>>,
+    pools: Vec<Pool>,
 }
 
-/// The most encodings.
-const PASSES: usize = 24;
+/// Where a header says how many sweeps.
+const REACH: usize = 12;
+
+/// The most encodings, at different steps and then between two of them.
+const PASSES: usize = 12;
+const THRIFTS: usize = 8;
 
 impl Target {
     /// How far an encoding is on the wrong side: above 0 if the step is too fine.
@@ -46,7 +51,7 @@ impl Target {
         match self {
             Self::Bytes(bytes) => {
                 let length = encoded.bytes.len() as f64;
-                length <= bytes && (length >= bytes * 0.992 || length + 1.0 > bytes)
+                length <= bytes && (length >= bytes * 0.995 || length + 1.0 > bytes)
             }
             Self::Decibels(decibels) => (0.0..0.05).contains(&(encoded.psnr - decibels)),
         }
@@ -73,33 +78,34 @@ pub(crate) fn meet(
     let (kind, values) = still.planes(halved);
     let source = Source::new(still.size, kind, still.peak() > 255, &values, plan);
     let truth = still.samples();
-    let mut one = |step: u16, candidates: &[super::search::Candidates], pools: Option<&[Vec<u16>]>| {
+    let mut one = |(step, thrift): (u16, f32), candidates: &[Candidates], pools: Option<&[Pool]>| {
         let step = Step::from_bits(step).unwrap_or(Step::MAX);
-        let bytes = source.encode(step, candidates, pools)?;
+        let (bytes, settled) = source.encode((step, thrift), candidates, pools)?;
         let picture = decoded(&bytes, 0, None)?;
-        let planes = planes_of(&bytes)?;
+        let planes = planes_of(&bytes)?.into_iter().zip(settled);
+        let pools = planes.map(|(samples, settled)| Pool { samples, settled }).collect();
         let psnr = psnr(&truth, &picture.samples(), still.peak());
-        let encoded = Encoded { bytes, psnr, picture, step: step.to_bits(), planes };
+        let encoded = Encoded { bytes, psnr, picture, step: step.to_bits(), pools };
         said(&encoded);
         Ok::<_, Error>(encoded)
     };
     // first without domains: fast, and not far from what is wanted
     let none = source.candidates(None, Step::MAX);
-    let rough = narrow(target, 0x780, 4, 0.03, |step| one(step, &none, None))?;
+    let rough = narrow(target, 0x780, 4, 0.03, |step| one((step, 1.0), &none, None))?;
     let Some(rough) = rough.into_iter().min_by(|a, b| target.miss(a).abs().total_cmp(&target.miss(b).abs()))
     else {
         return Err(Error::Degenerate { what: "number of encodings" });
     };
     let candidates = source.candidates(Some(effort), Step::from_bits(rough.step).unwrap_or(Step::MAX));
     let sweeps = plan.profile != Profile::Streaming;
-    let (mut pool, mut passes): (Option<Vec<Vec<u16>>>, u32) = (None, 0);
+    let (mut pool, mut passes): (Option<Vec<Pool>>, u32) = (None, 0);
     let tried = narrow(target, rough.step, PASSES, 0.0, |step| {
-        let encoded = one(step, &candidates, pool.as_deref().filter(|_| sweeps))?;
+        let encoded = one((step, 1.0), &candidates, pool.as_deref().filter(|_| sweeps))?;
         // the next ones take their domains from what this one looks like; then the pool stays, or no step
         // would
         // meet the target
         if passes < 2 {
-            pool = Some(encoded.planes.clone());
+            pool = Some(encoded.pools.clone());
             passes += 1;
         }
         Ok(encoded)
@@ -118,13 +124,49 @@ pub(crate) fn meet(
         if step == coarsest || step == finest {
             break;
         }
-        tried.push(one(step, &candidates, pool.as_deref().filter(|_| sweeps))?);
+        tried.push(one((step, 1.0), &candidates, pool.as_deref().filter(|_| sweeps))?);
+    }
+    // between two steps: the finest that is too large, with a little less for each bit
+    let nearest = |tried: &[Encoded]| tried.iter().filter(|e| target.allows(e)).map(|e| e.step).min();
+    if let (Target::Bytes(_), Some(step), false) =
+        (target, nearest(&tried), tried.iter().any(|e| target.is_met(e)))
+    {
+        let (mut least, mut most) = (1.0, 1.4);
+        for _ in 0..THRIFTS {
+            let thrift = 0.5 * (least + most);
+            let encoded =
+                one((step.saturating_sub(1), thrift), &candidates, pool.as_deref().filter(|_| sweeps))?;
+            *(if target.miss(&encoded) > 0.0 { &mut least } else { &mut most }) = thrift;
+            let met = target.is_met(&encoded);
+            tried.push(encoded);
+            if met {
+                break;
+            }
+        }
     }
     let closest = |a: &&Encoded, b: &&Encoded| target.miss(a).abs().total_cmp(&target.miss(b).abs());
     let best = tried.iter().filter(|e| target.allows(e)).min_by(closest);
     // a target out of reach: the nearest there is
     let best = best.or_else(|| tried.iter().min_by(closest)).cloned();
-    Ok(best.unwrap_or(rough))
+    let best = best.unwrap_or(rough);
+    if sweeps { settled(best, &truth, still.peak(), target) } else { Ok(best) }
+}
+
+/// The same stream with no more sweeps than it needs: so many that more of them gain less than 0.02 dB.
+fn settled(best: Encoded, truth: &[f64], peak: u32, target: Target) -> Result<Encoded, Error> {
+    let most = check(&best.bytes)?.reach;
+    for reach in 1..most {
+        let picture = decoded(&best.bytes, 0, Some(u32::from(reach)))?;
+        let psnr = psnr(truth, &picture.samples(), peak);
+        if psnr < best.psnr - 0.02 || matches!(target, Target::Decibels(least) if psnr < least) {
+            continue;
+        }
+        let mut bytes = best.bytes[..best.bytes.len() - 4].to_vec();
+        bytes[REACH] = reach;
+        bytes.extend(crc32(&bytes).to_le_bytes());
+        return Ok(Encoded { bytes, psnr, picture, ..best });
+    }
+    Ok(best)
 }
 
 /// Encodes with steps ever nearer to the target, from a first one on.

@@ -7,7 +7,7 @@
 //! whatever their contrast (D. Saupe, "Accelerating fractal image compression by multi-dimensional nearest
 //! neighbor search", 1995).
 
-use attractor::codec::{Domain, Shape};
+use attractor::codec::shared::{Domain, Place, Shape};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use rayon::prelude::*;
 
@@ -123,7 +123,9 @@ impl Index {
                 // as seen from the end of the band, where most of it is decoded
                 let last = (shape.width - 1) >> size << size;
                 let below = (band + shape.side() - (1 << size)).min((shape.height - 1) >> size << size);
-                let Some((px, py)) = shape.place(&domain, last, below, size) else { continue };
+                let Some(Place { x: px, y: py, .. }) = shape.place(&domain, last, below, size) else {
+                    continue;
+                };
                 pool.square(px, py, 1 << size, &mut square);
                 cosine.forward(size, &square, &mut coefficients);
                 if let Some(direction) = direction(&coefficients) {
@@ -219,7 +221,9 @@ impl Square {
         turned: impl Iterator<Item = (u32, &'a [f32; 1024])>,
         best: &mut Best,
     ) {
-        let Some((px, py)) = shape.place(&domain, self.x, self.y, self.size) else { return };
+        let Some(Place { x: px, y: py, .. }) = shape.place(&domain, self.x, self.y, self.size) else {
+            return;
+        };
         let n = 1_usize << self.size;
         let start = py as usize * pool.width + px as usize;
         let rows = || pool.values[start..].chunks(pool.width).take(n).map(|row| &row[..n]);

@@ -10,6 +10,8 @@ pub struct Decoded {
     pub planes: Vec<(usize, usize, Vec<f64>)>,
     /// 255 or 65535.
     pub peak: f64,
+    /// The leaves of the first plane, in their order.
+    pub leaves: Vec<Leaf>,
 }
 
 struct Reader<'a> {
@@ -36,7 +38,7 @@ impl Reader<'_> {
     /// A bin under the model named so.
     fn bin(&mut self, what: &'static str, of: usize, index: usize) -> bool {
         let (p, count) = *self.models.entry((what, of, index)).or_insert((4096, 0));
-        let bound = self.range / 8192 * u64::from(p.clamp(32, 8160));
+        let bound = self.range / 8192 * u64::from(p);
         let one = self.code >= bound;
         if one {
             self.code -= bound;
@@ -82,16 +84,21 @@ impl Reader<'_> {
     }
 }
 
-#[derive(Clone)]
-struct Leaf {
-    x: usize,
-    y: usize,
-    n: usize,
+/// A leaf of the partition: a map, and what is added.
+#[derive(Debug, Clone)]
+pub struct Leaf {
+    /// Column.
+    pub x: usize,
+    /// Row.
+    pub y: usize,
+    /// Side.
+    pub n: usize,
     /// Place in the halved picture, isometry, contrast.
-    domain: Option<(usize, usize, usize, f64)>,
-    mean: f64,
+    pub domain: Option<(usize, usize, usize, f64)>,
+    /// Mean.
+    pub mean: f64,
     /// `(v, u)` and value.
-    coefficients: Vec<(usize, usize, f64)>,
+    pub coefficients: Vec<(usize, usize, f64)>,
 }
 
 struct Plane {
@@ -106,6 +113,8 @@ struct Plane {
     base: Vec<f64>,
     seen: Vec<Option<(usize, bool)>>,
     across: usize,
+    /// By cell of 4 x 4: no sweep changes it any more.
+    settled: Vec<bool>,
     /// Leaves in their order, so that sweeps can be done again.
     leaves: Vec<Leaf>,
 }
@@ -177,19 +186,20 @@ impl Plane {
         let mut coefficients = Vec::new();
         if !pure {
             let scan = zigzag(n.min(16));
-            let kind = 2 * k + usize::from(domain.is_some());
-            let last = (reader.number("last", self.chroma * 100 + kind) as usize).min(scan.len() - 1);
-            let mut before = 0;
+            let last = (reader.number("last", kind) as usize).min(scan.len() - 1);
+            let mut sizes = [[0; 17]; 17];
             for (i, (v, u)) in scan.iter().enumerate().take(last + 1).skip(1) {
-                let of = kind * 20 + class(i);
-                if i < last && !reader.bin("significant", of, before) {
+                // one more than the place, so that there is something above and to the left
+                let about = (sizes[*v][*u + 1] + sizes[*v + 1][*u]).min(2);
+                let of = k * 20 + class(i);
+                if i < last && !reader.bin("significant", of, about as usize) {
                     continue;
                 }
                 let large = reader.bin("large", of, 0);
-                let size = if large { 2 + reader.number("magnitude", kind % 2) } else { 1 }.min(8191);
+                let size = if large { 2 + reader.number("magnitude", 0) } else { 1 }.min(8191);
+                sizes[*v + 1][*u + 1] = size;
                 let value = if reader.raw(1) == 1 { -size } else { size } as f64 * self.q;
                 coefficients.push((*v, *u, value));
-                before = (before + 1).min(2);
             }
         }
         // what the neighbours' edges let expect
@@ -226,34 +236,55 @@ impl Plane {
         (four.iter().sum::<f64>() / 4.0 + 0.5).floor()
     }
 
-    /// Draws a leaf, sample by sample.
-    fn draw(&mut self, leaf: &Leaf) {
+    /// Draws a leaf, with its domain or as if it had none.
+    fn draw(&mut self, leaf: &Leaf, with_domain: bool) {
         let n = leaf.n;
-        let mut order: Vec<(usize, usize)> = (0..n * n).map(|k| (k / n, k % n)).collect();
-        if !leaf.coefficients.is_empty() {
-            // four at a time, mirrored
-            let last = n - 1;
-            let four = |(i, j): (usize, usize)| [(i, j), (i, last - j), (last - i, j), (last - i, last - j)];
-            order = (0..n * n / 4).map(|k| (k / (n / 2), k % (n / 2))).flat_map(four).collect();
-        }
-        let mean = leaf.domain.map_or(0.0, |(px, py, ..)| {
-            (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).sum::<f64>() / (n * n) as f64
-        });
-        for (i, j) in order {
-            let copied = leaf.domain.map_or(0.0, |(px, py, isometry, contrast)| {
-                let (mut row, mut column) = if isometry & 4 == 0 { (i, j) } else { (j, i) };
-                if isometry & 1 != 0 {
-                    column = n - 1 - column;
-                }
-                if isometry & 2 != 0 {
-                    row = n - 1 - row;
-                }
-                contrast * (self.halved(px + column, py + row) - mean)
-            });
-            let (x, y) = (leaf.x + j, leaf.y + i);
+        let domain = leaf.domain.filter(|_| with_domain);
+        let copy: Vec<f64> = match domain {
+            None => vec![0.0; n * n],
+            Some((px, py, isometry, contrast)) => {
+                let mean =
+                    (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).sum::<f64>() / (n * n) as f64;
+                let turned = |k: usize| {
+                    let (i, j) = (k / n, k % n);
+                    let (mut row, mut column) = if isometry & 4 == 0 { (i, j) } else { (j, i) };
+                    if isometry & 1 != 0 {
+                        column = n - 1 - column;
+                    }
+                    if isometry & 2 != 0 {
+                        row = n - 1 - row;
+                    }
+                    contrast * (self.halved(px + column, py + row) - mean)
+                };
+                (0..n * n).map(turned).collect()
+            }
+        };
+        for (k, copied) in copy.into_iter().enumerate() {
+            let (x, y) = (leaf.x + k % n, leaf.y + k / n);
             if x < self.width && y < self.height {
-                let value = leaf.mean + leaf.pixel(i, j) + copied;
+                let value = leaf.mean + leaf.pixel(k / n, k % n) + copied;
                 self.samples[y * self.width + x] = (value + 0.5).floor().clamp(0.0, self.peak);
+            }
+        }
+    }
+
+    /// One sweep; `first` if none was before it.
+    fn sweep(&mut self, first: bool) {
+        let across = self.across / 4;
+        let cells = |x: usize, y: usize, side: usize| {
+            (y / 4..(y + side).div_ceil(4))
+                .flat_map(move |row| (x / 4..(x + side).div_ceil(4)).map(move |column| row * across + column))
+        };
+        for leaf in self.leaves.clone() {
+            if self.settled[leaf.y / 4 * across + leaf.x / 4] {
+                continue;
+            }
+            let ready = leaf
+                .domain
+                .is_none_or(|(px, py, ..)| cells(2 * px, 2 * py, 2 * leaf.n).all(|cell| self.settled[cell]));
+            self.draw(&leaf, ready || !first);
+            if ready {
+                cells(leaf.x, leaf.y, leaf.n).for_each(|cell| self.settled[cell] = true);
             }
         }
     }
@@ -296,7 +327,7 @@ impl Plane {
         if window.is_some()
             && let Some(leaf) = self.leaves.last().cloned()
         {
-            self.draw(&leaf);
+            self.draw(&leaf, true);
         }
     }
 }
@@ -347,6 +378,7 @@ pub fn decode(file: &[u8]) -> Decoded {
                 samples: vec![start; width * height],
                 base: vec![0.0; all],
                 seen: vec![None; all],
+                settled: vec![false; all / 16],
                 across,
                 leaves: Vec::new(),
             }
@@ -368,15 +400,12 @@ pub fn decode(file: &[u8]) -> Decoded {
         }
     }
     if profile != 0 {
-        for _ in 0..reach {
-            for plane in &mut planes {
-                for leaf in plane.leaves.clone() {
-                    plane.draw(&leaf);
-                }
-            }
+        for sweep in 0..reach {
+            planes.iter_mut().for_each(|plane| plane.sweep(sweep == 0));
         }
     }
     Decoded {
+        leaves: planes.first().map(|plane| plane.leaves.clone()).unwrap_or_default(),
         planes: planes.into_iter().map(|plane| (plane.width, plane.height, plane.samples)).collect(),
         peak,
     }

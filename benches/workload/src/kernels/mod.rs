@@ -6,6 +6,7 @@
 //! host and target can be compared) and how many units of work it did.
 
 mod backward;
+mod codec;
 mod curve;
 mod deep;
 mod escape;
@@ -186,6 +187,9 @@ const TABLE: &[Kernel] = &[
     roomy(alone("torus", "ray, all crossings", solid::torus)),
     roomy(alone("superellipsoid", "ray, first crossing", solid::superellipsoid)),
     roomy(alone("star", "ray, first crossing; exponents below 1", solid::star)),
+    roomy(alone("decode streaming", "pixel of 240x240, 0.27 bits each", codec::streaming)),
+    roomy(alone("decode sweeps", "pixel of 240x240, 0.27 bits each, a stream for two sweeps", codec::two_sweeps)),
+    roomy(alone("decode four sweeps", "pixel of 240x240, 0.27 bits each", codec::four_sweeps)),
     alone("terrain height", "height at level 12", terrain::height),
     alone("terrain row", "height of 65 x 65", terrain::row),
     roomy(alone("terrain ray", "ray, first crossing, 64 x 64 cells", terrain::ray)),
