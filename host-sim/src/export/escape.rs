@@ -1,7 +1,6 @@
 //! Orbits: views of the Mandelbrot set and of filled-in Julia sets, with their colours, and Julia sets
 //! themselves.
 
-use attractor::draw::Level;
 use attractor::escape::{DeepMandelbrot, FractionalDwell, View};
 use attractor::num::Complex;
 use attractor::num::{Limbs, Wide};
@@ -176,11 +175,7 @@ fn made(scene: &Escape, build: &str) -> String {
 /// The palettes, for displays with colour and without.
 fn colors(scene: &Escape, module: &mut Module) {
     if scene.equalised && [scene.colors, scene.grey].iter().any(|colors| colors.cycle.is_none()) {
-        let counts = match scene.coloring {
-            Coloring::Dwell => scene.max_dwell + 1,
-            Coloring::Smooth => scene.max_dwell * FractionalDwell::STEPS + 1,
-            _ => u32::from(Level::FULL.to_bits()) + 1,
-        };
+        let counts = scene.coloring.counts(scene.max_dwell);
         module.constant("Counts that an equalised palette borrows.", "COUNTS", "usize", counts);
     }
     for (colors, name, on) in [(scene.colors, "color", "with"), (scene.grey, "grey", "without")] {

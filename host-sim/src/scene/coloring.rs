@@ -2,14 +2,13 @@
 
 use std::convert::Infallible;
 
-use attractor::draw::{Inside, Leveled, Ramp};
+use attractor::draw::{Equalised, Inside, Level, Leveled, Ramp};
 use attractor::escape::{Distance, EscapeTime, FractionalDwell, Interior, Smooth};
 use attractor::plane::Field;
-use attractor_gallery::{PAPER, Watch, draw_field};
+use attractor_gallery::{PAPER, Watch, draw_equalised, draw_field};
 use embedded_graphics::draw_target::DrawTarget;
 use serde::Deserialize;
 
-use super::equalised;
 use crate::color::{Depth, ground};
 use crate::fail::Fail;
 use crate::palette::Colors;
@@ -29,6 +28,17 @@ pub(crate) enum Coloring {
     Interior,
 }
 
+impl Coloring {
+    /// How many counts an equalised palette borrows.
+    pub(crate) fn counts(self, max_dwell: u32) -> usize {
+        Equalised::counts(match self {
+            Self::Dwell => max_dwell,
+            Self::Smooth => max_dwell * FractionalDwell::STEPS,
+            Self::Distance | Self::Interior => Level::FULL.to_bits().into(),
+        })
+    }
+}
+
 /// Draws an escape-time picture in this colouring.
 pub(super) fn draw<P, D>(
     picture: P,
@@ -44,15 +54,15 @@ where
     D::Color: Depth,
 {
     // colours that come round need no equal shares
-    let equalised = equalised && colors.cycle.is_none();
+    let counts = (equalised && colors.cycle.is_none()).then(|| coloring.counts(picture.max_dwell()));
     match coloring {
-        Coloring::Dwell => paint(picture, colors, equalised, target, watch),
+        Coloring::Dwell => paint(picture, colors, counts, target, watch),
         Coloring::Smooth => {
             let cycle = colors.cycle.map(|counts| counts * FractionalDwell::STEPS);
             let colors = Colors { cycle, ..colors };
-            paint(Smooth(picture), colors, equalised, target, watch)
+            paint(Smooth(picture), colors, counts, target, watch)
         }
-        Coloring::Distance => paint(Distance(picture), colors, equalised, target, watch),
+        Coloring::Distance => paint(Distance(picture), colors, counts, target, watch),
         Coloring::Interior => {
             let paper = ground::<D::Color>(PAPER);
             let color = Inside::new(Ramp::of_periods(|level| colors.named.at(level)), paper);
@@ -62,11 +72,11 @@ where
     }
 }
 
-/// Draws a field as the palette says.
+/// Draws a field as the palette says, equalised by so many counts.
 fn paint<F, D>(
     field: F,
     colors: Colors,
-    equalised: bool,
+    counts: Option<usize>,
     target: &mut D,
     watch: Watch<'_, D>,
 ) -> Result<(), Fail>
@@ -76,9 +86,13 @@ where
     D: DrawTarget<Error = Infallible>,
     D::Color: Depth,
 {
-    if equalised {
-        return equalised::draw(field, colors, target, watch);
-    }
-    draw_field(field, colors, target, watch);
+    let Some(counts) = counts else {
+        draw_field(field, colors, target, watch);
+        return Ok(());
+    };
+    let size = field.size();
+    let mut known = vec![None; size.width as usize * size.height as usize];
+    let palette = (|level: Level| colors.named.at(level), colors.inside);
+    draw_equalised(field, palette, (&mut known, &mut vec![0; counts]), target, watch).map_err(Fail::new)?;
     Ok(())
 }

@@ -6,7 +6,6 @@ pub(crate) mod curve;
 mod data;
 pub(crate) mod deep;
 mod environment;
-mod equalised;
 pub(crate) mod escape;
 pub(crate) mod fif_curve;
 pub(crate) mod fif_surface;
