@@ -5,9 +5,9 @@
 //! the similarity exponent `H` how much of that is left at small scales. `H` = 1 is the text's
 //! `o (t_2 - t_1) R`.
 //!
-//! Creases belong to the rule: lines that were born early stay visible. The mean square of the second difference
-//! across lines born at a step of 64 is 3.7 times that across lines born last for `H` = 1, and 1.6 times for
-//! `H` = 0.7 (`the_creases_of_the_rule_are_as_published`, 12 surfaces).
+//! Creases belong to the rule: lines that were born early stay visible. The mean square of the second
+//! difference across lines born at a step of 64 is 3.7 times that across lines born last for `H` = 1, and 1.6
+//! times for `H` = 0.7 (`the_creases_of_the_rule_are_as_published`, 12 surfaces).
 //!
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980 ("adding the result":
 //! the centre is the mean of the midpoints of both midlines, and both displacements are added); M. F.
@@ -75,8 +75,8 @@ impl Law {
     }
 
     /// How far heights inside a cell at one level can lie outside those of its corners, down to another
-    /// level, as an upper bound (`the_reach_of_a_law_is_an_upper_bound`): an edge's middle lies outside by `o_k R`, the centre, which is the mean of
-    /// four of these, by three times as much.
+    /// level, as an upper bound (`the_reach_of_a_law_is_an_upper_bound`): an edge's middle lies outside by
+    /// `o_k R`, the centre, which is the mean of four of these, by three times as much.
     pub fn reach(&self, from: u32, to: u32) -> Wide {
         let sum: i64 = (from..to.min(LEVELS)).map(|level| i64::from(self.at(level))).sum();
         // below 2^33 times 3 2^29.8, of 56 fractional bits; a unit of a height a level for rounding

@@ -167,7 +167,7 @@ impl<'a, 't, R: Randomness> Rows<'a, 't, R> {
         if given < needed {
             return Err(Error::BufferLength { what: "heights of a lattice", given, needed });
         }
-        let mut places = heights.chunks_mut(self.width());
+        let mut places = heights.chunks_mut(self.width().max(1));
         while let Some(row) = self.next_row() {
             if let Some(place) = places.next() {
                 for (place, height) in place.iter_mut().zip(row) {

@@ -4,6 +4,7 @@
 #![no_main]
 
 use core::hint::black_box as bb;
+use core::ops::ControlFlow;
 
 use attractor::draw::{
     ColoredDots, CourseUnit, Cycled, Dots, Grey, Inverted, LsbPages, Luminance, MsbRows, Packing, Picture,
@@ -15,11 +16,14 @@ use attractor::escape::{
 };
 use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread};
 use attractor::num::Complex;
-use attractor::num::{Real, Scaling, Unit, Vec3, Wide};
+use attractor::num::{RandomField, Real, Scaling, Unit, Vec3, Wide};
 use attractor::plane::{Bounds2, Field, Point2, Window, from_fn};
+use attractor::terrain::{
+    Heights, InnerGeometry, Law, Magnification, PlaneToLine, Rows, Seam, Seamed, Side, Triangles,
+};
 use attractor::trace::{
-    Camera, Environment, Filter, FilteredCaster, Finish, HeightField, Light, Quality, Ray, RayCaster,
-    Sampling, Statistics,
+    Camera, DeepTerrain, Environment, Filter, FilteredCaster, Finish, HeightField, HeightRange, Light,
+    Quality, Ray, RayCaster, Sampling, Statistics, Surface, Terrain,
 };
 use attractor::{Error, draw};
 use attractor_cortex_m::{Wire, entry, semihosting};
@@ -36,6 +40,10 @@ fn main() -> ! {
     let _ = bb(escape());
     let _ = bb(rays());
     let _ = bb(drawing());
+    // more than the 256 KiB of the Cortex-M0's board hold
+    if !cfg!(all(target_arch = "arm", not(target_has_atomic = "32"))) {
+        let _ = bb(terrain());
+    }
     semihosting::process::exit(0)
 }
 
@@ -128,6 +136,50 @@ fn rays() -> Result<(), Error> {
     let filtered = FilteredCaster::new(caster, &moments, &moments, bb(Quality::Fine))?;
     bb((filtered.row(bb(0), bb(0)..bb(100)).last(), filtered.found(bb(3), bb(4))));
     Ok(())
+}
+
+/// Surfaces by subdivision: heights, rows, triangles, patches, and both kinds under rays.
+fn terrain() -> Result<(), Error> {
+    let knots = bb([Real::ONE; 9]);
+    let law = Law::new(bb(Unit::DELTA), bb(Unit::DELTA))?;
+    let seams = [Seam::new(bb(1), bb([0, 0]), bb([0, 1]))?];
+    let random = Seamed::new(RandomField::new(bb(1)), &seams);
+    let knots = Heights::new(bb(3), bb(3), &knots)?.with_origin(bb(1), bb(1))?;
+    let function = PlaneToLine::new(knots, law, random)?;
+    let [u, v] = function.point(bb(3), bb(1), bb(2));
+    bb((function.height(u, v), law.offset(bb(1)), law.reach(bb(1), bb(2)), knots.range()));
+    bb(function.extrapolated(bb(Side::West), &mut [Real::ZERO; 3]))?;
+    let near = Magnification { eye: bb([u; 3]), length: bb(Unit::DELTA), most: bb(4) };
+    bb(Triangles::new(&function, bb(1), bb([0, 0]), &near)?.last());
+    let (mut rows, mut heights) = ([Real::ZERO; 64], [Real::ZERO; 81]);
+    Rows::of(&function, bb(1), [bb(0)..bb(2), bb(0)..bb(2)], bb(2), &mut rows)?.write(&mut heights)?;
+    Rows::new(&function, bb(2), &mut rows)?.write(&mut heights)?;
+    let heights = Heights::new(bb(9), bb(9), &heights)?;
+    let patch = bb(InnerGeometry::BSpline).patch(&heights, bb(1), bb(2));
+    bb((
+        patch.height(bb(Unit::DELTA), Unit::DELTA),
+        patch.slopes(bb(Unit::DELTA), Unit::DELTA),
+        patch.range(),
+    ));
+    let over = bb([[Real::ZERO, Real::ONE]; 2]);
+    crossed(&DeepTerrain::new(&function, bb(3), over)?);
+    let mut ranges = [HeightRange::default(); Terrain::ranges(9, 9)];
+    let land = Terrain::new(heights, bb(InnerGeometry::Ferguson), over, &mut ranges)?;
+    crossed(&land);
+    crossed(&land.with_plain(bb(Real::ZERO)));
+    Ok(())
+}
+
+/// All that a caster asks of a surface.
+fn crossed(surface: &impl Surface) {
+    let ray = Ray::new(bb(Vec3::X), bb(Vec3::Z));
+    let mut last = None;
+    surface.cross(&ray, bb(Unit::DELTA), &mut |crossing| {
+        last = Some(crossing);
+        bb(ControlFlow::Continue(()))
+    });
+    bb(last.map(|crossing| surface.point(&ray, bb(Unit::DELTA), &crossing, bb(true))));
+    bb((surface.value(bb(Vec3::X)), surface.extent(), surface.ball(), surface.error()));
 }
 
 /// Every way to draw one field, a path and points, on three kinds of display.

@@ -65,6 +65,7 @@ impl Rule {
     pub(super) fn index(&self, c: Q24) -> u32 {
         let along = (i64::from(c) - i64::from(self.origin)).max(0);
         let index = ((i128::from(along) * i128::from(self.density)) >> 47) as i64;
-        index.clamp(0, i64::from(self.count) - 1) as u32
+        // no clamp, which would have to know that there are cells
+        index.min(i64::from(self.count) - 1).max(0) as u32
     }
 }
