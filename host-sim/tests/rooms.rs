@@ -17,6 +17,13 @@ const ROOMS: [(&str, &str, &str, &str, &str); 8] = [
     ("curve", "cesaro-square", "mono", "160x160", "Cesaro's curve inside a square"),
     ("escape", "mandelbrot", "rgb565", "160x128", "the Mandelbrot set"),
     ("terrain", "mountain-ferguson", "gray4", "160x128", "a mountain of 1,024 patches over a plain"),
+    (
+        "patch",
+        "patch-rock",
+        "gray4",
+        "160x120",
+        "a surface by nine control points with sharp edges, as rock has them",
+    ),
     ("trace", "figure-6-gg", "gray4", "160x160", "a fractal surface as a mirror, under a chequered sky"),
     ("draw", "julia", "mono", "160x120", "a filled-in Julia set in dithered greys"),
 ];
