@@ -73,7 +73,7 @@ impl Default for Levels {
 /// Where a level is kept.
 #[inline]
 const fn at(place: u8) -> usize {
-    (place >> 4 | place << 4) as usize
+    place.rotate_left(4) as usize
 }
 
 impl Levels {
@@ -189,7 +189,8 @@ impl<'a> Inverse<'a> {
         self.pixels::<S>(pair, j)
     }
 
-    /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns` those
+    /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns`
+    /// those
     /// of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is rounded to
     /// `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
     ///
