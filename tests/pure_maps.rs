@@ -1,4 +1,5 @@
-//! A stream of profile pure is an iterated function system, and its attractor what its sweeps draw: the copier
+//! A stream of profile pure is an iterated function system, and its attractor what its sweeps draw: the
+//! copier
 //! draws it, all maps applied to a whole picture over and over, and so does the chaos game, one point at a
 //! time (CS2401 Computer Graphics, unit V, 5.3.4).
 //!
@@ -81,7 +82,8 @@ impl Random {
 const PARTS: usize = 4;
 
 /// Heights of points of a chaos game by pixel, the mean of the means of its parts, since points need not fall
-/// evenly within a pixel; none where a part has no point. A game begins on a flat leaf, of which every point is
+/// evenly within a pixel; none where a part has no point. A game begins on a flat leaf, of which every
+/// point is
 /// known, and ends where no domain is.
 fn game(leaves: &[Leaf], attractor: &[f64], width: usize, points: usize) -> Vec<Option<f64>> {
     let means: Vec<f64> = leaves.iter().map(|leaf| mean(leaf, attractor, width)).collect();

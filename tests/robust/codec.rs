@@ -108,6 +108,7 @@ fn leaves_say_what_they_hear() {
         let levels: Vec<i32> = scan(size).iter().map(|place| leaf.levels.get(*place)).collect();
         assert!(levels.iter().all(|level| level.abs() <= 8191));
         assert_eq!(leaf.levels.is_empty(), levels.iter().all(|level| *level == 0));
+        assert!(scan(size).iter().all(|place| leaf.levels.about(*place) <= 2));
         let mut again = Levels::default();
         scan(size).iter().zip(&levels).for_each(|(place, level)| again.set(*place, *level));
         again.clear();

@@ -1,8 +1,10 @@
-//! `cargo xtask fuzz-codec`: small streams, most of which decode whole, until as many were tried as asked for. A
+//! `cargo xtask fuzz-codec`: small streams, most of which decode whole, until as many were tried as asked
+//! for. A
 //! panic, an overflow in a build with checks or a decoder that reads on for ever is a fault.
 //!
 //! A stream is made by the decoder's own walk over the syntax, with a coder that tosses coins for bins and
-//! writes what it tossed. Then bytes of it are changed in most of them; header, length and checksum stay right
+//! writes what it tossed. Then bytes of it are changed in most of them; header, length and checksum stay
+//! right
 //! in seven of eight, so that the changed bins are read.
 
 use std::cell::Cell;

@@ -5,7 +5,8 @@
 //!
 //! PSNR at 0.25, 0.5 and 1 bit a pixel, container included; the peers' quality is swept and their PSNR
 //! interpolated over the logarithm of the bytes. MS-SSIM beside our own. What one pass in a window of 64 rows
-//! costs: bytes of profile streaming at the PSNR that profile iterated, whose domains lie anywhere, has at 0.25
+//! costs: bytes of profile streaming at the PSNR that profile iterated, whose domains lie anywhere, has at
+//! 0.25
 //! bits. The attractor command must have been built: `cargo build --release -p attractor-sim`.
 
 use std::fs;
@@ -44,7 +45,7 @@ impl Grey {
     }
 
     fn pgm(&self) -> Vec<u8> {
-        let head = format!("P5 {} {} 255\n", self.width, self.height);
+        let head = format!("P5\n{} {}\n255\n", self.width, self.height);
         [head.as_bytes(), &self.samples].concat()
     }
 }

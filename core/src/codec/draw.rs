@@ -1,6 +1,7 @@
 //! A leaf's pixels.
 //!
-//! `p(i, j) = M + x(i, j) + s (D(i, j) - mean D)`, rounded and cut off once: with 7 fractional bits `M` and `x`,
+//! `p(i, j) = M + x(i, j) + s (D(i, j) - mean D)`, rounded and cut off once: with 7 fractional bits `M`
+//! and `x`,
 //! `s` in eighths and the mean of `D` with 4. First the leaf's own pixels become a copy of its domain, then
 //! each is turned into its sample where it lies: no memory is needed for a domain, so it must not touch the
 //! leaf.
@@ -16,7 +17,8 @@ use super::transform::{Inverse, Pair};
 impl<'a, S: Sample> Plane<'a, S> {
     /// A leaf's pixels, and what later leaves need to know of it. False if its domain may not lie there.
     ///
-    /// In sweeps a leaf is settled once it was drawn with a domain of which all is settled, or without one; then
+    /// In sweeps a leaf is settled once it was drawn with a domain of which all is settled, or without
+    /// one; then
     /// it stays as it is. The first sweep draws a leaf whose domain is not settled by then as if it had none.
     #[inline(never)]
     pub fn draw(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32) -> bool {

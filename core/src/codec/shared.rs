@@ -1,4 +1,5 @@
-//! What an encoder shares with the decoder: it walks the same syntax with a coder that writes. For the command
+//! What an encoder shares with the decoder: it walks the same syntax with a coder that writes. For the
+//! command
 //! `attractor`; no part of the interface, and it may change in any release.
 
 pub use super::context::{self, COUNT as MODELS, NUMBER};

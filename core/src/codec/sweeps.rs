@@ -1,9 +1,11 @@
 //! Decoding by iteration, as the text has it: maps applied to a whole picture, over and over.
 //!
 //! The picture is changed in place: a leaf sees what the leaves before it have become, which converges faster
-//! than to keep two pictures. A leaf whose domain does not change any more is settled: no sweep draws it again.
+//! than to keep two pictures. A leaf whose domain does not change any more is settled: no sweep draws it
+//! again.
 //! So a stream whose maps do not depend on each other in a circle comes to its fixed point in few sweeps and
-//! stays there to the bit. A sweep reads the stream from its beginning, as nothing is kept but the picture and
+//! stays there to the bit. A sweep reads the stream from its beginning, as nothing is kept but the picture
+//! and
 //! a bit for each 16 of its pixels.
 
 use core::cell::Cell;

@@ -73,7 +73,7 @@ impl Default for Levels {
 /// Where a level is kept.
 #[inline]
 const fn at(place: u8) -> usize {
-    (place >> 4 | place << 4) as usize
+    place.rotate_left(4) as usize
 }
 
 impl Levels {
@@ -189,8 +189,8 @@ impl<'a> Inverse<'a> {
         self.pixels::<S>(pair, j)
     }
 
-    /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns` those
-    /// of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is rounded to
+    /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns`
+    /// those of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is rounded to
     /// `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
     ///
     /// The pixels of a row and the one that mirrors it, at `j` and at the place that mirrors that, with 7
@@ -220,6 +220,14 @@ mod tests {
 
     use super::*;
 
+    #[test]
+    fn a_transform_keeps_the_bound_of_its_arithmetic() {
+        let (small, deep) = (worst::<u8>(500.0), worst::<u16>(60_000.0));
+        std::println!("{small:.3} and {deep:.3} of the bound");
+        assert!(small > 0.3 && deep > 0.3, "{small} {deep}");
+    }
+
+    /// The greatest error over its bound, below which each is.
     fn worst<S: Sample>(most: f64) -> f64 {
         let (mut worst, mut state, mut tried) = (0.0_f64, 1_u64, 0);
         let mut random = |below: u64| {
@@ -271,13 +279,6 @@ mod tests {
         }
         assert!(tried > 50_000, "{tried}");
         worst
-    }
-
-    #[test]
-    fn a_transform_keeps_the_bound_of_its_arithmetic() {
-        let (small, deep) = (worst::<u8>(500.0), worst::<u16>(60_000.0));
-        std::println!("{small:.3} and {deep:.3} of the bound");
-        assert!(small > 0.3 && deep > 0.3, "{small} {deep}");
     }
 
     #[test]

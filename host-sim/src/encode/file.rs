@@ -98,7 +98,8 @@ impl<'a> Source<'a> {
         (0..).zip(self.shapes(step).iter().zip(&self.originals)).map(find).collect()
     }
 
-    /// What a domain costs besides its bits that the first sweep does not find ready: where all of it is settled
+    /// What a domain costs besides its bits that the first sweep does not find ready: where all of it is
+    /// settled
     /// by that sweep, and else. Whatever copies it waits for it as well, so few sweeps allow few of them.
     const fn late(&self) -> [f32; 2] {
         match self.plan.reach {
@@ -112,7 +113,8 @@ impl<'a> Source<'a> {
         if matches!(self.plan.profile, Profile::Pure) { LAMBDA_PURE } else { LAMBDA }
     }
 
-    /// The stream, and what its first sweep settles. Domains of sweeps lie in `pools`, the planes as they will
+    /// The stream, and what its first sweep settles. Domains of sweeps lie in `pools`, the planes as they
+    /// will
     /// be decoded, or else the picture. A bit is worth `thrift` times as much as it should be.
     pub(super) fn encode(
         &self,

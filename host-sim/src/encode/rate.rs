@@ -33,9 +33,12 @@ pub(crate) struct Encoded {
 /// Where a header says how many sweeps.
 const REACH: usize = 12;
 
-/// The most encodings, at different steps and then between two of them.
+/// The most encodings, at different steps.
 const PASSES: usize = 12;
-const THRIFTS: usize = 8;
+/// Then how much finer a step, and what a bit is worth at least and at most.
+const BETWEEN: [(u16, f32, f32); 5] =
+    [(1, 1.0, 1.3), (0, 0.5, 1.0), (3, 1.0, 1.3), (8, 1.0, 1.4), (20, 1.0, 1.8)];
+const HALVINGS: usize = 6;
 
 impl Target {
     /// How far an encoding is on the wrong side: above 0 if the step is too fine.
@@ -126,21 +129,20 @@ pub(crate) fn meet(
         }
         tried.push(one((step, 1.0), &candidates, pool.as_deref().filter(|_| sweeps))?);
     }
-    // between two steps: the finest that is too large, with a little less for each bit
-    let nearest = |tried: &[Encoded]| tried.iter().filter(|e| target.allows(e)).map(|e| e.step).min();
-    if let (Target::Bytes(_), Some(step), false) =
-        (target, nearest(&tried), tried.iter().any(|e| target.is_met(e)))
-    {
-        let (mut least, mut most) = (1.0, 1.4);
-        for _ in 0..THRIFTS {
-            let thrift = 0.5 * (least + most);
-            let encoded =
-                one((step.saturating_sub(1), thrift), &candidates, pool.as_deref().filter(|_| sweeps))?;
-            *(if target.miss(&encoded) > 0.0 { &mut least } else { &mut most }) = thrift;
-            let met = target.is_met(&encoded);
-            tried.push(encoded);
-            if met {
-                break;
+    // between two steps: bits a little cheaper at the finest step that is allowed, or dearer at finer ones
+    let finest = tried.iter().filter(|e| target.allows(e)).map(|e| e.step).min();
+    let met = |tried: &[Encoded]| tried.iter().any(|e| target.is_met(e));
+    if let (Target::Bytes(_), Some(step)) = (target, finest) {
+        for (finer, mut least, mut most) in BETWEEN {
+            for _ in 0..HALVINGS {
+                if met(&tried) {
+                    break;
+                }
+                let thrift = 0.5 * (least + most);
+                let step = step.saturating_sub(finer);
+                let encoded = one((step, thrift), &candidates, pool.as_deref().filter(|_| sweeps))?;
+                *(if target.miss(&encoded) > 0.0 { &mut least } else { &mut most }) = thrift;
+                tried.push(encoded);
             }
         }
     }
