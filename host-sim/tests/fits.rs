@@ -98,6 +98,28 @@ fn what_cannot_be_fitted_is_said_in_one_line_and_nothing_is_written() {
     assert!(String::from_utf8_lossy(&low.stderr).contains("terraces") && low.status.success());
 }
 
+/// Samples on which no start can improve: `a (x) a` with `a = (-1, 2, 0, -2, 1)` is at right angles to all products of
+/// what parabolas and Takagi's curves have at quarters, so that the best heights are level, and maps do not matter.
+#[test]
+fn a_fit_that_does_not_improve_writes_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    const A: [i32; 5] = [-1, 2, 0, -2, 1];
+    let height = |x: u32, y: u32| (3000 + 100 * A[x as usize] * A[y as usize]) as u16;
+    picture(&at.join("crossed.png"), [5, 5], png::BitDepth::Sixteen, height);
+    let args = ["fit", "crossed.png", "--model", "tensor", "--parameters", "17", "-o", "out.toml"];
+    let output = attractor_in(at, &args);
+    assert_eq!(output.status.code(), Some(2));
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(complaint.contains("the fit does not improve") && complaint.lines().count() == 1, "{complaint}");
+    assert!(output.stdout.is_empty() && !at.join("out.toml").exists());
+    // one sample moved, and it does
+    picture(&at.join("moved.png"), [5, 5], png::BitDepth::Sixteen, |x, y| {
+        height(x, y) + u16::from(x + y == 3) * 90
+    });
+    good(at, &["fit", "moved.png", "--model", "tensor", "--parameters", "17", "-o", "out.toml"]);
+}
+
 /// Scenes of curves and surfaces that are none.
 #[test]
 fn control_points_that_make_nothing_are_refused() {

@@ -10,13 +10,20 @@ use base64::engine::general_purpose::STANDARD;
 use crate::common::{decode, good};
 
 /// Room, scene, colour and size, and what to say to those who cannot see it.
-const ROOMS: [(&str, &str, &str, &str, &str); 8] = [
+const ROOMS: [(&str, &str, &str, &str, &str); 9] = [
     (NUM, "num.toml", "rgb565", "160x128", "a spiral of squares on the left, with all its arms on the right"),
     ("fif", "sunspots", "mono", "160x120", "309 years of sunspots, interpolated"),
     ("ifs", "fern", "rgb565", "128x128", "Barnsley's fern"),
     ("curve", "cesaro-square", "mono", "160x160", "Cesaro's curve inside a square"),
     ("escape", "mandelbrot", "rgb565", "160x128", "the Mandelbrot set"),
     ("terrain", "mountain-ferguson", "gray4", "160x128", "a mountain of 1,024 patches over a plain"),
+    (
+        "patch",
+        "patch-rock",
+        "gray4",
+        "160x120",
+        "a surface by nine control points with sharp edges, as rock has them",
+    ),
     ("trace", "figure-6-gg", "gray4", "160x160", "a fractal surface as a mirror, under a chequered sky"),
     ("draw", "julia", "mono", "160x120", "a filled-in Julia set in dithered greys"),
 ];

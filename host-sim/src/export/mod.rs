@@ -101,7 +101,7 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::Julia(scene) => escape::julia(scene, &mut module),
         Kind::JuliaSet(scene) => escape::julia_set(scene, &mut module, gallery),
         Kind::PatchCurve(scene) => patch::curve(scene, &mut module, gallery),
-        Kind::PatchSurface(scene) => patch::surface(scene, &mut module),
+        Kind::PatchSurface(scene) => patch::surface(scene, &mut module, gallery),
         Kind::Texture(scene) => texture::slice(scene, &mut module),
         Kind::Terrain(scene) => terrain::terrain(scene, &mut module, gallery),
         Kind::World(scene) => world::world(scene, &mut module),

@@ -44,7 +44,10 @@ const NAMES: [(&str, &str); 19] = [
          Texels Turbulence Wood",
     ),
     ("attractor::trace::world", "Lamp Leaf Object Op World WorldCaster"),
-    ("attractor_gallery", "Floor Ground Lines Method Named Pencil Shading TerrainPicture"),
+    (
+        "attractor_gallery",
+        "Floor Ground Lines Method Named PatchSurfacePicture Pencil Shading Standpoint TerrainPicture",
+    ),
     ("attractor::curve", "catalogue"),
     ("embedded_graphics::geometry", "Size"),
     ("embedded_graphics::pixelcolor", "Rgb888"),

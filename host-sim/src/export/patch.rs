@@ -1,6 +1,8 @@
 //! Curves and surfaces by control points.
 
-use super::module::{Module, lit};
+use attractor_gallery::Standpoint;
+
+use super::module::{Module, lit, lits, variant};
 use super::palette;
 use crate::reconstruction::family::Family;
 use crate::scene::patch_curve::{PatchCurve, Shape};
@@ -58,7 +60,7 @@ fn ends<const M: usize>(curve: &attractor::patch::ProjectedCurve<2, M>) -> Rows 
 }
 
 /// A surface: its numbers, its heights, and what refines them.
-pub(super) fn surface(scene: &PatchSurfaceScene, module: &mut Module) {
+pub(super) fn surface(scene: &PatchSurfaceScene, module: &mut Module, gallery: bool) {
     module.array(
         "The numbers of its maps.",
         "NUMBERS",
@@ -92,4 +94,28 @@ pub(super) fn surface(scene: &PatchSurfaceScene, module: &mut Module) {
         &format!("fn sheet(scheme: &{kind}) -> Result<Sheet<'_, {kind}, {width}>, Error>"),
         &["Sheet::new(scheme, &HEIGHTS, CELLS)".to_owned()],
     );
+    if gallery {
+        let Standpoint { eye, look_at, up, field_of_view } = scene.view;
+        let vector = |v: attractor::num::Vec3| lits("Vec3", [v.x, v.y, v.z]);
+        let view = [
+            ("eye", vector(eye)),
+            ("look_at", vector(look_at)),
+            ("up", vector(up)),
+            ("field_of_view", lit("Real", field_of_view)),
+        ];
+        module.constant("The camera.", "VIEW", "Standpoint", variant("Standpoint", &view));
+        module.constant("Towards the sun.", "SUN", "Vec3", vector(scene.sun));
+        module.function(
+            "The picture.",
+            "None: the command has built it.",
+            &format!(
+                "fn picture(scheme: &{kind}) -> Result<PatchSurfacePicture<'_, {kind}, {width}>, Error>"
+            ),
+            &[format!(
+                "Ok(PatchSurfacePicture {{ sheet: sheet(scheme)?, height: HEIGHT, view: VIEW, sun: SUN, \
+                 samples: {} }})",
+                scene.samples
+            )],
+        );
+    }
 }

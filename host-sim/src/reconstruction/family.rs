@@ -7,8 +7,6 @@
 //! - *tensor*: `T_ij = T_i (x) T_j`, 4 numbers along each axis, 3 x 3 heights a cell;
 //! - *lattice*: one stationary mask of 5 x 5 entries, 21 numbers, 4 x 4 overlapping heights a cell.
 
-use attractor::num::Near;
-use attractor::patch::{Mask, Patch, Tensor, standard_curve};
 use nalgebra::{DMatrix, DVector};
 
 /// What a fitted surface is made of.
@@ -73,7 +71,8 @@ impl Family {
     /// Numbers from which a fit starts: those of smooth surfaces, and of others near them.
     pub(crate) fn starts(self) -> Vec<Vec<f64>> {
         match self {
-            Self::Standard => [BILINEAR, QUADRATIC].map(|weights| standard_start(&weights)).to_vec(),
+            // a polyline's product, a parabola's, and mixtures of both
+            Self::Standard => [0.25, 0.0, 0.5, 0.75, 1.0].map(standard_start).to_vec(),
             // `x^2 - 3/4 x + 1/8`: the parabola; Takagi's curve
             Self::Tensor => vec![[0.75, -0.125].repeat(4), [1.0, -0.25].repeat(4)],
             Self::Lattice => {
@@ -103,22 +102,6 @@ impl Family {
         match self {
             Self::Lattice => 1e-4,
             Self::Standard | Self::Tensor => 0.0,
-        }
-    }
-
-    /// Whether core takes the numbers for a surface: joined by construction, and proven to contract.
-    pub(crate) fn contracts(self, numbers: &[f64]) -> bool {
-        let all: Option<Vec<Near>> = numbers.iter().map(|n| rounded(*n)).collect();
-        let Some(all) = all else { return false };
-        match self {
-            Self::Standard => all.try_into().is_ok_and(|all| Patch::standard(&all).is_ok()),
-            Self::Lattice => all.try_into().is_ok_and(|all| Mask::from_numbers(&all).is_ok()),
-            Self::Tensor => match all[..] {
-                [a, b, c, d, e, f, g, h] => standard_curve([a, b], [c, d])
-                    .and_then(|u| Tensor::<2, 3, 3, 9>::new(u, standard_curve([e, f], [g, h])?))
-                    .is_ok(),
-                _ => false,
-            },
         }
     }
 
@@ -221,11 +204,6 @@ impl Family {
     }
 }
 
-/// With the 28 fractional bits of core; none outside its format.
-fn rounded(number: f64) -> Option<Near> {
-    number.is_finite().then(|| Near::checked_from_num(number))?
-}
-
 const PARTS: [[usize; 2]; 4] = [[0, 0], [0, 1], [1, 0], [1, 1]];
 
 /// The entries of the mask that are numbers; the others are what is left of 1 in their class.
@@ -304,12 +282,13 @@ const BILINEAR: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 1.0, 0.
 const QUADRATIC: [[f64; 3]; 4] =
     [[1.0, 0.0, 0.0], [0.375, 0.75, -0.125], [0.0, 1.0, 0.0], [-0.125, 0.75, 0.375]];
 
-/// The standard grid of the product of two such curves.
-fn standard_start(weights: &[[f64; 3]; 4]) -> Vec<f64> {
-    let boundary = [1, 3, 1, 3].into_iter().flat_map(|k: usize| [weights[k][0], weights[k][2]]);
+/// The standard grid of the product of two curves, `share` of the way from the polyline to the parabola.
+fn standard_start(share: f64) -> Vec<f64> {
+    let weights = |k: usize, c: usize| BILINEAR[k][c] + share * (QUADRATIC[k][c] - BILINEAR[k][c]);
+    let boundary = [1, 3, 1, 3].into_iter().flat_map(|k| [weights(k, 0), weights(k, 2)]);
     let inner = INNER
         .into_iter()
-        .flat_map(|[k, l]| (0..9).filter(|c| *c != 4).map(move |c| weights[k][c / 3] * weights[l][c % 3]));
+        .flat_map(|[k, l]| (0..9).filter(|c| *c != 4).map(move |c| weights(k, c / 3) * weights(l, c % 3)));
     boundary.chain(inner).collect()
 }
 

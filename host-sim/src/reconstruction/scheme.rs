@@ -37,6 +37,15 @@ impl Scheme {
         })
     }
 
+    /// Whether core takes numbers and heights for a surface: joined by construction, proven to contract, and no height so
+    /// great that refining might take it out of its format.
+    pub(crate) fn is_one(family: Family, numbers: &[f64], heights: &[f64], cells: usize) -> bool {
+        let numbers: Option<Vec<Near>> = numbers.iter().map(|n| rounded(*n)).collect();
+        let heights: Option<Vec<Real>> = heights.iter().map(|h| rounded(*h)).collect();
+        let (Some(numbers), Some(heights)) = (numbers, heights) else { return false };
+        Self::new(family, &numbers).is_ok_and(|scheme| scheme.check(&heights, cells as u32).is_ok())
+    }
+
     /// Whether these heights are those of so many cells.
     ///
     /// # Errors
@@ -71,4 +80,9 @@ impl Scheme {
             }
         })
     }
+}
+
+/// With the fractional bits of core; none outside the format.
+fn rounded<F: attractor::fixed::traits::Fixed>(number: f64) -> Option<F> {
+    number.is_finite().then(|| F::checked_from_num(number))?
 }

@@ -3,14 +3,10 @@
 use std::convert::Infallible;
 
 use attractor::Error;
-use attractor::draw::Srgb;
-use attractor::num::{Affine3, Lumen, Near, Real, Rgb, Unit, Vec3};
+use attractor::num::{Near, Real, Rgb, Vec3};
 use attractor::patch::{Scheme as Refining, Sheet};
-use attractor::trace::material::Mixture;
-use attractor::trace::solid::Moved;
-use attractor::trace::world::{Lamp, Leaf, Object, Op, World, WorldCaster};
-use attractor::trace::{Camera, Extent, Filter, PatchSurface, Sampling, Sky};
-use attractor_gallery::{Watch, draw_field};
+use attractor::trace::world::Lamp;
+use attractor_gallery::{PatchSurfacePicture, Watch};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use serde::Deserialize;
@@ -19,7 +15,7 @@ use toml::Spanned;
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::request::Request;
-use super::standpoint::{Eye, camera, vector};
+use super::standpoint::{Eye, Standpoint, camera, vector};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
@@ -28,9 +24,6 @@ use crate::reconstruction::scheme::Scheme;
 use crate::reconstruction::table::Table;
 use crate::source::{Num, Place, Source};
 use crate::table::Csv;
-
-/// The deepest level that core goes down to.
-const DEEPEST: u32 = 12;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -65,10 +58,10 @@ pub(crate) struct PatchSurfaceScene {
     /// How high 1 is, where the square is from -1 to 1.
     pub(crate) height: Real,
     scheme: Scheme,
-    camera: Camera,
+    pub(crate) view: Standpoint,
     orbit: Option<Orbit>,
-    lamp: Lamp,
-    samples: u8,
+    pub(crate) sun: Vec3,
+    pub(crate) samples: u8,
     place: Place,
 }
 
@@ -96,13 +89,12 @@ impl PatchSurfaceScene {
             Some(height) => source.fixed(height, "height")?,
             None => Real::ONE / 2,
         };
-        let (camera, _, orbit) = camera(source, &file.camera)?;
-        let direction = match &file.light {
+        let (_, view, orbit) = camera(source, &file.camera)?;
+        let sun = match &file.light {
             Some(light) => vector(source, &light.direction, "light.direction")?,
             None => Vec3::new(Real::from_num(-3), Real::from_num(-1), Real::from_num(4)),
         };
-        let white = |part: f64| Rgb::new(Lumen::from_num(part), Lumen::from_num(part), Lumen::from_num(part));
-        let lamp = Lamp::distant(direction, white(1.0)).map_err(|error| {
+        Lamp::distant(sun, Rgb::WHITE).map_err(|error| {
             let span = file.light.as_ref().map_or(0..0, |light| light.direction.span());
             source.fail(span, "light.direction", error)
         })?;
@@ -112,61 +104,27 @@ impl PatchSurfaceScene {
         }
         let place = source.place(file.heights.span(), "heights");
         let scene =
-            Self { family, numbers, heights, cells, height, scheme, camera, orbit, lamp, samples, place };
-        let nobody = scene.with(&Request { size: Size::new(8, 8), seed: 1 }, &mut Check);
-        nobody.map_err(|error| source.fail(file.heights.span(), "heights", error))?;
+            Self { family, numbers, heights, cells, height, scheme, view, orbit, sun, samples, place };
+        scene.with(&mut Check).map_err(|error| source.fail(file.heights.span(), "heights", error))?;
         Ok(scene)
     }
 
-    /// Hands the picture to somebody who can show one of any scheme.
-    fn with(&self, request: &Request, show: &mut impl Show) -> Result<(), Error> {
+    /// Hands the picture to somebody who takes one of any scheme.
+    fn with(&self, show: &mut impl Show) -> Result<(), Error> {
         match &self.scheme {
-            Scheme::Standard(scheme) => self.with_scheme(&**scheme, request, show),
-            Scheme::Tensor(scheme) => self.with_scheme(&**scheme, request, show),
-            Scheme::Lattice(scheme) => self.with_scheme(&**scheme, request, show),
+            Scheme::Standard(scheme) => show.show(&self.picture(&**scheme)?),
+            Scheme::Tensor(scheme) => show.show(&self.picture(&**scheme)?),
+            Scheme::Lattice(scheme) => show.show(&self.picture(&**scheme)?),
         }
     }
 
-    fn with_scheme<S: Refining<J>, const J: usize>(
-        &self,
-        scheme: &S,
-        request: &Request,
-        show: &mut impl Show,
-    ) -> Result<(), Error> {
-        let side = request.size.width.max(request.size.height);
-        // parts as small as a pixel where the square fills the display
-        let depth = (0..DEEPEST).find(|depth| self.cells << depth >= side).unwrap_or(DEEPEST);
-        let surface = PatchSurface::new(Sheet::new(scheme, &self.heights, self.cells)?, depth)?;
-        let two = Real::from_num(2);
-        let map = Affine3::scale(Vec3::new(two, two, self.height)).then(&Affine3::translate(Vec3::new(
-            -Real::ONE,
-            -Real::ONE,
-            Real::ZERO,
-        )));
-        let leaves = [Leaf { surface: Moved::new(surface, &map)?, materials: &[0] }];
-        let mut boxes = [Extent::NOTHING; Object::extents(1)];
-        let objects = [Object::new(
-            &[Op::Leaf(0)],
-            |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface),
-            &mut boxes,
-        )?];
-        let color = Rgb::new(Lumen::from_num(0.62), Lumen::from_num(0.55), Lumen::from_num(0.45));
-        let materials = [Mixture::matt(color).with_parts(Unit::from_num(0.12), Unit::from_num(0.88))?];
-        let lamps = [self.lamp];
-        let world = World::new(&leaves, &objects, &materials)?.with_lamps(&lamps);
-        let sky =
-            |r: f64, g: f64, b: f64| Rgb::new(Lumen::from_num(r), Lumen::from_num(g), Lumen::from_num(b));
-        let sky =
-            Sky { zenith: sky(0.14, 0.3, 0.7), horizon: sky(0.68, 0.79, 0.91), nadir: sky(0.12, 0.11, 0.09) };
-        let sampling = match self.samples {
-            1 => Sampling::Centre,
-            n => Sampling::Jittered { n, seed: request.seed as u32 },
-        };
-        let caster = WorldCaster::<_, _, _, 16, 3>::new(world, sky, self.camera, request.size)?
-            .with_sampling(sampling, Filter::Box)?
-            .with_depth(1)?;
-        show.show(&caster);
-        Ok(())
+    fn picture<'a, S: Refining<J>, const J: usize>(
+        &'a self,
+        scheme: &'a S,
+    ) -> Result<PatchSurfacePicture<'a, S, J>, Error> {
+        let sheet = Sheet::new(scheme, &self.heights, self.cells)?;
+        let Self { height, view, sun, samples, .. } = *self;
+        Ok(PatchSurfacePicture { sheet, height, view, sun, samples })
     }
 
     /// Moves the camera round what it looks at; the message says why not.
@@ -175,7 +133,8 @@ impl PatchSurfaceScene {
             return Err(Fail::new("the camera moves about only where z is up"));
         };
         let orbit = orbit.after(motion, size);
-        self.camera = orbit.camera()?;
+        let [x, y, z] = orbit.eye().map(Real::saturating_from_num);
+        self.view.eye = Vec3::new(x, y, z);
         self.orbit = Some(orbit);
         Ok(())
     }
@@ -190,7 +149,7 @@ impl PatchSurfaceScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        self.with(request, &mut Draw { target, watch })
+        self.with(&mut Draw { request, target, watch })
             .map_err(|error| self.place.fail_at(request.size, error))
     }
 
@@ -222,17 +181,26 @@ impl PatchSurfaceScene {
 
 /// What is done with a picture, whatever its scheme.
 trait Show {
-    fn show(&mut self, picture: &impl attractor::plane::Field<Value = attractor::plane::LinearRgb>);
+    fn show<S: Refining<J>, const J: usize>(
+        &mut self,
+        picture: &PatchSurfacePicture<'_, S, J>,
+    ) -> Result<(), Error>;
 }
 
-/// Nothing: it was built.
+/// Whether there is one.
 struct Check;
 
 impl Show for Check {
-    fn show(&mut self, _picture: &impl attractor::plane::Field<Value = attractor::plane::LinearRgb>) {}
+    fn show<S: Refining<J>, const J: usize>(
+        &mut self,
+        picture: &PatchSurfacePicture<'_, S, J>,
+    ) -> Result<(), Error> {
+        picture.surface(Size::new(8, 8)).map(drop)
+    }
 }
 
 struct Draw<'a, 'b, D> {
+    request: &'a Request,
     target: &'a mut D,
     watch: Watch<'b, D>,
 }
@@ -242,7 +210,11 @@ where
     D: DrawTarget<Error = Infallible>,
     D::Color: Depth,
 {
-    fn show(&mut self, picture: &impl attractor::plane::Field<Value = attractor::plane::LinearRgb>) {
-        draw_field(picture, Srgb, self.target, &mut *self.watch);
+    fn show<S: Refining<J>, const J: usize>(
+        &mut self,
+        picture: &PatchSurfacePicture<'_, S, J>,
+    ) -> Result<(), Error> {
+        let Request { size, seed, .. } = *self.request;
+        picture.draw((size, seed as u32), self.target, &mut *self.watch)
     }
 }

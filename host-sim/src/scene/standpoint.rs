@@ -2,6 +2,7 @@
 
 use attractor::num::{Real, Vec3};
 use attractor::trace::Camera;
+pub(crate) use attractor_gallery::Standpoint;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -17,16 +18,6 @@ pub(super) struct Eye {
     look_at: Spanned<[Num; 3]>,
     up: Option<Spanned<[Num; 3]>>,
     field_of_view: Option<Num>,
-}
-
-/// Where the file puts the camera.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Standpoint {
-    pub(crate) eye: Vec3,
-    pub(crate) look_at: Vec3,
-    pub(crate) up: Vec3,
-    /// Degrees.
-    pub(crate) field_of_view: Real,
 }
 
 /// Three numbers.

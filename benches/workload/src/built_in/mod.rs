@@ -8,6 +8,7 @@
 mod rows;
 mod escape;
 mod fif;
+mod patches;
 mod paths;
 mod seed;
 mod sets;
@@ -80,6 +81,13 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     random_curve!("mountain-line", mountain_line),
     random_curve!("extrapolation", extrapolation),
     random_curve!("coastline", coastline),
+    both_roomy(patch_curve!("patch-bezier", patch_bezier)),
+    both_roomy(patch_curve!("patch-takagi", patch_takagi)),
+    both_roomy(patch_curve!("patch-spirals", patch_spirals)),
+    both_roomy(patch_surface!("patch-rock", patch_rock)),
+    both_roomy(patch_surface!("patch-joinings", patch_joinings)),
+    both_roomy(patch_surface!("patch-diagonal", patch_diagonal)),
+    both_roomy(patch_surface!("patch-mountain", patch_mountain)),
     l_system!("cantor", cantor),
     l_system!("plant", plant),
     l_system!("dragon-curve", dragon_curve),

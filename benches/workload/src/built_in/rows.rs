@@ -279,3 +279,26 @@ macro_rules! lines {
         ))
     };
 }
+
+/// A curve by control points.
+macro_rules! patch_curve {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| patches::curve::<C, { of::$scene::POINTS.len() }>(
+            stage,
+            of::$scene::curve,
+            (of::$scene::POINTS, of::$scene::LEVELS),
+            of::$scene::PENCIL
+        ))
+    };
+}
+
+/// A surface by control points.
+macro_rules! patch_surface {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| patches::surface::<C, _, _>(
+            stage,
+            of::$scene::scheme,
+            of::$scene::picture
+        ))
+    };
+}

@@ -3,8 +3,9 @@
 //! Written by `attractor export --gallery patch-diagonal`.
 
 use attractor::Error;
-use attractor::num::{Near, Real};
+use attractor::num::{Near, Real, Vec3};
 use attractor::patch::{Patch, Sheet};
+use attractor_gallery::{PatchSurfacePicture, Standpoint};
 
 /// The numbers of its maps.
 #[rustfmt::skip]
@@ -117,4 +118,23 @@ pub fn scheme() -> Result<Patch<2, 3, 9>, Error> {
 /// None: the command has built it.
 pub fn sheet(scheme: &Patch<2, 3, 9>) -> Result<Sheet<'_, Patch<2, 3, 9>, 9>, Error> {
     Sheet::new(scheme, &HEIGHTS, CELLS)
+}
+
+/// The camera.
+pub const VIEW: Standpoint = Standpoint {
+    eye: Vec3::lit("3.1", "-3.5", "2.45"),
+    look_at: Vec3::lit("0", "0", "0.35"),
+    up: Vec3::lit("0", "0", "1"),
+    field_of_view: Real::lit("35"),
+};
+
+/// Towards the sun.
+pub const SUN: Vec3 = Vec3::lit("-1", "-3", "3");
+
+/// The picture.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn picture(scheme: &Patch<2, 3, 9>) -> Result<PatchSurfacePicture<'_, Patch<2, 3, 9>, 9>, Error> {
+    Ok(PatchSurfacePicture { sheet: sheet(scheme)?, height: HEIGHT, view: VIEW, sun: SUN, samples: 1 })
 }

@@ -3,8 +3,9 @@
 //! Written by `attractor export --gallery patch-mountain`.
 
 use attractor::Error;
-use attractor::num::{Near, Real};
+use attractor::num::{Near, Real, Vec3};
 use attractor::patch::{Mask, Sheet};
+use attractor_gallery::{PatchSurfacePicture, Standpoint};
 
 /// The numbers of its maps.
 #[rustfmt::skip]
@@ -418,4 +419,23 @@ pub fn scheme() -> Result<Mask, Error> {
 /// None: the command has built it.
 pub fn sheet(scheme: &Mask) -> Result<Sheet<'_, Mask, 16>, Error> {
     Sheet::new(scheme, &HEIGHTS, CELLS)
+}
+
+/// The camera.
+pub const VIEW: Standpoint = Standpoint {
+    eye: Vec3::lit("-2.4", "-3.3", "2.5"),
+    look_at: Vec3::lit("0.05", "0", "0.1"),
+    up: Vec3::lit("0", "0", "1"),
+    field_of_view: Real::lit("34"),
+};
+
+/// Towards the sun.
+pub const SUN: Vec3 = Vec3::lit("-3", "1", "2");
+
+/// The picture.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn picture(scheme: &Mask) -> Result<PatchSurfacePicture<'_, Mask, 16>, Error> {
+    Ok(PatchSurfacePicture { sheet: sheet(scheme)?, height: HEIGHT, view: VIEW, sun: SUN, samples: 1 })
 }
