@@ -202,7 +202,7 @@ pub(super) mod tests {
     }
 
     /// Seeded words of so many bits.
-    pub(in super::super) fn words(seed: u64) -> impl FnMut(u32) -> i32 {
+    pub(crate) fn words(seed: u64) -> impl FnMut(u32) -> i32 {
         let mut word = seed;
         move |bits| {
             word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -211,7 +211,7 @@ pub(super) mod tests {
     }
 
     /// A matrix of seeded columns.
-    pub(in super::super) fn seeded<const J: usize>(word: &mut impl FnMut(u32) -> i32) -> Barycentric<J> {
+    pub(crate) fn seeded<const J: usize>(word: &mut impl FnMut(u32) -> i32) -> Barycentric<J> {
         let columns = [(); J].map(|()| completed([(); J].map(|()| word(28))).map(Near::from_bits));
         Barycentric::from_columns(columns).unwrap()
     }
