@@ -120,7 +120,7 @@ fn along<const DIGIT: usize, const TO: usize>(mut each: impl FnMut(usize, usize)
 #[cfg(test)]
 mod tests {
     use super::super::barycentric::completed;
-    use super::super::barycentric::tests::words;
+    use super::super::seeded::words;
     use super::*;
 
     /// The formula in 128 bits; a mask whose classes each add up to 1.

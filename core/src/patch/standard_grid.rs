@@ -87,8 +87,8 @@ fn rest(weights: &[Near]) -> Result<Near, Error> {
 #[cfg(test)]
 mod tests {
     use super::super::address::{Address, Pair};
-    use super::super::barycentric::tests::words;
     use super::super::barycentric::{Barycentric, completed};
+    use super::super::seeded::words;
     use super::super::standard_step::{is_standard, standard_weights};
     use super::*;
 
