@@ -10,7 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::common::{decode, good};
 
 /// Room, scene, colour and size, and what to say to those who cannot see it.
-const ROOMS: [(&str, &str, &str, &str, &str); 8] = [
+const ROOMS: [(&str, &str, &str, &str, &str); 9] = [
     (NUM, "num.toml", "rgb565", "160x128", "a spiral of squares on the left, with all its arms on the right"),
     ("fif", "sunspots", "mono", "160x120", "309 years of sunspots, interpolated"),
     ("ifs", "fern", "rgb565", "128x128", "Barnsley's fern"),

@@ -65,7 +65,7 @@ impl<const J: usize> Affine<J> {
 mod tests {
     use super::super::barycentric::ONE;
     use super::super::barycentric::completed;
-    use super::super::barycentric::tests::{seeded, words};
+    use super::super::seeded::{seeded, words};
     use super::*;
     use crate::num::Near;
 

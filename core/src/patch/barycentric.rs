@@ -180,7 +180,8 @@ fn transposed<const J: usize>(of: &[[Q28; J]; J]) -> [[Q28; J]; J] {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
+    use super::super::seeded::{seeded, words};
     use super::*;
 
     fn near(v: f64) -> Near {
@@ -199,21 +200,6 @@ pub(super) mod tests {
         assert_eq!(error, Error::NotBarycentric { column: 0, sum: Wide::lit("0.75") });
         let off = third - Near::DELTA * 3;
         assert!(Barycentric::from_columns([unit(0), [off, off, off], unit(2)]).is_err());
-    }
-
-    /// Seeded words of so many bits.
-    pub(in super::super) fn words(seed: u64) -> impl FnMut(u32) -> i32 {
-        let mut word = seed;
-        move |bits| {
-            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (word >> 32) as i32 >> (32 - bits)
-        }
-    }
-
-    /// A matrix of seeded columns.
-    pub(in super::super) fn seeded<const J: usize>(word: &mut impl FnMut(u32) -> i32) -> Barycentric<J> {
-        let columns = [(); J].map(|()| completed([(); J].map(|()| word(28))).map(Near::from_bits));
-        Barycentric::from_columns(columns).unwrap()
     }
 
     /// The exact sums of the last rows of an image, 56 fractional bits.

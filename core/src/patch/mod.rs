@@ -38,6 +38,8 @@ mod joining;
 mod lattice;
 mod mask_step;
 mod scheme;
+#[cfg(test)]
+mod seeded;
 mod sheet;
 mod standard_grid;
 mod standard_step;

@@ -83,3 +83,40 @@ fn rest(weights: &[Near]) -> Result<Near, Error> {
         max: Wide::lit("8"),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::address::{Address, Pair};
+    use super::super::barycentric::{Barycentric, completed};
+    use super::super::seeded::words;
+    use super::super::standard_step::{is_standard, standard_weights};
+    use super::*;
+
+    /// What knows the maps gives the bits of what does not.
+    #[test]
+    fn a_known_map_gives_the_same_weights() {
+        let mut word = words(5);
+        let mut tried = 0;
+        for _ in 0..40 {
+            let numbers = [(); 72].map(|()| Near::from_bits(word(25) + (1 << 25)));
+            let patch = Patch::standard(&numbers).unwrap();
+            let maps = [0, 1].map(|i| [0, 1].map(|j| *patch.map(i, j).unwrap()));
+            assert!(is_standard(&maps));
+            for place in 0..16 {
+                let mut weights = completed([(); 9].map(|()| word(28)));
+                let [i, j] = [place >> 2, place & 3];
+                let pair = Pair::of([i, j].map(|index| Address::<2>::of(index, 2).unwrap()));
+                let got = standard_weights(&maps, &pair, weights);
+                let digit = |index: u32, level: u32| (index >> level & 1) as usize;
+                for level in 2 - pair.levels..2 {
+                    weights = maps[digit(i, level)][digit(j, level)].image(&weights);
+                }
+                assert_eq!(got, weights);
+                tried += 1;
+            }
+        }
+        assert_eq!(tried, 640);
+        assert!(!is_standard(&[[Barycentric::<9>::IDENTITY; 2]; 2]));
+        assert!(!is_standard(&[[Barycentric::<4>::IDENTITY; 2]; 2]));
+    }
+}
