@@ -122,6 +122,7 @@ fn surfaces_of_any_heights_and_rays_through_them() {
             if let Ok(stored) = Terrain::new(fine, inner, over, &mut ranges) {
                 assert_eq!(stored.heights().columns(), width as u32);
                 meet(&stored, &ray, cone);
+                meet(&stored.with_plain(low), &ray, cone);
             }
         }
         true

@@ -173,6 +173,8 @@ fn a_surface_is_watertight_however_steep_it_is() {
             let (from, to) = ([place(), place()], [place(), place()]);
             let lean = [0, 1].map(|k: usize| (to[k] - from[k]) / 126.0);
             let ray = Ray::new(vector([from[0], from[1], 63.0]), vector([lean[0], lean[1], -1.0]));
+            let d = [ray.direction().x, ray.direction().y].map(|c| c.to_num::<f64>());
+            let o = [ray.origin().x, ray.origin().y].map(|c| c.to_num::<f64>());
             let all = crossings(&stored, &ray, Unit::ZERO);
             // the last that is looked for may be any
             assert!(all.len() == 8 || all.len() % 2 == 1, "{inner:?} {from:?} {to:?}: {all:?}");
@@ -181,7 +183,7 @@ fn a_surface_is_watertight_however_steep_it_is() {
                 // the cell where it is
                 let [cell, level] = crossing.memo;
                 for (axis, index) in [cell >> 16, cell & 0xffff].into_iter().enumerate() {
-                    let place = 4096.0 * (from[axis] + lean[axis] * crossing.t.to_num::<f64>());
+                    let place = 4096.0 * (o[axis] + d[axis] * crossing.t.to_num::<f64>());
                     assert!(level == 0 && (place - f64::from(index) - 0.5).abs() < 0.51, "{place} {index}");
                 }
             }

@@ -98,7 +98,7 @@ impl<'a> Terrain<'a> {
     fn plain_crossing(&self, [.., z]: &[Axis; 3]) -> Option<Crossing> {
         let t = z.crossing(self.plain?);
         // what is less than 2^-19 behind
-        let is_there = t >= -SAME && t < i32::MAX;
+        let is_there = (-SAME..i32::MAX).contains(&t);
         let crossing =
             Crossing { t: Real::from_bits(t.max(0)), enters: z.direction < 0, face: 1, memo: [0; 2] };
         is_there.then_some(crossing)

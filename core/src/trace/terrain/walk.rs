@@ -85,7 +85,8 @@ impl Across<'_> {
             // there is no second half: the first is that of the lower index
             return Half { t: if self.first == 0 { i32::MAX } else { i32::MIN }, time: 0 };
         }
-        if above.time > 0 {
+        // what is saturated has no middle
+        if above.time > 0 && above.t > i32::MIN && above.t < i32::MAX {
             let time = (above.time + 1) >> 1;
             let t = if is_second {
                 above.t.saturating_add_unsigned(time)
