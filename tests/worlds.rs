@@ -532,6 +532,34 @@ fn samples_of_a_pixel_add_up_to_one() {
     });
 }
 
+/// The same balls, one in another's mirror and shadow, as programs of a leaf each and as leaves.
+#[test]
+fn a_world_of_leaves_is_the_world_of_their_programs() {
+    let surfaces = vec![Thing::Ball([0.0; 3], 1.0), Thing::Ball([1.5, -0.5, 0.4], 0.5)];
+    let grey = |tone: f64| Rgb::grey(Lumen::from_num(tone));
+    let materials = [Mixture::matt(grey(0.75)), Mixture::matt(grey(0.25)).with_reflection(grey(0.5))];
+    let lamps = [Lamp::distant(vector([1.0, -1.0, 1.0]), Rgb::WHITE).unwrap()];
+    let at = camera([0.0, -4.0, 0.0], [0.5, 0.0, 0.0]);
+    let programs = picture(surfaces.clone(), &[ONE, TWO], &materials, &lamps, grey(0.125), at);
+    let leaves: Vec<Leaf<'_, Thing>> = surfaces
+        .into_iter()
+        .zip([&[0][..], &[1]])
+        .map(|(surface, materials)| Leaf { surface, materials })
+        .collect();
+    let objects: Vec<Object<'_>> =
+        leaves.iter().zip(0..).map(|(leaf, number)| Object::leaf(number, &leaf.surface)).collect();
+    assert_eq!(objects[1].extent(), leaves[1].surface.extent());
+    let world = World::of_leaves(&leaves, &objects, &materials).unwrap().with_lamps(&lamps);
+    let caster = WorldCaster::<_, _, _, 4, 7, false>::new(world, grey(0.125), at, SIZE).unwrap();
+    let shown: Vec<LinearRgb> = (0..SIZE.height).flat_map(|y| caster.row(y, 0..SIZE.width)).collect();
+    assert_eq!(shown, programs);
+    assert!(greys(&shown).1 > 40_000 && greys(&shown).0 < 9_000, "{:?}", greys(&shown));
+    let mut memory = [Extent::NOTHING; 3];
+    let both = [Op::Leaf(0), Op::Leaf(1), Op::Union];
+    let compound = [Object::new(&both, |k| leaves.get(k).map(|leaf| &leaf.surface), &mut memory).unwrap()];
+    assert!(matches!(World::of_leaves(&leaves, &compound, &materials), Err(Error::Unsupported { .. })));
+}
+
 #[test]
 fn a_world_that_does_not_fit_together_is_refused() {
     let ball = Thing::Ball([0.0; 3], 1.0);

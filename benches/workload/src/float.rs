@@ -30,6 +30,9 @@ pub(crate) trait Float:
     /// The square root.
     fn root(self) -> Self;
 
+    /// Of a number above 0.
+    fn power(self, exponent: Self) -> Self;
+
     /// The greatest integer that is not above it.
     fn floor(self) -> i32;
 
@@ -71,6 +74,11 @@ impl Float for f32 {
     }
 
     #[inline(always)]
+    fn power(self, exponent: Self) -> Self {
+        libm::powf(self, exponent)
+    }
+
+    #[inline(always)]
     fn floor(self) -> i32 {
         let whole = self as i32;
         whole - i32::from(self < whole as f32)
@@ -101,6 +109,11 @@ impl Float for f64 {
     #[inline(always)]
     fn root(self) -> Self {
         libm::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn power(self, exponent: Self) -> Self {
+        libm::pow(self, exponent)
     }
 
     #[inline(always)]

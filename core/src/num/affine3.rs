@@ -42,22 +42,37 @@ pub(crate) struct Inverse {
 const ONE: Q48 = 1 << 48;
 
 /// What lies farther than 64 bits is at their end.
-fn saturated(v: i128) -> i64 {
-    v.clamp(i128::from(i64::MIN), i128::from(i64::MAX)) as i64
+const fn saturated(v: i128) -> i64 {
+    if v > i64::MAX as i128 {
+        i64::MAX
+    } else if v < i64::MIN as i128 {
+        i64::MIN
+    } else {
+        v as i64
+    }
 }
 
 /// The scalar product of numbers with 48 fractional bits, which has 94. Out of line, as products of 128 bits
 /// take much code: maps are set up once.
 #[inline(never)]
-fn dot(a: &[Q48; 3], b: &[Q48; 3]) -> i128 {
-    let product = |(a, b): (&Q48, &Q48)| (i128::from(*a) * i128::from(*b)) >> 2;
-    // 126 bits and two more, less the two that were left out
-    a.iter().zip(b).map(product).sum()
+const fn dot(a: &[Q48; 3], b: &[Q48; 3]) -> i128 {
+    let (mut sum, mut k) = (0, 0);
+    while k < 3 {
+        // 126 bits and two more, less the two that are left out
+        sum += (a[k] as i128 * b[k] as i128) >> 2;
+        k += 1;
+    }
+    sum
+}
+
+/// Three numbers, one after the other.
+const fn column(rows: &[[i64; 3]; 3], k: usize) -> [i64; 3] {
+    [rows[0][k], rows[1][k], rows[2][k]]
 }
 
 /// An entry with 30 fractional bits below `2^length`.
 #[inline(never)]
-fn mantissa(v: i64, length: i32) -> i64 {
+const fn mantissa(v: i64, length: i32) -> i64 {
     if length <= 30 {
         v << (30 - length)
     } else {
@@ -68,13 +83,13 @@ fn mantissa(v: i64, length: i32) -> i64 {
 
 /// The vector product of numbers below `2^31`.
 #[inline(never)]
-fn cross(a: &[i64; 3], b: &[i64; 3]) -> [i64; 3] {
+const fn cross(a: &[i64; 3], b: &[i64; 3]) -> [i64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// A cofactor, brought to 62 bits by `shift`, over the determinant: 33 fractional bits.
 #[inline(never)]
-fn entry(cofactor: i64, shift: i32, divisor: UQ63) -> i64 {
+const fn entry(cofactor: i64, shift: i32, divisor: UQ63) -> i64 {
     quotient(if shift >= 0 { cofactor << shift } else { cofactor >> -shift }, 33, divisor)
 }
 
@@ -92,13 +107,13 @@ impl Affine3 {
     }
 
     /// `x -> x + by`.
-    pub fn translate(by: Vec3) -> Self {
-        Self { translation: [by.x, by.y, by.z].map(|c| Wide::from(c).to_bits()), ..Self::IDENTITY }
+    pub const fn translate(by: Vec3) -> Self {
+        Self { translation: wide(by), ..Self::IDENTITY }
     }
 
     /// `x -> (f_x x, f_y y, f_z z)`: from the origin, and mirrored where a factor is below 0.
-    pub fn scale(factors: Vec3) -> Self {
-        let [x, y, z] = [factors.x, factors.y, factors.z].map(|c| Wide::from(c).to_bits());
+    pub const fn scale(factors: Vec3) -> Self {
+        let [x, y, z] = wide(factors);
         Self { rows: [[x, 0, 0], [0, y, 0], [0, 0, z]], translation: [0; 3] }
     }
 
@@ -129,35 +144,39 @@ impl Affine3 {
 
     /// First this map, then `next`. Each entry rounded down, and saturated.
     #[must_use]
-    pub fn then(&self, next: &Self) -> Self {
-        let column = |j: usize| self.rows.map(|row| row[j]);
-        let columns = [column(0), column(1), column(2)];
-        let rows = next.rows.map(|row| columns.map(|column| saturated(dot(&row, &column) >> 46)));
-        let moved = next.rows.map(|row| dot(&row, &self.translation) >> 46);
-        let translation = [0, 1, 2].map(|k: usize| saturated(moved[k] + i128::from(next.translation[k])));
-        Self { rows, translation }
+    pub const fn then(&self, next: &Self) -> Self {
+        let (mut map, mut i) = (*next, 0);
+        while i < 3 {
+            let (row, mut j) = (&next.rows[i], 0);
+            while j < 3 {
+                map.rows[i][j] = saturated(dot(row, &column(&self.rows, j)) >> 46);
+                j += 1;
+            }
+            map.translation[i] = saturated((dot(row, &self.translation) >> 46) + next.translation[i] as i128);
+            i += 1;
+        }
+        map
     }
 
     /// Where it takes a place, to nearest, saturated.
-    pub fn at(&self, place: Vec3) -> Vec3 {
-        let place = [place.x, place.y, place.z].map(|c| Wide::from(c).to_bits());
-        let [x, y, z] = [0, 1, 2].map(|k: usize| {
-            let sum = (dot(&self.rows[k], &place) >> 46) + i128::from(self.translation[k]);
-            real(saturated(sum))
-        });
-        Vec3::new(x, y, z)
+    pub const fn at(&self, place: Vec3) -> Vec3 {
+        let (place, mut at, mut k) = (wide(place), [0; 3], 0);
+        while k < 3 {
+            at[k] = saturated((dot(&self.rows[k], &place) >> 46) + self.translation[k] as i128);
+            k += 1;
+        }
+        reals(at)
     }
 
     /// The linear part's entries and the translation, to nearest, saturated.
-    pub(crate) fn parts(&self) -> ([Vec3; 3], Vec3) {
-        let vector = |[x, y, z]: [Q48; 3]| Vec3::new(real(x), real(y), real(z));
-        (self.rows.map(vector), vector(self.translation))
+    pub(crate) const fn parts(&self) -> ([Vec3; 3], Vec3) {
+        let [x, y, z] = self.rows;
+        ([reals(x), reals(y), reals(z)], reals(self.translation))
     }
 
     /// The greatest magnitude of an entry.
-    pub(crate) fn greatest(&self) -> Wide {
-        let greatest = self.rows.iter().flatten().map(|c| c.saturating_abs()).max();
-        Wide::from_bits(greatest.unwrap_or(0))
+    pub(crate) const fn greatest(&self) -> Wide {
+        Wide::from_bits(greatest(&self.rows))
     }
 
     /// The inverse of the linear part. Error: 3/4 of a unit of its 30 bits, for the matrix
@@ -166,21 +185,27 @@ impl Affine3 {
     /// # Errors
     /// [`Error::Degenerate`] for a matrix whose determinant is 0.
     #[inline(never)]
-    pub(crate) fn inverse(&self) -> Result<Inverse, Error> {
+    pub(crate) const fn inverse(&self) -> Result<Inverse, Error> {
         let degenerate = Error::Degenerate { what: "determinant of an affine map" };
-        let greatest = self.greatest().to_bits().unsigned_abs();
-        if greatest == 0 {
+        let size = greatest(&self.rows);
+        if size == 0 {
             return Err(degenerate);
         }
         // mantissas with 30 fractional bits, the greatest in [1/2, 1]; a = mantissa 2^exponent
-        let length = 64 - greatest.leading_zeros() as i32;
-        let a = self.rows.map(|row| row.map(|v| mantissa(v, length)));
+        let length = 64 - size.leading_zeros() as i32;
+        let (mut a, mut k) = (self.rows, 0);
+        while k < 9 {
+            a[k / 3][k % 3] = mantissa(a[k / 3][k % 3], length);
+            k += 1;
+        }
         // products of two: 61 bits; the cofactors of a row, in its own order
         let [x, y, z] = &a;
         let cofactors = [cross(y, z), cross(z, x), cross(x, y)];
-        let products = a[0].iter().zip(&cofactors[0]).map(|(a, c)| i128::from(*a) * i128::from(*c));
-        let determinant: i128 = products.sum();
-        let most = cofactors.iter().flatten().map(|c| c.unsigned_abs()).max().unwrap_or(0);
+        let [first, ..] = &cofactors;
+        let determinant = x[0] as i128 * first[0] as i128
+            + x[1] as i128 * first[1] as i128
+            + x[2] as i128 * first[2] as i128;
+        let most = greatest(&cofactors);
         if determinant == 0 || most == 0 {
             return Err(degenerate);
         }
@@ -191,10 +216,17 @@ impl Affine3 {
         let shift = most.leading_zeros() as i32 - 2;
         let sign = if determinant < 0 { -1 } else { 1 };
         // 33 fractional bits, the greatest in (1/4, 1]; transposed
-        let [x, y, z] = cofactors.map(|row| row.map(|c| entry(sign * c, shift, divisor)));
-        let entries = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
-        let halved = i32::from(entries.iter().flatten().any(|v| v.unsigned_abs() >= (1 << 32) - 2));
-        let rows = entries.map(|row| row.map(|v| (((v >> (1 + halved)) + 1) >> 1) as i32));
+        let (mut entries, mut k) = ([[0; 3]; 3], 0);
+        while k < 9 {
+            entries[k % 3][k / 3] = entry(sign * cofactors[k / 3][k % 3], shift, divisor);
+            k += 1;
+        }
+        let halved = if greatest(&entries) >= (1 << 32) - 2 { 1 } else { 0 };
+        let (mut rows, mut k) = ([[0; 3]; 3], 0);
+        while k < 9 {
+            rows[k / 3][k % 3] = (((entries[k / 3][k % 3] >> (1 + halved)) + 1) >> 1) as i32;
+            k += 1;
+        }
         // cofactors have 60 fractional bits, the determinant 90
         let exponent = 30 - shift - places - (length - 48) - 1 + halved;
         Ok(Inverse { rows, exponent })
@@ -210,10 +242,35 @@ impl Affine3 {
     }
 }
 
+/// The greatest magnitude, saturated.
+const fn greatest(rows: &[[i64; 3]; 3]) -> i64 {
+    let (mut most, mut k) = (0, 0);
+    while k < 9 {
+        let size = rows[k / 3][k % 3].saturating_abs();
+        most = if size > most { size } else { most };
+        k += 1;
+    }
+    most
+}
+
+const fn wide(v: Vec3) -> [Q48; 3] {
+    [(v.x.to_bits() as i64) << 24, (v.y.to_bits() as i64) << 24, (v.z.to_bits() as i64) << 24]
+}
+
 /// To nearest, saturated.
-fn real(v: Q48) -> Real {
+const fn real(v: Q48) -> Real {
     let rounded = ((v >> 23) + 1) >> 1;
-    Real::from_bits(rounded.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32)
+    Real::from_bits(if rounded > i32::MAX as i64 {
+        i32::MAX
+    } else if rounded < i32::MIN as i64 {
+        i32::MIN
+    } else {
+        rounded as i32
+    })
+}
+
+const fn reals([x, y, z]: [Q48; 3]) -> Vec3 {
+    Vec3::new(real(x), real(y), real(z))
 }
 
 #[cfg(test)]

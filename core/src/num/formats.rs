@@ -57,6 +57,7 @@ pub(crate) type UQ30 = u32;
 pub(crate) type UQ31 = u32;
 pub(crate) type UQ32 = u32;
 pub(crate) type UQ48 = u64;
+pub(crate) type UQ56 = u64;
 pub(crate) type UQ58 = u64;
 pub(crate) type UQ60 = u64;
 pub(crate) type UQ62 = u64;

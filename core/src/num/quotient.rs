@@ -7,7 +7,7 @@
 ///
 /// Domain: `shift < 64`. Exact. Cost: 32 or 64 steps of a shift and a subtraction of 128 bits.
 #[inline(never)]
-pub(crate) fn ratio(v: u64, shift: u32, d: u64) -> u64 {
+pub(crate) const fn ratio(v: u64, shift: u32, d: u64) -> u64 {
     let (mut rest, mut low, mut quotient) = ((v >> 1) >> (63 - shift), v << shift, 1);
     if rest >= d {
         return u64::MAX;
@@ -25,7 +25,7 @@ pub(crate) fn ratio(v: u64, shift: u32, d: u64) -> u64 {
         rest = if one { with_bit - missing } else { with_bit + rest };
         low <<= 1;
         let full = quotient >> 63 > 0;
-        quotient = quotient << 1 | u64::from(one);
+        quotient = quotient << 1 | one as u64;
         if full {
             return quotient;
         }
@@ -34,9 +34,10 @@ pub(crate) fn ratio(v: u64, shift: u32, d: u64) -> u64 {
 
 /// The same for a signed number, towards zero, saturated at both ends.
 #[inline(never)]
-pub(crate) fn quotient(v: i64, shift: u32, d: u64) -> i64 {
+pub(crate) const fn quotient(v: i64, shift: u32, d: u64) -> i64 {
     let sign = v >> 63;
-    let magnitude = ratio(v.unsigned_abs(), shift, d).min(i64::MAX.wrapping_sub(sign) as u64) as i64;
+    let (magnitude, most) = (ratio(v.unsigned_abs(), shift, d), i64::MAX.wrapping_sub(sign) as u64);
+    let magnitude = if magnitude > most { most } else { magnitude } as i64;
     (magnitude ^ sign).wrapping_sub(sign)
 }
 

@@ -91,6 +91,22 @@ impl Ball {
         (-back, [moved(way[0], d[0]), moved(way[1], d[1]), moved(way[2], d[2])])
     }
 
+    /// The same on the whole line, `t` below 0 as well; none beyond ±128.
+    #[inline(always)]
+    pub(super) fn closest_on_line(&self, ray: &Ray) -> Option<(Q18, [Q46; 3])> {
+        let (way, d) = (self.from(ray), ray.direction);
+        let steps = high((dot(way, d) >> 32) as i32, ray.pace);
+        // within 2^25
+        if steps ^ (steps >> 31) >= 1 << 25 {
+            return None;
+        }
+        let back = steps.wrapping_neg();
+        let moved = |way: Q24, d: Q28| {
+            (i64::from(way >> 10) << 32 | i64::from((way << 22) as u32)).wrapping_add(product(back, d))
+        };
+        Some((steps, [moved(way[0], d[0]), moved(way[1], d[1]), moved(way[2], d[2])]))
+    }
+
     /// The way from the ray's origin to the centre.
     #[inline(always)]
     pub(super) fn from(&self, ray: &Ray) -> [Q24; 3] {

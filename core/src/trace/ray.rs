@@ -3,7 +3,10 @@
 use core::num::NonZeroU32;
 
 use crate::num::formats::{Q24, Q28, Q30};
-use crate::num::{Near, Real, Unit, Vec3, product, reciprocal, reciprocal_of, square};
+use crate::num::{
+    Near, Real, Unit, Vec3, product, reciprocal, reciprocal_of, reciprocal_sqrt_of, rounded_down, square,
+    unit,
+};
 
 /// One coordinate of a ray: origin, direction, and the direction's reciprocal.
 #[derive(Debug, Clone, Copy)]
@@ -116,12 +119,14 @@ pub struct Ray {
     pub(super) origin: [Q24; 3],
     pub(super) direction: [Q28; 3],
     /// `1 / |d|^2`, what it takes to find the place that is closest to another; 0 where nobody asked for it,
-    /// and where the square is below 1/2.
+    /// and where the square is below 9/16.
     pub(super) pace: Q30,
     /// The direction again where there is a pace, with two bits more, less `steep` where that is too long for a
     /// word.
     pub(super) fine: [Q30; 3],
     pub(super) steep: i32,
+    /// `1 / |d|` where there is a pace.
+    pub(super) slowness: Q30,
 }
 
 impl Ray {
@@ -147,19 +152,38 @@ impl Ray {
             pace: 1 << 30,
             fine,
             steep: 0,
+            slowness: 1 << 30,
         }
     }
 
     /// The same ray for things that are placed.
     #[inline]
     pub(super) fn paced(self) -> Self {
-        // the square has 26 fractional bits, and is below 48
-        let length = NonZeroU32::new((square(self.direction) >> 30) as u32).unwrap_or(NonZeroU32::MIN);
-        let (mantissa, zeros) = reciprocal_of(length);
-        let pace = 6_u32.checked_sub(zeros).map_or(0, |places| mantissa >> places);
+        // 56 fractional bits, below 48
+        let length = square(self.direction);
+        // a little above 1/2, so that the pace is below 2
+        if length < 9 << 52 {
+            return self;
+        }
+        // mantissa / 2^(31 + half), half from 27 to 30
+        let (mantissa, half) = reciprocal_sqrt_of(length);
+        let slowness = mantissa >> (half.wrapping_sub(27) & 3);
+        let pace = rounded_down::<30>(product(slowness, slowness));
         // from a length of 2 on a bit less, from 4 on another: components are below 8
-        let steep = if zeros > 3 { 0 } else { 1 + i32::from(zeros < 2) };
-        Self { pace, fine: self.direction.map(|c| c << (2 - steep)), steep, ..self }
+        let steep = if length >> 58 == 0 { 0 } else { 1 + i32::from(length >> 60 > 0) };
+        let fine = self.direction.map(|c| c << (2 - steep));
+        Self { pace, slowness, fine, steep, ..self }
+    }
+
+    /// The unit vector along it.
+    #[inline]
+    pub(super) fn unit_direction(&self) -> Vec3<Unit> {
+        if self.pace == 0 || self.steep != 0 {
+            return unit(self.direction);
+        }
+        let part = |c: Q30| Unit::from_bits(rounded_down::<30>(product(c, self.slowness)));
+        let [x, y, z] = self.fine;
+        Vec3::new(part(x), part(y), part(z))
     }
 
     /// Where it starts.
@@ -194,7 +218,7 @@ impl Ray {
     /// Origin with 24, direction with 28 fractional bits.
     #[inline(always)]
     pub(crate) fn from_bits(origin: [Q24; 3], direction: [Q28; 3]) -> Self {
-        Self { origin, direction, pace: 0, fine: [0; 3], steep: 0 }
+        Self { origin, direction, pace: 0, fine: [0; 3], steep: 0, slowness: 0 }
     }
 
     /// Its coordinates along x, y and z, ready for many planes.

@@ -83,7 +83,8 @@ pub(super) fn narrow(direction: i64) -> i32 {
 /// `|w| + k (cols / rows |r| + |u|) < 4`.
 pub(super) fn in_reach(camera: &Camera, cols: i64, rows: i64, margin: i64) -> Result<(), Error> {
     let sides = cols + rows + 4 * margin;
-    let reach = (i64::from(camera.tangent) * sides).checked_div(rows).unwrap_or(i64::MAX);
+    // a picture has 65,535 rows at most
+    let reach = nth(i64::from(camera.tangent) * sides, rows as u32);
     if reach >= 3 << 28 {
         return Err(Error::OutOfRange {
             what: "tangent of half the view, width plus height",

@@ -8,8 +8,12 @@
 //!
 //! Source: the course unit V, section 5.9.1, as corrected: `sin t / c_2 = sin i / c_1`.
 
+use core::num::NonZeroU32;
+
 use crate::num::formats::{Q30, Q58};
-use crate::num::{Real, Unit, Vec3, high, product, product_u, ratio, rough_sqrt, rounded_down, sqrt, square};
+use crate::num::{
+    Real, Unit, Vec3, high, product, product_u, reciprocal_of, rough_sqrt, rounded_down, sqrt, square,
+};
 
 /// Where refracted light goes, and which share of it is reflected instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +46,7 @@ pub(super) fn mirrored(d: Vec3<Unit>, n: Vec3<Unit>) -> Vec3<Unit> {
 ///
 /// Domain: unit vectors with `d . n <= 0`, `eta` from 0.01 to 100. Error: below `2^-22` in each component, for
 /// an `eta` above 10 `2^-21`, away from the critical angle (`a_refracted_ray_is_within_two_to_the_minus_22`).
-/// Cost: 21 multiplications (kernel `refraction`).
+/// Cost: 21 multiplications (kernel row `refraction`).
 #[inline]
 pub fn refracted_direction(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Vec3<Unit>> {
     refracted(d, n, eta).map(|refracted| refracted.direction)
@@ -102,18 +106,21 @@ impl Refracted {
     ///
     /// Error: below `2^-14` (`the_reflectance_is_fresnels`).
     pub(super) fn reflectance(&self, cos: Unit, eta: Real) -> Unit {
-        // all with 24 fractional bits: at most 100
-        let unit = |c: Unit| u64::from(c.clamp(Unit::ZERO, Unit::ONE).to_bits().unsigned_abs());
-        let eta = u64::from(eta.to_bits().unsigned_abs());
+        // 28 fractional bits, beyond an index of 4 as many as fit: the sum of two is a word
+        let places = if eta < 4 { 2 } else { 6 };
+        let unit = |c: Unit| c.clamp(Unit::ZERO, Unit::ONE).to_bits() as u32;
+        let bent = |c: u32| (product_u(eta.to_bits().unsigned_abs(), c) >> (24 + places)) as u32;
         let (i, t) = (unit(cos), unit(self.cos));
         // (a - b)^2 / (a + b)^2, 30 fractional bits; all is reflected where both vanish
-        let share = |a: u64, b: u64| {
-            let part = ratio(a.abs_diff(b), 30, (a + b).max(1)).min(1 << 30);
-            (part * part) >> 30
+        let share = |a: u32, b: u32| {
+            let Some(sum) = NonZeroU32::new(a + b) else { return 1 << 30 };
+            let (mantissa, zeros) = reciprocal_of(sum);
+            let part = product_u(a.abs_diff(b), mantissa as u32);
+            // part 2^zeros / 2^32, by words
+            let part = ((part >> 32) as u32) << (zeros & 31) | ((part as u32) >> 1) >> ((zeros & 31) ^ 31);
+            (product_u(part, part) >> 30) as u32
         };
-        let (bent_i, bent_t) = ((eta * i) >> 24, (eta * t) >> 24);
-        let sum = if i + t == 0 { 2 << 30 } else { share(bent_i, t) + share(i, bent_t) };
-        Unit::from_bits((sum / 2) as i32)
+        Unit::from_bits(((share(bent(i), t >> places) + share(i >> places, bent(t))) / 2) as i32)
     }
 }
 

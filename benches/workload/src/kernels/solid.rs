@@ -7,7 +7,10 @@ use attractor::num::{Angle, Near, Real, Vec3, sin_cos};
 use attractor::trace::solid::{NearRay, Shape, Superellipsoid, Torus};
 
 use super::watch::{Tally, Watch};
+use crate::float::Float;
 use crate::inputs::mixed;
+use crate::rivals::iterated;
+use crate::rivals::solid::Line;
 
 const COUNT: usize = 64;
 
@@ -72,6 +75,29 @@ fn cross(watch: &mut Watch<'_>, shape: &impl Shape, rays: &[NearRay; COUNT], all
 pub(super) fn torus(watch: &mut Watch<'_>) -> Tally {
     let Ok(torus) = Torus::new(Near::lit("0.4")) else { return Tally::default() };
     cross(watch, &torus, &rays_at_a_torus(), true)
+}
+
+/// The same rays in floating point.
+fn lines<F: Float>(rays: [NearRay; COUNT]) -> [Line<F>; COUNT] {
+    let float = |v: Vec3<Near>| [v.x, v.y, v.z].map(|c| F::of(c.to_num::<f64>()));
+    rays.map(|ray| (float(ray.origin), float(ray.direction)))
+}
+
+#[inline(never)]
+pub(super) fn torus_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    let tube = black_box(F::of(0.4));
+    watch.over(&lines::<F>(rays_at_a_torus()), |line| {
+        let (found, count) = iterated::torus(line, tube);
+        found.iter().take(count).fold(count as u32, |sum, s| sum.rotate_left(1) ^ s.fold())
+    })
+}
+
+#[inline(never)]
+pub(super) fn superellipsoid_float<F: Float>(watch: &mut Watch<'_>) -> Tally {
+    let (n, m) = black_box((F::of(3.5), F::of(2.5)));
+    watch.over(&lines::<F>(rays_at_a_superellipsoid()), |line| {
+        iterated::superellipsoid(line, n, m).map_or(0, Float::fold)
+    })
 }
 
 #[inline(never)]

@@ -9,6 +9,7 @@
 //! alone.
 
 mod camera;
+pub(crate) mod iterated;
 mod paper;
 mod shade;
 pub(crate) mod solid;

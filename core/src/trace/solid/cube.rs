@@ -12,7 +12,7 @@ use core::num::NonZeroU32;
 use core::ops::ControlFlow;
 
 use super::super::surface::Chart;
-use super::shape::{NearCrossing, NearRay, Shape};
+use super::shape::{NearCrossing, NearRay, Shape, corners};
 use super::slab::{Part, over};
 use crate::num::formats::Q28;
 use crate::num::{Near, Real, Vec3, Wide, product, reciprocal_of};
@@ -67,10 +67,14 @@ impl Edge {
     }
 }
 
+impl Cube {
+    pub(super) const BOUNDS: Option<[Vec3<Near>; 2]> = Some(corners([-1, -1, -1], [1, 1, 1]));
+    pub(super) const ERROR: Near = Near::from_bits(8);
+}
+
 impl Shape for Cube {
     fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
-        let one = Near::ONE;
-        Some([Vec3::new(-one, -one, -one), Vec3::new(one, one, one)])
+        Self::BOUNDS
     }
 
     fn faces(&self) -> u8 {
@@ -78,7 +82,7 @@ impl Shape for Cube {
     }
 
     fn error(&self) -> Near {
-        Near::DELTA * 8
+        Self::ERROR
     }
 
     /// Error: on the surface within `2^-25` (`rays_meet_the_cube_where_they_should`). Cost: kernel `cube`.

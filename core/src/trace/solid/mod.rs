@@ -3,6 +3,7 @@
 //! Source: the course unit V, sections 5.7 and 5.10.
 
 mod cube;
+mod design;
 mod half_space;
 mod implicit;
 #[cfg(test)]

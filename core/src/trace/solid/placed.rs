@@ -6,7 +6,7 @@ use core::ops::ControlFlow;
 
 use super::super::ball::Ball;
 use super::super::ray::Ray;
-use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
+use super::super::surface::{Chart, Crossing, Extent, SAME, Surface, SurfacePoint};
 use super::shape::{NearRay, Shape};
 use super::site::{Site, shifted};
 use crate::Error;
@@ -22,6 +22,22 @@ pub struct Placed<S> {
     shape: S,
     site: Site,
     error: Real,
+}
+
+impl<S: Copy> Placed<S> {
+    /// A shape of which all that it takes is known, at design time too.
+    pub(super) const fn known(
+        shape: S,
+        bounds: Option<[Vec3<Near>; 2]>,
+        radius: Option<Near>,
+        error: Near,
+        map: &Affine3,
+    ) -> Result<Self, Error> {
+        match Site::new(bounds, radius, map) {
+            Ok(site) => Ok(Self { shape, error: site.error(error), site }),
+            Err(error) => Err(error),
+        }
+    }
 }
 
 impl<S: Shape> Placed<S> {
@@ -83,6 +99,21 @@ impl<S: Shape> Surface for Placed<S> {
     }
 
     fn cross(&self, ray: &Ray, _: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
+        if self.shape.is_round() && self.site.is_round() {
+            if let Some(ends) = self.site.round_crossings(ray) {
+                let Some([first, last]) = ends else { return };
+                // what is a little behind the begin is at it, what is beyond the format's end is not
+                let (mut t, mut enters) = if first >= -SAME { (first, true) } else { (last, false) };
+                while t >= -SAME && t < i32::MAX {
+                    let crossing = Crossing { t: Real::from_bits(t.max(0)), enters, face: 0, memo: [0; 2] };
+                    if found(crossing).is_break() || !enters {
+                        return;
+                    }
+                    (t, enters) = (last, false);
+                }
+                return;
+            }
+        }
         let Some(approach) = self.site.approach(ray) else { return };
         self.shape.cross(
             &approach.near,
@@ -110,15 +141,16 @@ impl<S: Shape> Surface for Placed<S> {
 
     fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {
         let position = ray.at(crossing.t);
+        let is_round = self.shape.is_round() && self.site.is_round();
         let s = Near::from_bits(crossing.memo[0] as i32);
-        let approach = if self.site.limited { self.site.approach_met(ray) } else { None };
+        let approach = if self.site.limited && !is_round { self.site.approach_met(ray) } else { None };
         let (near, place) = match approach {
             Some(approach) => {
                 let near = approach.at(s);
                 let real = |c: Near| Real::from_bits(((c.to_bits() >> 3) + 1) >> 1);
                 (near, Vec3::new(real(near.x), real(near.y), real(near.z)))
             }
-            // without limits, only the place in the world tells
+            // without limits, and where the ray was not brought near, only the place in the world tells
             None => {
                 let place = self.site.place(position);
                 let near = |c: Real| Near::from_bits(shifted(c.to_bits().into(), 4));
@@ -132,11 +164,16 @@ impl<S: Shape> Surface for Placed<S> {
         } else {
             Chart::default()
         };
-        let normal = self.shape.normal(near, crossing.face);
+        let normal = if is_round {
+            self.site.away(position)
+        } else {
+            let normal = self.shape.normal(near, crossing.face);
+            self.site.normal([normal.x, normal.y, normal.z].map(Near::to_bits))
+        };
         SurfacePoint {
             position,
             place,
-            normal: self.site.normal([normal.x, normal.y, normal.z].map(Near::to_bits)),
+            normal,
             inward: false,
             chart,
             face: crossing.face,
@@ -228,8 +265,8 @@ mod tests {
             _ => Vec3::new(origin.x * 60, origin.y * 60, origin.z * 60),
         };
         let Some(d) = origin.towards(target) else { return ray(map, near, word) };
-        // about as long as a camera makes it
-        let length = 3 + (word() % 6) as i32;
+        // about as long as a camera makes it, and as short as half of that
+        let length = 2 + (word() % 7) as i32;
         let [x, y, z] = [d.x, d.y, d.z].map(|c| Real::from_bits((c.to_bits() >> 8) * length));
         Ray::new(origin, Vec3::new(x, y, z))
     }

@@ -12,9 +12,14 @@ use crate::num::{Near, Real, Vec3, Wide, product, reciprocal_of};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plane;
 
+impl Plane {
+    pub(super) const BOUNDS: Option<[Vec3<Near>; 2]> = None;
+    pub(super) const ERROR: Near = Near::from_bits(8);
+}
+
 impl Shape for Plane {
     fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
-        None
+        Self::BOUNDS
     }
 
     fn most_crossings(&self) -> u32 {
@@ -22,7 +27,7 @@ impl Shape for Plane {
     }
 
     fn error(&self) -> Near {
-        Near::DELTA * 8
+        Self::ERROR
     }
 
     #[inline]

@@ -24,6 +24,14 @@ pub struct NearRay {
     pub direction: Vec3<Near>,
 }
 
+/// The corners of a box, by whole numbers.
+pub(super) const fn corners(low: [i32; 3], high: [i32; 3]) -> [Vec3<Near>; 2] {
+    const fn corner([x, y, z]: [i32; 3]) -> Vec3<Near> {
+        Vec3::new(Near::from_bits(x << 28), Near::from_bits(y << 28), Near::from_bits(z << 28))
+    }
+    [corner(low), corner(high)]
+}
+
 /// Where a ray crosses a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -47,6 +55,12 @@ pub trait Shape {
     /// ball round the bounds.
     fn radius(&self) -> Option<Near> {
         None
+    }
+
+    /// Whether it is the sphere of radius 1 round the origin: as long as a map keeps it round, rays need not be
+    /// brought to it.
+    fn is_round(&self) -> bool {
+        false
     }
 
     /// Whether it encloses a part of space. An open one has an upper side instead, that of its normal.

@@ -19,10 +19,10 @@ use super::super::ray::Ray;
 use super::super::surface::Extent;
 use super::shape::NearRay;
 use crate::Error;
-use crate::num::formats::{Q18, Q24, Q28, Q30, Q46, Q54, Q58};
+use crate::num::formats::{Q18, Q24, Q28, Q30, Q46, Q54, Q58, UQ56};
 use crate::num::{
-    Affine3, Near, Real, Unit, Vec3, Wide, high_rounded, product, product_u, reciprocal_of, sqrt, square,
-    unit,
+    Affine3, Near, Real, Unit, Vec3, Wide, high, high_rounded, product, product_u, reciprocal_of, rough_sqrt,
+    rounded_down, square, unit,
 };
 
 /// A map and what it makes of a box.
@@ -45,6 +45,8 @@ pub(super) struct Site {
     is_even: bool,
     is_steep: bool,
     pub(super) limited: bool,
+    /// The square of what the map makes of a radius of 1, below 4 and the same in all directions; 0 otherwise.
+    round: UQ56,
     linear: [Vec3; 3],
     /// The norm of the map, 16 fractional bits.
     norm: u32,
@@ -111,8 +113,16 @@ fn high_dot(a: [i32; 3], b: [i32; 3]) -> i32 {
 /// `v 2^places`, saturated to a word; places below 32, shifts to the right round down.
 #[inline(never)]
 pub(super) fn shifted(v: i64, places: i32) -> i32 {
-    let v = if places >= 0 { v.saturating_mul(1 << (places & 63)) } else { v >> (-places).min(63) };
-    v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+    // what leaves the word after the shift leaves a smaller range before it
+    let up = places.max(0) & 31;
+    let v = if places < 0 { v >> (-places).min(63) } else { v };
+    if v > i64::from(i32::MAX >> up) {
+        i32::MAX
+    } else if v < i64::from(i32::MIN >> up) {
+        i32::MIN
+    } else {
+        (v as i32) << up
+    }
 }
 
 /// `v 2^up / 2^32` for 1 to 31 places, if it fits a word.
@@ -131,121 +141,230 @@ fn folded(all: u32, v: i64) -> u32 {
 
 /// A coordinate of a place, of 24 + 28 fractional bits less 28.
 #[inline(never)]
-fn moved(row: &[i64; 3], place: &[i64; 3]) -> i64 {
+const fn moved(row: &[i64; 3], place: &[i64; 3]) -> i64 {
     (row[0] * place[0] + row[1] * place[1] + row[2] * place[2]) >> 28
+}
+
+/// Saturated to a word.
+const fn word(v: i64) -> i32 {
+    if v > i32::MAX as i64 {
+        i32::MAX
+    } else if v < i32::MIN as i64 {
+        i32::MIN
+    } else {
+        v as i32
+    }
+}
+
+const fn greater(a: i64, b: i64) -> i64 {
+    if a > b { a } else { b }
+}
+
+const fn words(v: Vec3<Near>) -> [Q28; 3] {
+    [v.x.to_bits(), v.y.to_bits(), v.z.to_bits()]
+}
+
+const fn vector([x, y, z]: [Q24; 3]) -> Vec3 {
+    Vec3::new(Real::from_bits(x), Real::from_bits(y), Real::from_bits(z))
+}
+
+const fn scale(value: Wide) -> Error {
+    let (min, max) = (Wide::from_bits(1 << 40), Wide::from_bits(128 << 48));
+    Error::OutOfRange { what: "scale of a shape", index: None, value, min, max }
+}
+
+/// How far the corners of a box are from its middle: a square of 16 fractional bits.
+const fn corners(rows: &[[i64; 3]; 3], half: [i64; 3], slack: i64) -> i64 {
+    let (mut farthest, mut signs) = (0, 0);
+    // four corners, the others are opposite
+    while signs < 4 {
+        let y = if signs & 1 == 0 { half[1] } else { -half[1] };
+        let z = if signs & 2 == 0 { half[2] } else { -half[2] };
+        let (corner, mut sum, mut k) = ([half[0], y, z], 0, 0);
+        while k < 3 {
+            let c = ((moved(&rows[k], &corner).abs() + slack) >> 8) + 1;
+            sum += c * c;
+            k += 1;
+        }
+        farthest = greater(farthest, sum >> 16);
+        signs += 1;
+    }
+    farthest
+}
+
+/// The square of what a map makes of every radius of 1, below 4, 56 fractional bits; 0 where it makes something else
+/// of some than of others, by more than `2^-23`.
+const fn round(rows: &[[i64; 3]; 3], most: i64) -> UQ56 {
+    if most >= 4 << 24 {
+        return 0;
+    }
+    let (mut products, mut k) = ([[0_i64; 3]; 3], 0);
+    while k < 9 {
+        let (i, j) = (k / 3, k % 3);
+        // columns; 48 fractional bits
+        products[i][j] = rows[0][i] * rows[0][j] + rows[1][i] * rows[1][j] + rows[2][i] * rows[2][j];
+        k += 1;
+    }
+    let square = (products[0][0] + products[1][1] + products[2][2]) / 3;
+    if square >= 16 << 48 {
+        return 0;
+    }
+    // 2 r 2^-23
+    let (most, mut k) = ((square.unsigned_abs().isqrt() << 2) as i64, 0);
+    while k < 9 {
+        let want = if k % 4 == 0 { square } else { 0 };
+        if (products[k / 3][k % 3] - want).abs() > most {
+            return 0;
+        }
+        k += 1;
+    }
+    (square as u64) << 8
+}
+
+/// How long a radius becomes, its square: by the map's norm at most, whose square is that of a row of the columns'
+/// products. 16 fractional bits.
+const fn longest(rows: &[[i64; 3]; 3], radius: Near) -> i64 {
+    let (mut columns, mut norm, mut k) = ([[0; 3]; 3], 0, 0);
+    while k < 9 {
+        columns[k % 3][k / 3] = rows[k / 3][k % 3] >> 2;
+        k += 1;
+    }
+    let mut i = 0;
+    while i < 3 {
+        let (mut sum, mut j) = (0, 0);
+        while j < 3 {
+            sum += moved(&columns[i], &columns[j]).abs() + 1;
+            j += 1;
+        }
+        norm = greater(norm, sum);
+        i += 1;
+    }
+    let radius = (radius.to_bits() >> 12) as i64 + 1;
+    norm.saturating_mul((radius * radius) >> 16) >> 16
 }
 
 impl Site {
     /// The site of a box of generic coordinates, or of a half-space without one, under a map. All of the shape
     /// may be known to be within a radius of the box's middle.
-    pub(super) fn new(
+    pub(super) const fn new(
         bounds: Option<[Vec3<Near>; 2]>,
         radius: Option<Near>,
         map: &Affine3,
     ) -> Result<Self, Error> {
-        let inverse = map.inverse()?;
-        let (min, max) = (Wide::ONE / 256, Wide::from_num(128));
-        let scale =
-            |value: Wide| Error::OutOfRange { what: "scale of a shape", index: None, value, min, max };
-        if map.greatest() >= max {
-            return Err(scale(map.greatest()));
+        let inverse = match map.inverse() {
+            Ok(inverse) => inverse,
+            Err(error) => return Err(error),
+        };
+        let exponent = inverse.exponent;
+        let greatest = map.greatest();
+        if greatest.to_bits() >= 128 << 48 {
+            return Err(scale(greatest));
         }
         // entries below 128 have an inverse whose greatest is above 2^-9
-        if !(-8..=8).contains(&inverse.exponent) {
-            return Err(scale(Wide::ONE >> inverse.exponent.clamp(0, 47) as u32));
+        if exponent < -8 || exponent > 8 {
+            let places = if exponent < 0 { 0 } else { exponent };
+            return Err(scale(Wide::from_bits(if places > 47 { 2 } else { (1 << 48) >> places })));
         }
         let (linear, _) = map.parts();
-        let corner = |v: Vec3<Near>| [v.x, v.y, v.z].map(Near::to_bits);
-        let [low, high] = bounds.map_or([[0; 3]; 2], |[low, high]| [corner(low), corner(high)]);
-        // bounds are within 2: no sum leaves a word
-        let middle = [0, 1, 2].map(|k: usize| low[k].saturating_add(high[k]) >> 5);
-        let [x, y, z] = middle.map(Real::from_bits);
-        let middle = middle.map(|c| c << 4);
-        let half = [0, 1, 2].map(|k: usize| i64::from(high[k].saturating_sub(low[k]) >> 1) + 16);
-        let centre = map.at(Vec3::new(x, y, z));
-        for (index, c) in [centre.x, centre.y, centre.z].into_iter().enumerate() {
-            if c > 64 || c <= -64 {
-                let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
-                let what = "place of a shape";
-                return Err(Error::OutOfRange { what, index: Some(index), value: c.into(), min, max });
-            }
+        let [low, high] = match bounds {
+            Some([low, high]) => [words(low), words(high)],
+            None => [[0; 3]; 2],
+        };
+        let (mut middle, mut half, mut k) = ([0; 3], [0; 3], 0);
+        while k < 3 {
+            // bounds are within 2: no sum leaves a word
+            middle[k] = low[k].saturating_add(high[k]) >> 5;
+            half[k] = (high[k].saturating_sub(low[k]) >> 1) as i64 + 16;
+            k += 1;
         }
-        let centre = [centre.x, centre.y, centre.z].map(Real::to_bits);
-        let rows = linear.map(|row| [row.x, row.y, row.z].map(|c| i64::from(c.to_bits())));
-        let sizes = rows.map(|row| moved(&row.map(i64::abs), &half));
+        let [x, y, z] = middle;
+        let centre = map.at(Vec3::new(Real::from_bits(x), Real::from_bits(y), Real::from_bits(z)));
+        let centre: [Q24; 3] = [centre.x.to_bits(), centre.y.to_bits(), centre.z.to_bits()];
+        let mut rows = [[0_i64; 3]; 3];
+        let (mut k, mut sizes, mut most, mut largest) = (0, [0; 3], 0, 0);
+        while k < 3 {
+            if centre[k] > 64 << 24 || centre[k] <= -(64 << 24) {
+                let (min, max) = (Wide::from_bits(-64 << 48), Wide::from_bits(64 << 48));
+                let value = Wide::from_bits((centre[k] as i64) << 24);
+                return Err(Error::OutOfRange { what: "place of a shape", index: Some(k), value, min, max });
+            }
+            let Vec3 { x, y, z } = linear[k];
+            let row = [x.to_bits() as i64, y.to_bits() as i64, z.to_bits() as i64];
+            let size = [row[0].abs(), row[1].abs(), row[2].abs()];
+            (rows[k], sizes[k]) = (row, moved(&size, &half));
+            (most, largest) =
+                (greater(most, greater(greater(size[0], size[1]), size[2])), greater(largest, sizes[k]));
+            middle[k] <<= 4;
+            k += 1;
+        }
         // what rounding the inverse makes of a place as far away as the box's corner, and a few units
-        let greatest = rows.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
-        let largest = sizes.into_iter().fold(0, i64::max);
-        let slack = 16 + (((greatest >> 12) * (largest >> 12) * 9) >> (31 - inverse.exponent));
-        let reach = sizes.map(|size| size + slack);
-        // four corners of the box, the others are opposite; 16 fractional bits
-        let mut farthest = 0;
-        for (a, b) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
-            let corner = [half[0], half[1] * a, half[2] * b];
-            let mut sum = 0;
-            for row in &rows {
-                let c = ((moved(row, &corner).abs() + slack) >> 8) + 1;
-                sum += c * c;
-            }
-            farthest = farthest.max(sum >> 16);
-        }
-        // a ball of generic coordinates becomes longer by the map's norm at most: the squares of that are sums of
-        // rows of the columns' products, 16 fractional bits
+        let slack = 16 + (((most >> 12) * (largest >> 12) * 9) >> (31 - exponent));
+        let mut farthest = corners(&rows, half, slack);
         if let Some(radius) = radius {
-            let mut norm = 0;
-            for i in 0..3 {
-                let column = |k: usize| rows.map(|row| row[k] >> 2);
-                let entry = |j: usize| moved(&column(i), &column(j)).abs() + 1;
-                norm = norm.max(entry(0) + entry(1) + entry(2));
-            }
-            let radius = i64::from(radius.to_bits() >> 12) + 1;
-            let square = norm.saturating_mul((radius * radius) >> 16) >> 16;
+            let square = longest(&rows, radius);
             // and what was rounded there
-            farthest = farthest.min(square + (square >> 8) + i64::from(slack as i32 >> 4));
+            let round = square + (square >> 8) + (slack as i32 >> 4) as i64;
+            farthest = if round < farthest { round } else { farthest };
         }
         // the radius below 2^length
-        let ball = u32::try_from(farthest + 1).unwrap_or(u32::MAX);
+        let ball = if farthest >= u32::MAX as i64 { u32::MAX } else { farthest as u32 + 1 };
         let length = (17 - ball.leading_zeros() as i32).div_euclid(2);
-        let fractional = (31 - length).min(30 + inverse.exponent);
-        // whether what is in the ball is within 4 of the origin in generic coordinates, by the inverse's norm:
-        // squares with 16 fractional bits
-        let norm: u64 = inverse.rows.iter().flatten().map(|c| u64::from(c.unsigned_abs() >> 15).pow(2)).sum();
-        let reached = (norm >> 4).saturating_mul(ball.into()) >> (26 - 2 * inverse.exponent);
-        let aside: u64 = middle.iter().map(|c| u64::from(c.unsigned_abs() >> 20)).sum();
-        // squares with 32 fractional bits: what the map makes longest has the shortest image, and rows whose
-        // sum reaches 2 may make one longer than a word
-        let length: u64 = rows.iter().flatten().map(|c| ((c >> 8) * (c >> 8)) as u64).sum();
-        let sum = |row: &[Q30; 3]| row.iter().map(|c| u64::from(c.unsigned_abs())).sum::<u64>();
-        let is_steep =
-            length >> (40 - 2 * inverse.exponent) > 0 || inverse.rows.iter().any(|row| sum(row) >> 31 > 0);
-        let is_even = !is_steep && reached <= 998_u64.saturating_sub(aside).pow(2);
-        let end = |c: Q24, r: i64| Real::from_bits(shifted(i64::from(c) + r, 0));
-        let [x, y, z] = [0, 1, 2].map(|k: usize| (end(centre[k], -reach[k]), end(centre[k], reach[k])));
-        let extent = Extent { low: Vec3::new(x.0, y.0, z.0), high: Vec3::new(x.1, y.1, z.1) };
+        let fractional = if 31 - length < 30 + exponent { 31 - length } else { 30 + exponent };
+        // squares of norms: of the inverse with 28, of the map with 32 fractional bits; what the map makes longest
+        // has the shortest image, and rows whose sum reaches 2 may make one longer than a word
+        let (mut norm, mut length, mut is_steep, mut k) = (0_u64, 0_u64, false, 0);
+        while k < 3 {
+            let (mut sum, mut j) = (0_u64, 0);
+            while j < 3 {
+                let size = inverse.rows[k][j].unsigned_abs() as u64;
+                (sum, norm) = (sum + size, norm + (size >> 15) * (size >> 15));
+                length += ((rows[k][j] >> 8) * (rows[k][j] >> 8)) as u64;
+                j += 1;
+            }
+            is_steep |= sum >> 31 > 0;
+            k += 1;
+        }
+        is_steep |= length >> (40 - 2 * exponent) > 0;
+        // whether what is in the ball is within 4 of the origin in generic coordinates: 16 fractional bits
+        let reached = (norm >> 4).saturating_mul(ball as u64) >> (26 - 2 * exponent);
+        let aside = (middle[0].unsigned_abs() >> 20)
+            + (middle[1].unsigned_abs() >> 20)
+            + (middle[2].unsigned_abs() >> 20);
+        let within = 998_u64.saturating_sub(aside as u64);
+        let is_even = !is_steep && reached <= within * within;
+        let limited = bounds.is_some();
+        let (mut low, mut high, mut k) = (centre, centre, 0);
+        while k < 3 {
+            let reach = sizes[k] + slack;
+            (low[k], high[k]) = (word(centre[k] as i64 - reach), word(centre[k] as i64 + reach));
+            k += 1;
+        }
         Ok(Self {
-            limited: bounds.is_some(),
+            limited,
+            round: round(&rows, most),
             inverse: inverse.rows,
-            exponent: inverse.exponent,
+            exponent,
             middle,
-            ball: match bounds {
-                Some(_) => Ball { centre, square: ball, up: [0; 3] },
-                None => Ball { centre, square: u32::MAX, up: inverse.rows[2] },
+            ball: if limited {
+                Ball { centre, square: ball, up: [0; 3] }
+            } else {
+                Ball { centre, square: u32::MAX, up: inverse.rows[2] }
             },
             up: (fractional - 14) as u32,
-            left: (30 - fractional + inverse.exponent) as u32,
+            left: (30 - fractional + exponent) as u32,
             is_even,
             is_steep,
             linear,
-            norm: sqrt(length),
-            extent: if bounds.is_some() { extent } else { Extent::SPACE },
+            norm: length.isqrt() as u32,
+            extent: if limited { Extent { low: vector(low), high: vector(high) } } else { Extent::SPACE },
         })
     }
 
     /// How wrong a parameter is at most where `s` is wrong by `near`, for a direction of length 1.
-    pub(super) fn error(&self, near: Near) -> Real {
+    pub(super) const fn error(&self, near: Near) -> Real {
         // s is worth at most 2 sqrt(3) of t times the map's norm; a place is known to a few units
-        let near = i64::from(near.to_bits()) + 8;
-        Real::from_bits(shifted(((near * i64::from(self.norm) * 111) >> 25) + 2, 0))
+        let near = near.to_bits() as i64 + 8;
+        Real::from_bits(word(((near * self.norm as i64 * 111) >> 25) + 2))
     }
 
     /// The ray in the shape's coordinates, moved to where it is closest; none if it comes nowhere near.
@@ -265,6 +384,45 @@ impl Site {
             }
         }
         self.mapped(ball.from(ray), ray.direction)
+    }
+
+    /// Whether the ray is one that [`Site::round_crossings`] knows.
+    #[inline(always)]
+    pub(super) fn is_round(&self) -> bool {
+        self.round > 0
+    }
+
+    /// Where a ray goes into the image of the sphere of radius 1 and out of it, wherever these are on its line, 24
+    /// fractional bits; none if it does not, and the whole of it none where nobody can tell.
+    ///
+    /// With `p` the way from the closest place to the centre, these are `t_0 + (p . d -+ |d| sqrt(r^2 - p^2)) / |d|^2`.
+    #[inline(always)]
+    pub(super) fn round_crossings(&self, ray: &Ray) -> Option<Option<[Q24; 2]>> {
+        if ray.pace == 0 {
+            return None;
+        }
+        let (steps, way) = self.ball.closest_on_line(ray)?;
+        if !self.ball.holds(way) {
+            return Some(None);
+        }
+        // below 4
+        let way: [Q28; 3] = way.map(rounded_down::<18>);
+        let inside = self.round.wrapping_sub(square(way)) as i64;
+        if inside <= 0 {
+            return Some(None);
+        }
+        let half: Q28 = rounded_down::<30>(product(rough_sqrt(inside as u64) as i32, ray.slowness));
+        // what is left over of the way to the closest place: 30 fractional bits, below 2^-15
+        let rest = high(rounded_down::<26>(dot(way, ray.direction)), ray.pace);
+        let end = |s: Q28| (steps << 6).saturating_add((s + 8) >> 4);
+        Some(Some([end(rest.wrapping_sub(half)), end(rest.wrapping_add(half))]))
+    }
+
+    /// The unit vector from the centre to a place.
+    #[inline]
+    pub(super) fn away(&self, place: Vec3) -> Vec3<Unit> {
+        let ([x, y, z], place) = (self.ball.centre, [place.x, place.y, place.z].map(Real::to_bits));
+        unit([place[0].wrapping_sub(x), place[1].wrapping_sub(y), place[2].wrapping_sub(z)])
     }
 
     /// The same as [`Site::approach`] for a ray of which something is known to be met.

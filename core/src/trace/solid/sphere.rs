@@ -12,7 +12,7 @@ use core::num::NonZeroU32;
 use core::ops::ControlFlow;
 
 use super::super::surface::Chart;
-use super::shape::{NearCrossing, NearRay, Shape};
+use super::shape::{NearCrossing, NearRay, Shape, corners};
 use crate::num::{
     Angle, Near, Real, Unit, Vec3, Wide, atan2, product, product_u, reciprocal_of, rough_sqrt, square, unit,
 };
@@ -22,29 +22,39 @@ use crate::num::{
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sphere;
 
+impl Sphere {
+    pub(super) const BOUNDS: Option<[Vec3<Near>; 2]> = Some(corners([-1, -1, -1], [1, 1, 1]));
+    pub(super) const RADIUS: Option<Near> = Some(Near::ONE);
+    pub(super) const ERROR: Near = Near::from_bits(16);
+}
+
 impl Shape for Sphere {
     fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
-        let one = Near::ONE;
-        Some([Vec3::new(-one, -one, -one), Vec3::new(one, one, one)])
+        Self::BOUNDS
     }
 
     fn radius(&self) -> Option<Near> {
-        Some(Near::ONE)
+        Self::RADIUS
     }
 
     fn error(&self) -> Near {
-        Near::DELTA * 16
+        Self::ERROR
+    }
+
+    fn is_round(&self) -> bool {
+        true
     }
 
     /// Error: on the sphere within `2^-24` (`rays_meet_the_sphere_where_they_should`). Cost: kernel `sphere`.
     #[inline]
     fn cross(&self, ray: &NearRay, from: Near, found: &mut impl FnMut(NearCrossing) -> ControlFlow<()>) {
-        let Some([enters, exits]) = crossings(ray) else { return };
-        if enters >= from && found(NearCrossing { s: enters, enters: true, face: 0 }).is_break() {
-            return;
-        }
-        if exits >= from {
-            let _ = found(NearCrossing { s: exits, enters: false, face: 0 });
+        let Some([first, last]) = crossings(ray) else { return };
+        let (mut s, mut enters) = if first >= from { (first, true) } else { (last, false) };
+        while s >= from {
+            if found(NearCrossing { s, enters, face: 0 }).is_break() || !enters {
+                return;
+            }
+            (s, enters) = (last, false);
         }
     }
 

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use super::super::surface::Chart;
 use super::plane::height_over;
-use super::shape::{NearCrossing, NearRay, Shape};
+use super::shape::{NearCrossing, NearRay, Shape, corners};
 use crate::num::{Near, Real, Vec3, Wide, product};
 
 /// The generic square.
@@ -13,10 +13,14 @@ use crate::num::{Near, Real, Vec3, Wide, product};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Square;
 
+impl Square {
+    pub(super) const BOUNDS: Option<[Vec3<Near>; 2]> = Some(corners([-1, -1, 0], [1, 1, 0]));
+    pub(super) const ERROR: Near = Near::from_bits(8);
+}
+
 impl Shape for Square {
     fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
-        let one = Near::ONE;
-        Some([Vec3::new(-one, -one, Near::ZERO), Vec3::new(one, one, Near::ZERO)])
+        Self::BOUNDS
     }
 
     fn is_closed(&self) -> bool {
@@ -28,7 +32,7 @@ impl Shape for Square {
     }
 
     fn error(&self) -> Near {
-        Near::DELTA * 8
+        Self::ERROR
     }
 
     /// Error: on the plane within `2^-25` (`rays_meet_the_square_where_they_should`). Cost: kernel `square`.

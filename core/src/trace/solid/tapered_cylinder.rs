@@ -14,7 +14,7 @@
 use core::ops::ControlFlow;
 
 use super::super::surface::Chart;
-use super::shape::{NearCrossing, NearRay, Shape};
+use super::shape::{NearCrossing, NearRay, Shape, corners};
 use super::slab::{Part, over, slowness};
 use super::sphere::{PI, radial, turns};
 use crate::Error;
@@ -172,15 +172,20 @@ fn quotient(v: Q25, d: Q25, up: i32) -> Q28 {
     }
 }
 
+impl TaperedCylinder {
+    pub(super) const BOUNDS: Option<[Vec3<Near>; 2]> = Some(corners([-1, -1, 0], [1, 1, 1]));
+    /// The root of 5/4.
+    pub(super) const RADIUS: Option<Near> = Some(Near::lit("1.118034"));
+    pub(super) const ERROR: Near = Near::from_bits(32);
+}
+
 impl Shape for TaperedCylinder {
     fn bounds(&self) -> Option<[Vec3<Near>; 2]> {
-        let one = Near::ONE;
-        Some([Vec3::new(-one, -one, Near::ZERO), Vec3::new(one, one, one)])
+        Self::BOUNDS
     }
 
     fn radius(&self) -> Option<Near> {
-        // the root of 5/4
-        Some(const { Near::lit("1.118034") })
+        Self::RADIUS
     }
 
     fn faces(&self) -> u8 {
@@ -188,7 +193,7 @@ impl Shape for TaperedCylinder {
     }
 
     fn error(&self) -> Near {
-        Near::DELTA * 32
+        Self::ERROR
     }
 
     /// Error: on the surface within `2^-23` (`rays_meet_the_tapered_cylinder_where_they_should`). Cost: kernel

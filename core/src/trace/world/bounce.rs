@@ -13,7 +13,7 @@ use super::super::surface::{Crossing, Surface, SurfacePoint};
 use super::super::surroundings::Surroundings;
 use super::scene::{Interpenetration, Leaf, World};
 use super::search::{Met, Start};
-use crate::num::{Lumen, Real, Rgb, Unit, Vec3, product, reciprocal, unit};
+use crate::num::{Lumen, Real, Rgb, Unit, Vec3, product, reciprocal};
 
 /// Below this weight a ray is not cast: `1/256`.
 const FAINT: Lumen = Lumen::from_bits(1 << 8);
@@ -50,7 +50,7 @@ fn lies_in_the_world(place: Vec3) -> bool {
     [place.x, place.y, place.z].into_iter().all(|c| c.to_bits().unsigned_abs() < 64 << 24)
 }
 
-impl<L: Surface, M: Material> World<'_, L, M> {
+impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> {
     /// The light that comes along a ray of the camera, not cut off. What shares a place with what it must not
     /// share it with is told to `shared`.
     pub(super) fn light<const E: usize, const R: usize>(
@@ -65,7 +65,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         let mut light = Rgb::BLACK;
         let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, width: 0, level: 0 };
         loop {
-            let direction = unit(now.ray.direction);
+            let direction = now.ray.unit_direction();
             let weighted = |light: Rgb| if now.level == 0 { light } else { now.weight.through(light) };
             let is_cast = now.level <= depth.0 && now.weight.brightest() >= FAINT;
             let met = if is_cast { self.met::<E>(&now.ray, &now.start) } else { None };

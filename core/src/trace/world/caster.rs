@@ -28,8 +28,16 @@ const LAMPS: usize = 64;
 /// `EVENTS` is how many crossings of a ray there is room for, `RAYS` how many rays may wait: two more than
 /// the depth. Both are on the stack while a ray is followed: 16 bytes a crossing, about 80 a ray.
 #[derive(Debug, Clone)]
-pub struct WorldCaster<'a, L, M, S, const EVENTS: usize = 32, const RAYS: usize = 7> {
-    world: World<'a, L, M>,
+pub struct WorldCaster<
+    'a,
+    L,
+    M,
+    S,
+    const EVENTS: usize = 32,
+    const RAYS: usize = 7,
+    const COMPOUNDS: bool = true,
+> {
+    world: World<'a, L, M, COMPOUNDS>,
     surroundings: S,
     camera: Camera,
     size: Size,
@@ -40,8 +48,15 @@ pub struct WorldCaster<'a, L, M, S, const EVENTS: usize = 32, const RAYS: usize 
     start: Start,
 }
 
-impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RAYS: usize>
-    WorldCaster<'a, L, M, S, EVENTS, RAYS>
+impl<
+    'a,
+    L: Surface,
+    M: Material,
+    S: Surroundings,
+    const EVENTS: usize,
+    const RAYS: usize,
+    const COMPOUNDS: bool,
+> WorldCaster<'a, L, M, S, EVENTS, RAYS, COMPOUNDS>
 {
     /// A picture of `size` pixels with one sample each, with as many bounces as there is room for.
     ///
@@ -50,7 +65,12 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
     /// 64 lamps, each of which a ray looks for at every hit;
     /// [`Error::OutOfRange`] for a size of 0 or above [`crate::plane::MAX_SIDE`], or where the view is so
     /// wide that a ray's direction leaves ±4.
-    pub fn new(world: World<'a, L, M>, surroundings: S, camera: Camera, size: Size) -> Result<Self, Error> {
+    pub fn new(
+        world: World<'a, L, M, COMPOUNDS>,
+        surroundings: S,
+        camera: Camera,
+        size: Size,
+    ) -> Result<Self, Error> {
         let needed = world.most_crossings();
         if needed as usize > EVENTS {
             return Err(Error::Capacity {
@@ -161,8 +181,8 @@ impl<'a, L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RA
     }
 }
 
-impl<L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RAYS: usize> Field
-    for WorldCaster<'_, L, M, S, EVENTS, RAYS>
+impl<L: Surface, M: Material, S: Surroundings, const EVENTS: usize, const RAYS: usize, const COMPOUNDS: bool>
+    Field for WorldCaster<'_, L, M, S, EVENTS, RAYS, COMPOUNDS>
 {
     type Value = LinearRgb;
 

@@ -34,6 +34,7 @@ pub enum Op {
 pub struct Object<'a> {
     ops: &'a [Op],
     extents: &'a [Extent],
+    extent: Extent,
     /// A ball that holds it, and the leaves of which nothing is known where a ray passes it by.
     pub(super) ball: Ball,
     pub(super) others: u64,
@@ -146,6 +147,11 @@ impl<'a> Object<'a> {
                     is_left: surface.map_or([false; 2], is_left),
                     ops,
                     extents: memory.get(..ops.len()).unwrap_or(&[]),
+                    extent: ops
+                        .len()
+                        .checked_sub(1)
+                        .and_then(|last| memory.get(last).copied())
+                        .unwrap_or(extent),
                     ball: ball.unwrap_or_else(|| Ball::round(extent.low, extent.high)),
                     others: 0,
                     guarded: [0; 4],
@@ -161,6 +167,24 @@ impl<'a> Object<'a> {
                 given: height,
                 expected: 1,
             }),
+        }
+    }
+
+    /// A leaf of its own, by its number and its surface.
+    pub fn leaf(number: u8, surface: &impl Surface) -> Object<'static> {
+        Object {
+            ops: &[],
+            extents: &[],
+            extent: surface.extent(),
+            ball: surface.ball(),
+            others: 0,
+            only: Some(number),
+            is_left: is_left(surface),
+            guarded: [0; 4],
+            is_boxed: false,
+            is_carved: false,
+            table: Some(0xaaaa_aaaa),
+            first: number,
         }
     }
 
@@ -197,17 +221,14 @@ impl<'a> Object<'a> {
 
     /// The box that holds it.
     pub fn extent(&self) -> Extent {
-        self.ops
-            .len()
-            .checked_sub(1)
-            .and_then(|last| self.extents.get(last))
-            .copied()
-            .unwrap_or(Extent::NOTHING)
+        self.extent
     }
 
     /// Its leaves, in the order of the program.
     pub(super) fn leaves(&self) -> impl Iterator<Item = u8> + '_ {
-        self.ops.iter().filter_map(|op| if let Op::Leaf(leaf) = op { Some(*leaf) } else { None })
+        let alone = if self.ops.is_empty() { self.only } else { None };
+        let of = |op: &Op| if let Op::Leaf(leaf) = op { Some(*leaf) } else { None };
+        alone.into_iter().chain(self.ops.iter().filter_map(of))
     }
 
     /// Its only leaf.

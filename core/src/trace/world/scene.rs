@@ -21,9 +21,9 @@ pub struct Leaf<'a, L> {
 /// Leaves, objects, materials and lamps.
 ///
 /// All memory is lent; a world is small and can be copied. At most 64 leaves; what lies farther than 64 from
-/// the origin along an axis is not seen.
+/// the origin along an axis is not seen. A world whose type says that it has no `COMPOUNDS` takes no code for them.
 #[derive(Debug, Clone, Copy)]
-pub struct World<'a, L, M> {
+pub struct World<'a, L, M, const COMPOUNDS: bool = true> {
     leaves: &'a [Leaf<'a, L>],
     pub(super) objects: &'a [Object<'a>],
     materials: &'a [M],
@@ -54,6 +54,36 @@ impl<'a, L: Surface, M: Material> World<'a, L, M> {
     /// [`Error::OutOfRange`] for a leaf that belongs to two objects or a material that is not there,
     /// [`Error::LengthMismatch`] for a leaf of no object or without a material.
     pub fn new(
+        leaves: &'a [Leaf<'a, L>],
+        objects: &'a [Object<'a>],
+        materials: &'a [M],
+    ) -> Result<Self, Error> {
+        Self::checked(leaves, objects, materials)
+    }
+}
+
+impl<'a, L: Surface, M: Material> World<'a, L, M, false> {
+    /// A world without lamps whose objects have a leaf each.
+    ///
+    /// # Errors
+    /// As [`World::new`], and [`Error::Unsupported`] for a compound.
+    pub fn of_leaves(
+        leaves: &'a [Leaf<'a, L>],
+        objects: &'a [Object<'a>],
+        materials: &'a [M],
+    ) -> Result<Self, Error> {
+        if objects.iter().any(|object| object.only().is_none()) {
+            return Err(Error::Unsupported {
+                what: "compound in a world of leaves",
+                allowed: "objects of one leaf",
+            });
+        }
+        Self::checked(leaves, objects, materials)
+    }
+}
+
+impl<'a, L: Surface, M: Material, const COMPOUNDS: bool> World<'a, L, M, COMPOUNDS> {
+    fn checked(
         leaves: &'a [Leaf<'a, L>],
         objects: &'a [Object<'a>],
         materials: &'a [M],

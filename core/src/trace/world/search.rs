@@ -133,7 +133,7 @@ impl<'r, const E: usize> Search<'r, E> {
     }
 }
 
-impl<L: Surface, M: Material> World<'_, L, M> {
+impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> {
     /// Puts the crossings of a ray with a leaf into the search's list. Answers whether any part of the ray is
     /// inside. On which side of an open surface a ray starts that does not come from it, its first crossing
     /// tells.
@@ -166,7 +166,8 @@ impl<L: Surface, M: Material> World<'_, L, M> {
     #[inline(never)]
     fn decide<const E: usize>(&self, search: &mut Search<'_, E>) {
         let bit = bit(search.leaf);
-        if search.is_undecided {
+        // without compounds all leaves are followed
+        if COMPOUNDS && search.is_undecided {
             search.states = self.known(search.states, bit, search.ray.origin());
             search.is_inside = has(search.states.inside, search.leaf);
         }
@@ -193,7 +194,7 @@ impl<L: Surface, M: Material> World<'_, L, M> {
         (search.object, search.is_alone) = (number, false);
         if let Some(leaf) = object.only() {
             self.cross(search, leaf);
-        } else {
+        } else if COMPOUNDS {
             search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
         }
     }
@@ -210,6 +211,10 @@ impl<L: Surface, M: Material> World<'_, L, M> {
                 let (event, before) = (*event, search.states.inside);
                 search.keep(Met { event, before, behind: event.behind(before), unknown: 0 });
             }
+            return;
+        }
+        // a world without compounds has no code of them
+        if !COMPOUNDS {
             return;
         }
         search.is_alone = false;
