@@ -7,10 +7,10 @@
 use core::cmp::Ordering;
 use std::vec::Vec;
 
-use super::boxes::range;
-use super::hierarchy::{Hierarchy, Profile};
+use super::height_field::boxes::range;
+use super::height_field::hierarchy::{Hierarchy, Profile};
+use super::height_field::statistics::Statistics;
 use super::ray::Ray;
-use super::statistics::Statistics;
 use crate::fif::{Cell, Fif, Knot, Pyramid};
 use crate::num::{Real, Scaling, Wide};
 

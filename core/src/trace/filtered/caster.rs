@@ -15,9 +15,9 @@ use crate::Error;
 use crate::fif::Moments;
 use crate::num::{Unit, unit};
 use crate::plane::{Field, Tone, along};
-use crate::trace::halves::Pencil;
+use crate::trace::height_field::halves::Pencil;
+use crate::trace::height_field::statistics::Uncounted;
 use crate::trace::ray_caster::{RayCaster, narrow, rounded};
-use crate::trace::statistics::Uncounted;
 
 /// Half a pixel, 24 fractional bits.
 const HALF: i32 = 1 << 23;

@@ -162,7 +162,7 @@ impl<S: Surface> Surface for Moved<S> {
 mod tests {
     extern crate std;
     use super::super::super::exact::{with_polygon, words};
-    use super::super::super::height_field::HeightField;
+    use super::super::super::height_field::field::HeightField;
     use super::*;
     use crate::num::Angle;
     use std::vec::Vec;

@@ -6,13 +6,13 @@
 
 use core::ops::Range;
 
-use super::camera::Camera;
+use super::super::camera::Camera;
 use crate::num::{Unit, Vec3, quotient, reciprocal};
 
 /// The projected corners of a box, in pixels with 16 fractional bits, or none where one is not in front of
 /// the eye. Bit `k` of a corner's index says on which side it lies along axis `k`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Outline(Option<[(i32, i32); 8]>);
+pub(crate) struct Outline(Option<[(i32, i32); 8]>);
 
 /// The edges: a corner and a neighbour with one more bit set.
 const EDGES: [(u8, u8); 12] =
@@ -20,7 +20,7 @@ const EDGES: [(u8, u8); 12] =
 
 impl Outline {
     /// The outline of the box `extent` (24 fractional bits) on a picture of `cols x rows` pixels.
-    pub(super) fn new(extent: [[i32; 2]; 3], camera: &Camera, cols: u32, rows: u32) -> Self {
+    pub(crate) fn new(extent: [[i32; 2]; 3], camera: &Camera, cols: u32, rows: u32) -> Self {
         let mut corners = [(0, 0); 8];
         for (index, corner) in corners.iter_mut().enumerate() {
             let mut bits = index;
@@ -36,7 +36,7 @@ impl Outline {
     }
 
     /// The columns of row `y` in which the box can be seen.
-    pub(super) fn columns(&self, y: u32, cols: u32) -> Range<u32> {
+    pub(crate) fn columns(&self, y: u32, cols: u32) -> Range<u32> {
         let Some(corners) = &self.0 else { return 0..cols };
         // the row and two pixels above and below: the samples of a wide filter lie up to that outside their
         // pixel
@@ -238,7 +238,7 @@ mod tests {
     /// either side, widened by two columns.
     #[test]
     fn columns_reach_as_far_as_the_edges_above_the_rows() {
-        let mut word = super::super::exact::words(5);
+        let mut word = super::super::super::exact::words(5);
         let (mut decided, mut empty, mut level) = (0, 0, 0);
         for i in 0..2000 {
             let mut corners = [(0, 0); 8];

@@ -30,9 +30,9 @@
 
 use core::num::NonZeroU32;
 
+use super::super::ray::{Footprint, Ray, parameters};
 use super::boxes::meets_bits;
 use super::hierarchy::{Hierarchy, Leaf, Profile};
-use super::ray::{Footprint, Ray, parameters};
 use super::statistics::Count;
 
 /// When the ray crosses the planes along one axis: `t = middle + whole u`.
@@ -169,10 +169,10 @@ impl Middle {
 
 /// What all rays of one footprint that leave one point share, made ready for walks through one surface.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pencil {
+pub(crate) struct Pencil {
     /// 24 fractional bits.
-    pub(super) origin: [i32; 3],
-    pub(super) footprint: Footprint,
+    pub(crate) origin: [i32; 3],
+    pub(crate) footprint: Footprint,
     detail: LevelOfDetail,
     x: Middle,
     y: Middle,
@@ -181,7 +181,7 @@ pub(super) struct Pencil {
 impl Pencil {
     /// The ray in this direction, 28 fractional bits.
     #[inline(always)]
-    pub(super) fn ray(&self, direction: &[i32; 3]) -> Ray {
+    pub(crate) fn ray(&self, direction: &[i32; 3]) -> Ray {
         Ray::from_bits(self.origin, *direction)
     }
 }
@@ -207,7 +207,7 @@ impl LevelOfDetail {
 
 impl Hierarchy<'_> {
     /// The rays with this footprint that leave `origin` (24 fractional bits).
-    pub(super) fn pencil(&self, origin: [i32; 3], footprint: Footprint) -> Pencil {
+    pub(crate) fn pencil(&self, origin: [i32; 3], footprint: Footprint) -> Pencil {
         let [x, y, _] = origin;
         Pencil {
             origin,
@@ -227,7 +227,7 @@ impl Hierarchy<'_> {
 
     /// The first leaf that the ray in this direction (28 fractional bits) meets.
     #[inline(never)]
-    pub(super) fn walk_halves(
+    pub(crate) fn walk_halves(
         &self,
         pencil: &Pencil,
         direction: &[i32; 3],
@@ -314,7 +314,7 @@ impl Hierarchy<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::exact::{Fraction, Surface, first_leaf};
+    use super::super::super::exact::{Fraction, Surface, first_leaf};
     use super::super::statistics::Statistics;
     use super::*;
     use crate::fif::Cell;

@@ -6,11 +6,11 @@
 
 use core::ops::ControlFlow;
 
-use super::height_field::HeightField;
+use super::super::ray::{Footprint, Ray};
+use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
+use super::field::HeightField;
 use super::hierarchy::{Hierarchy, Leaf, Profile};
-use super::ray::{Footprint, Ray};
 use super::statistics::Uncounted;
-use super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
 use crate::fif::Cell;
 use crate::num::{Real, Unit, Vec3, Wide, product, quotient, unit};
 
@@ -169,7 +169,7 @@ impl Surface for HeightField<'_> {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::super::exact::{with_polygon, words};
+    use super::super::super::exact::{with_polygon, words};
     use super::*;
     use std::vec::Vec;
 

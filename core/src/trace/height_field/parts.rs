@@ -8,9 +8,9 @@
 
 use heapless::Vec;
 
+use super::super::ray::{Axis, Footprint, Ray};
 use super::boxes::meets_bits;
 use super::hierarchy::{Hierarchy, Leaf, Profile};
-use super::ray::{Axis, Footprint, Ray};
 use super::statistics::Count;
 use crate::fif::Pyramid;
 
@@ -111,7 +111,7 @@ const FRAMES: usize = Pyramid::MAX_DEPTH as usize;
 impl Hierarchy<'_> {
     /// The first leaf that the ray meets.
     #[inline(never)]
-    pub(super) fn walk_parts(&self, ray: &Ray, footprint: Footprint, count: &mut impl Count) -> Option<Leaf> {
+    pub(crate) fn walk_parts(&self, ray: &Ray, footprint: Footprint, count: &mut impl Count) -> Option<Leaf> {
         count.ray();
         let axes = ray.axes();
         let [ax, ay, az] = &axes;
@@ -182,7 +182,7 @@ fn is_small(x: &Extent, y: &Extent, t: i32, footprint: Footprint) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::exact::{Surface, first_leaf};
+    use super::super::super::exact::{Surface, first_leaf};
     use super::super::statistics::Statistics;
     use super::*;
     use crate::fif::Cell;

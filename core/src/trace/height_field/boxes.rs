@@ -16,7 +16,7 @@ pub fn meets(f: &Cell, g: &Cell, z_in: Real, z_out: Real) -> bool {
 }
 
 #[inline(always)]
-pub(super) fn meets_bits(f: &Cell, g: &Cell, z_in: i32, z_out: i32) -> bool {
+pub(crate) fn meets_bits(f: &Cell, g: &Cell, z_in: i32, z_out: i32) -> bool {
     let [a, b, c, d] = [f.min, f.max, g.min, g.max].map(Real::to_bits);
     if (b | d | a & c) < 0 {
         return meets_any(f, g, z_in, z_out);
@@ -51,7 +51,7 @@ fn product(a: i32, b: i32) -> i32 {
 /// Bounds of the product of two ranges (eq. 49), 24 fractional bits, outward by at most one unit more than
 /// need be.
 #[inline(never)]
-pub(super) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
+pub(crate) fn range(f: &Cell, g: &Cell) -> (i32, i32) {
     let [a, b, c, d] = [f.min, f.max, g.min, g.max].map(Real::to_bits);
     let ends = [product(a, c), product(a, d), product(b, c), product(b, d)];
     let (mut low, mut high) = (ends[0], ends[0]);

@@ -15,35 +15,35 @@ use crate::num::Wide;
 
 /// The boxes of a height field, down to the depth of the shallower pyramid.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hierarchy<'a> {
-    pub(super) x: Profile<'a>,
-    pub(super) y: Profile<'a>,
-    pub(super) depth: u32,
+pub(crate) struct Hierarchy<'a> {
+    pub(crate) x: Profile<'a>,
+    pub(crate) y: Profile<'a>,
+    pub(crate) depth: u32,
     /// The first node of the deepest level along x.
-    pub(super) leaves: u32,
+    pub(crate) leaves: u32,
     /// Bounds of all heights, 24 fractional bits.
-    pub(super) heights: (i32, i32),
+    pub(crate) heights: (i32, i32),
 }
 
 /// One factor of the height: its pyramid and its domain with 24 fractional bits.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Profile<'a> {
-    pub(super) cells: &'a [Cell],
-    pub(super) starts: &'a [u32],
-    pub(super) origin: i32,
-    pub(super) width: i32,
+pub(crate) struct Profile<'a> {
+    pub(crate) cells: &'a [Cell],
+    pub(crate) starts: &'a [u32],
+    pub(crate) origin: i32,
+    pub(crate) width: i32,
 }
 
 /// A leaf as a walk finds it: its nodes along x and y, the ray's part above it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Leaf {
-    pub(super) nodes: (u32, u32),
-    pub(super) span: (i32, i32),
+pub(crate) struct Leaf {
+    pub(crate) nodes: (u32, u32),
+    pub(crate) span: (i32, i32),
 }
 
 impl<'a> Profile<'a> {
     #[inline(never)]
-    pub(super) fn new(name: &'static str, pyramid: &Pyramid<'a>) -> Result<Self, Error> {
+    pub(crate) fn new(name: &'static str, pyramid: &Pyramid<'a>) -> Result<Self, Error> {
         let (x0, width) = pyramid.domain_bits();
         let end = x0.saturating_add_unsigned(width);
         // below 64, so that the width fits
@@ -64,12 +64,12 @@ impl<'a> Profile<'a> {
 
     /// Whether a node has two equal parts, the ordinary case, for which [`super::halves`] has a walk of its
     /// own.
-    pub(super) fn is_halved(&self) -> bool {
+    pub(crate) fn is_halved(&self) -> bool {
         self.starts == [0, 1 << 30]
     }
 
     /// Level of a node and its index there.
-    pub(super) fn level_and_index(&self, node: u32) -> (u32, u32) {
+    pub(crate) fn level_and_index(&self, node: u32) -> (u32, u32) {
         let (mut level, mut first, mut count) = (0, 0_u32, 1_u32);
         while node >= first.saturating_add(count) && level < Pyramid::MAX_DEPTH {
             first += count;
@@ -82,7 +82,7 @@ impl<'a> Profile<'a> {
 
 impl Hierarchy<'_> {
     /// The box of the whole surface, 24 fractional bits: both ends along x, y and z.
-    pub(super) fn extent(&self) -> [[i32; 2]; 3] {
+    pub(crate) fn extent(&self) -> [[i32; 2]; 3] {
         let ends = |profile: &Profile<'_>| [profile.origin, profile.origin + profile.width];
         [ends(&self.x), ends(&self.y), [self.heights.0, self.heights.1]]
     }

@@ -7,10 +7,10 @@
 //!
 //! Source: Cochran, Lewis, Hart, section 4, Algorithm 3.
 
+use super::super::ray::{Footprint, Ray};
 use super::boxes::range;
 use super::halves::Pencil;
 use super::hierarchy::{Hierarchy, Leaf, Profile};
-use super::ray::{Footprint, Ray};
 use super::statistics::{Count, Statistics, Uncounted};
 use crate::Error;
 use crate::fif::{Cell, Pyramid};
@@ -19,7 +19,7 @@ use crate::num::{Real, Unit, Vec3, Wide};
 /// A height field `f(x) g(y)` as the pyramids of its factors.
 #[derive(Debug, Clone, Copy)]
 pub struct HeightField<'a> {
-    pub(super) hierarchy: Hierarchy<'a>,
+    pub(crate) hierarchy: Hierarchy<'a>,
     /// Whether nodes have two equal parts along both axes.
     halved: bool,
 }
@@ -100,12 +100,12 @@ impl<'a> HeightField<'a> {
     }
 
     /// The surface's box, 24 fractional bits: both ends along x, y and z.
-    pub(super) fn extent(&self) -> [[i32; 2]; 3] {
+    pub(crate) fn extent(&self) -> [[i32; 2]; 3] {
         self.hierarchy.extent()
     }
 
     /// The rays with this footprint that leave `origin` (24 fractional bits), ready for walks.
-    pub(super) fn pencil(&self, origin: [i32; 3], footprint: Footprint) -> Pencil {
+    pub(crate) fn pencil(&self, origin: [i32; 3], footprint: Footprint) -> Pencil {
         self.hierarchy.pencil(origin, footprint)
     }
 
@@ -124,7 +124,7 @@ impl<'a> HeightField<'a> {
 
     /// The leaf alone: all that shading needs.
     #[inline(always)]
-    pub(super) fn leaf(&self, pencil: &Pencil, direction: &[i32; 3], count: &mut impl Count) -> Option<Leaf> {
+    pub(crate) fn leaf(&self, pencil: &Pencil, direction: &[i32; 3], count: &mut impl Count) -> Option<Leaf> {
         if self.halved {
             self.hierarchy.walk_halves(pencil, direction, count)
         } else {
@@ -144,7 +144,7 @@ impl<'a> HeightField<'a> {
 
     /// The first leaf that a ray of a pencil meets, and where.
     #[inline(always)]
-    pub(super) fn first_hit(
+    pub(crate) fn first_hit(
         &self,
         pencil: &Pencil,
         direction: &[i32; 3],
@@ -162,13 +162,13 @@ impl<'a> HeightField<'a> {
 
     /// The mean normal over a leaf.
     #[inline(always)]
-    pub(super) fn normal(&self, leaf: &Leaf) -> [i32; 3] {
+    pub(crate) fn normal(&self, leaf: &Leaf) -> [i32; 3] {
         // a walk's nodes have cells
         self.cells(leaf).map_or([0, 0, 1 << 24], |(f, g)| normal(f, g))
     }
 
     /// Bounds of the heights over a leaf, 24 fractional bits.
-    pub(super) fn leaf_heights(&self, leaf: &Leaf) -> Option<[i32; 2]> {
+    pub(crate) fn leaf_heights(&self, leaf: &Leaf) -> Option<[i32; 2]> {
         self.cells(leaf).map(|(f, g)| range(f, g).into())
     }
 
@@ -187,7 +187,7 @@ impl<'a> HeightField<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::exact::with_polygon;
+    use super::super::super::exact::with_polygon;
     use super::*;
 
     /// Minus the products of slopes and means: towards plus infinity by a unit at most, saturated at 64.

@@ -19,7 +19,7 @@ pub struct Statistics {
 }
 
 /// What a walk reports its steps to.
-pub(super) trait Count {
+pub(crate) trait Count {
     /// A ray begins.
     fn ray(&mut self);
     /// A box is tested.
@@ -29,7 +29,7 @@ pub(super) trait Count {
 }
 
 /// Counts nothing: for pictures.
-pub(super) struct Uncounted;
+pub(crate) struct Uncounted;
 
 impl Count for Uncounted {
     fn ray(&mut self) {}
