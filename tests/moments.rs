@@ -2,7 +2,7 @@
 //! its parts are together.
 
 use attractor::Error;
-use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread, Stretch};
+use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread, Stretch, Sum, Sums, Trend};
 use attractor::num::{Real, Scaling, Wide};
 use attractor_reference as reference;
 use attractor_tests::accuracy::{Example, dyadic_examples, nearest, other_examples, two_to};
@@ -145,6 +145,83 @@ fn an_interval_is_what_its_cells_are_together() {
     assert!(tried > 300 && rough > 100 && worst > 1.0, "{tried} {rough} {worst}");
 }
 
+/// Of cells, of neighbours together, and of intervals that end inside cells: even partitions and others.
+#[test]
+fn running_sums_tell_what_the_reference_says() {
+    let (mut tried, mut uneven, mut worst) = (0, 0, 0.0_f64);
+    for (name, f, value, slope) in smooth() {
+        let depth = if f.maps() < 4 { 7 } else { 4 };
+        let (x0, x1) = f.domain();
+        let length = (x1 - x0).to_num::<f64>();
+        let knots: Vec<f64> = f.knots().map(|k| (k.x - x0).to_num::<f64>() / length).collect();
+        let even = (0..).zip(&knots).all(|(j, u)| (u * f.maps() as f64 - f64::from(j)).abs() < 1e-9);
+        let mut memory = vec![Sum::ZERO; Sums::places(f.maps(), depth)];
+        let sums = Sums::new(&f, depth, &mut memory).unwrap();
+        let all = addresses(f.maps(), 2);
+        let exact = reference::moments::stretches(&value, &slope, &all);
+        for (address, exact) in all.iter().zip(&exact) {
+            let (mut from, mut width) = (0.0, 1.0);
+            for j in address {
+                from += width * knots[*j];
+                width *= knots[j + 1] - knots[*j];
+            }
+            if exact.slope_variance + exact.slope * exact.slope > 100.0 || width < 1.0 / 256.0 {
+                continue;
+            }
+            let at = |u: f64| x0 + Wide::from_num(u * length);
+            let Trend { slope, value, variance, covariance } = sums.over(at(from), at(from + width)).unwrap();
+            // of the largest of slope, value and their squares
+            let size = [exact.slope, exact.value, 1.0].map(|v| v * v).into_iter().fold(1.0, f64::max);
+            let pairs = [
+                (slope, exact.slope),
+                (value, exact.value),
+                (variance, exact.slope_variance),
+                (covariance, exact.covariance),
+            ];
+            for (a, b) in pairs {
+                worst = worst.max(units(a, b) / size);
+                assert!(units(a, b) < two_to(6) * size, "{name} {address:?}: {pairs:?}");
+            }
+            (tried, uneven) = (tried + 1, uneven + u32::from(!even));
+        }
+    }
+    assert!(tried > 60 && uneven > 15 && worst > 8.0, "{tried} {uneven} {worst}");
+}
+
+/// Intervals whose ends lie inside cells, against the integral and the squares of many slopes: off by what a
+/// cell at each end varies, far less at four levels deeper.
+#[test]
+fn intervals_that_end_inside_cells_are_off_by_what_a_cell_varies() {
+    let (_, f, value, slope) = smooth().into_iter().find(|(name, ..)| name.contains("g")).unwrap();
+    let (x0, x1) = f.domain();
+    let (start, length) = (x0.to_num::<f64>(), (x1 - x0).to_num::<f64>());
+    let mut worst = [[0.0_f64; 4]; 2];
+    for (worst, depth) in worst.iter_mut().zip([5, 9]) {
+        let mut memory = vec![Sum::ZERO; Sums::places(f.maps(), depth)];
+        let sums = Sums::new(&f, depth, &mut memory).unwrap();
+        for k in 0..40 {
+            let from = start + length * (0.01 + f64::from(k) * 0.0217);
+            let to = from + length * 0.083;
+            let n = 4000;
+            let places = (0..n).map(|i| from + (to - from) * (f64::from(i) + 0.5) / f64::from(n));
+            let pairs: Vec<(f64, f64)> = places.map(|x| (slope.at(x), value.at(x))).collect();
+            let mean = |g: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(g).sum::<f64>() / f64::from(n);
+            let (s, v) = (mean(&|p| p.0), mean(&|p| p.1));
+            let rise = (value.at(to) - value.at(from)) / (to - from);
+            let exact = [rise, v, mean(&|p| p.0 * p.0) - s * s, mean(&|p| p.0 * p.1) - s * v];
+            let found = sums.over(Wide::from_num(from), Wide::from_num(to)).unwrap();
+            let found = [found.slope, found.value, found.variance, found.covariance];
+            for ((worst, a), b) in worst.iter_mut().zip(found).zip(exact) {
+                *worst = worst.max((a.to_num::<f64>() - b).abs());
+            }
+        }
+    }
+    let [coarse, fine] = worst;
+    assert!(fine.iter().zip(coarse).all(|(fine, coarse)| *fine < coarse / 16.0), "{worst:?}");
+    assert!(fine[0] < 1e-4 && fine[1] < 2e-7 && fine[2] < 1e-4 && fine[3] < 1e-5, "{fine:?}");
+    assert!(fine.iter().all(|fine| *fine > 1e-9), "{fine:?}");
+}
+
 /// A fraction in lowest terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Fraction(i128, i128);
@@ -219,9 +296,9 @@ fn variances_of_slopes_of_f_and_g_are_exact_fractions() {
 }
 
 /// What of a surface's normal is a fractal function in its own right: functions with the same knots and
-/// scalings are closed under addition and multiplication by a number, so that along a line of constant `y` the
-/// normal `(-f G(y), -F g(y), 1)` has three components that are fractal functions of `x` with the scalings of
-/// `f`, of `F`, and a constant; its mean over an interval is that of the functions.
+/// scalings are closed under addition and multiplication by a number, so that along a line of constant `y`
+/// the normal `(-f G(y), -F g(y), 1)` has three components that are fractal functions of `x` with the
+/// scalings of `f`, of `F`, and a constant; its mean over an interval is that of the functions.
 #[test]
 fn along_a_line_each_component_of_the_normal_is_a_fractal_function() {
     let wide = Wide::from_num::<f64>;
@@ -282,4 +359,17 @@ fn what_has_no_moments_is_refused() {
     assert_eq!(moments.over(at(5), at(-5)), moments.over(at(0), at(2)));
     assert_eq!(moments.pyramid().depth(), 2);
     assert_eq!(core::mem::size_of::<Spread>(), 12);
+    // the same of sums
+    let error = Sums::new(&rough, 2, &mut [Sum::ZERO; 5]).unwrap_err();
+    assert_eq!(error, Error::NotDifferentiable { map: 0 });
+    let error = Sums::new(&f, 2, &mut [Sum::ZERO; 4]).unwrap_err();
+    assert!(matches!(error, Error::BufferLength { given: 4, needed: 5, .. }), "{error}");
+    assert_eq!(error.to_string(), "a buffer of 4 places of the running sums lent, 5 needed");
+    let error = Sums::new(&f, 17, &mut []).unwrap_err();
+    assert!(matches!(error, Error::Capacity { needed: 17, capacity: 16, .. }), "{error}");
+    let mut places = [Sum::ZERO; 5];
+    let sums = Sums::new(&f, 2, &mut places).unwrap();
+    assert_eq!((sums.over(at(-3), at(0)), sums.over(at(1), at(1))), (None, None));
+    assert_eq!(sums.over(at(5), at(-5)), sums.over(at(0), at(2)));
+    assert_eq!((Sums::MAX_DEPTH, core::mem::size_of::<Sum>()), (16, 12));
 }

@@ -19,6 +19,7 @@ mod pictures_of_worlds;
 mod promises;
 mod pure_maps;
 mod robust;
+mod slopes;
 mod solids;
 mod terrain;
 mod worked_examples;

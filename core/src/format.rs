@@ -31,6 +31,8 @@ as_debug! {
     [] fif::Cell;
     [] fif::Spread;
     [] fif::Stretch;
+    [] fif::Sum;
+    [] fif::Trend;
     [const N: usize, const D: usize] fif::Fif<N, D>;
     [] ifs::Affine;
     [] ifs::Disc;
@@ -90,6 +92,7 @@ as_debug! {
     [] trace::world::Interpenetration;
     [] trace::world::Lamp;
     [] trace::material::Anisotropic;
+    [] trace::material::Tabulated<'_>;
     [] trace::material::Sight;
     [] trace::material::Clear;
     [] trace::material::Lit;

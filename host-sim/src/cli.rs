@@ -122,6 +122,8 @@ pub(crate) struct Dump {
 #[command(after_help = "Columns:
   fif-curve            x,fixed,reference,error at x_i = x_0 + i (x_N - x_0) / (N - 1)
   fif-surface          x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference on a grid of about N points
+                       --pixels: i,j,found,filtered,sampled,one for every pixel of --size: its tone with the normals integrated
+                       (where [filter] says so), by the samples, and by the ray through its centre alone
   curve, random-curve  x,y of the first N vertices; where they stop at a pixel, --size counts
   ifs                  x,y of N points of the chaos game
   copier               x,y of the first N vertices of the last order

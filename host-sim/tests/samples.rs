@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::common::good;
+use crate::common::{bad, good};
 
 fn sample(args: &[&str]) -> (String, Vec<Vec<f64>>) {
     let args: Vec<&str> = ["sample"].iter().chain(args).copied().collect();
@@ -376,4 +376,87 @@ fn textures_at_places_are_those_of_the_reference() {
         }
     }
     assert!(names.len() >= 12 && colours.len() > 200, "{} {}", names.len(), colours.len());
+}
+
+/// A matt `G x G`, filtered, of 64 samples a pixel.
+const FILTERED: &str = r#"
+kind = "fif-surface"
+title = "a filtered surface"
+samples = 8
+depth = 9
+[f]
+knots = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]
+vertical_scaling = [0.85, -0.85]
+integrate = 1
+[g]
+knots = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]
+vertical_scaling = [0.85, -0.85]
+integrate = 1
+[camera]
+eye = [-4.4, -3.7, 2.8]
+look_at = [1.0, 1.0, 0.35]
+field_of_view = 22
+[filter]
+quality = "fine"
+"#;
+
+/// Every pixel of a surface: how it was found, its tone filtered, by 64 samples, and by one.
+#[test]
+fn pixels_of_a_surface_are_listed_filtered_and_not() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("scene.toml"), FILTERED).unwrap();
+    let text = good(directory.path(), &["sample", "scene.toml", "--pixels", "--size", "40x40"]);
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("i,j,found,filtered,sampled,one"));
+    let (mut filtered, mut edges, mut beyond, mut squares) = (0, 0, 0, [0.0; 2]);
+    for (k, line) in lines.enumerate() {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells[..2], [(k % 40).to_string(), (k / 40).to_string()]);
+        let [by_moments, by_samples, by_one] = [3, 4, 5].map(|i| cells[i].parse::<f64>().unwrap());
+        match cells[2] {
+            "filtered" => {
+                filtered += 1;
+                squares[0] += (by_moments - by_samples).powi(2);
+                squares[1] += (by_one - by_samples).powi(2);
+            }
+            "sampled" => {
+                edges += 1;
+                assert_eq!(cells[3], cells[4], "{line}");
+            }
+            found => {
+                beyond += 1;
+                assert_eq!(found, "beyond");
+            }
+        }
+    }
+    assert_eq!(filtered + edges + beyond, 1600);
+    assert!(filtered > 400 && edges > 60 && beyond > 800, "{filtered} {edges} {beyond}");
+    // 64 samples are off by more than what is filtered
+    assert!(squares[0] * 16.0 < squares[1] && squares[0] > 0.0, "{squares:?}");
+    // without a filter, that column is empty
+    let plain = FILTERED.replace("[filter]\nquality = \"fine\"\n", "");
+    std::fs::write(directory.path().join("scene.toml"), plain).unwrap();
+    let text = good(directory.path(), &["sample", "scene.toml", "--pixels", "--size", "9x8"]);
+    assert_eq!(text.lines().count(), 73);
+    assert!(text.lines().skip(1).all(|line| line.split(',').skip(2).take(2).all(str::is_empty)));
+}
+
+#[test]
+fn what_cannot_be_filtered_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let said = |from: &str, to: &str| {
+        assert!(FILTERED.contains(from));
+        std::fs::write(directory.path().join("scene.toml"), FILTERED.replacen(from, to, 1)).unwrap();
+        bad(directory.path(), &["sample", "scene.toml", "--pixels", "--size", "9x8"])
+    };
+    let quality = said("\"fine\"", "\"rough\"");
+    assert!(
+        quality.contains("unknown variant `rough`, expected one of `coarse`, `fine`, `finest`"),
+        "{quality}"
+    );
+    let key = said("quality", "boxes");
+    assert!(key.contains("unknown field `boxes`, expected `quality`"), "{key}");
+    let slopes = said("integrate = 1\n", "");
+    assert!(slopes.contains("f.vertical_scaling = [0.85, -0.85]: map 0"), "{slopes}");
+    assert!(slopes.contains("no derivative exists"), "{slopes}");
 }

@@ -2,7 +2,7 @@
 
 use std::cell::Cell as Counter;
 
-use attractor::fif::{Cell, Factor, Fif, Knot, Moments, Pyramid, Spread, Surface};
+use attractor::fif::{Cell, Factor, Fif, Knot, Moments, Pyramid, Spread, Sum, Sums, Surface};
 use attractor::num::{Angle, Real, Scaling, Wide};
 use attractor::plane::Point2;
 use proptest::collection::vec;
@@ -213,6 +213,12 @@ fn moments_of_any_function() {
                 assert!(stretch.slope_variance >= 0 && stretch.value_variance >= 0);
             }
             f.spread_at(pair[0].to_bits() as u32 % 99, pair[1].to_bits() as u64).expect("a spread");
+        }
+        let mut places = vec![Sum::ZERO; Sums::places(f.maps(), levels)];
+        let sums = Sums::new(&f, levels, &mut places).expect("the memory is long enough");
+        for pair in xs.windows(2) {
+            assert!(sums.over(pair[0], pair[1]).is_none_or(|trend| trend.variance >= 0));
+            sums.points(pair[0], pair[1], &mut [[Real::ZERO; 2]; 5]);
         }
         true
     });

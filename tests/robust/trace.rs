@@ -1,6 +1,6 @@
 //! Height fields from any camera, in any light, with any samples.
 
-use attractor::fif::{Cell, Fif, Moments, Pyramid, Spread};
+use attractor::fif::{Cell, Fif, Pyramid, Sum, Sums};
 use attractor::num::{Real, Unit, Vec3};
 use attractor::plane::Field;
 use attractor::trace::{
@@ -97,10 +97,12 @@ fn pictures_from_any_camera() {
             part_of_a_row(&picture, y, size.width.saturating_sub(48), 0);
         }
         // the same, filtered, where the factors have slopes
-        let (mut third, mut fourth) = (vec![Spread::ZERO; 1600], vec![Spread::ZERO; 1600]);
-        if let (Ok(mx), Ok(my)) = (Moments::new(&x, &px, &mut third), Moments::new(&y, &py, &mut fourth)) {
+        let (mut third, mut fourth) = (vec![Sum::ZERO; 1600], vec![Sum::ZERO; 1600]);
+        if let (Ok(mx), Ok(my)) =
+            (Sums::new(&x, px.depth(), &mut third), Sums::new(&y, py.depth(), &mut fourth))
+        {
             let quality = [Quality::Coarse, Quality::Fine, Quality::Finest][at[0] as usize % 3];
-            let filtered = FilteredCaster::new(picture.clone(), &mx, &my, quality).expect("its own moments");
+            let filtered = FilteredCaster::new(picture.clone(), &mx, &my, quality).expect("its own sums");
             part_of_a_row(&filtered, at[0], at[1], (at[2] % 64) as usize);
             part_of_a_row(&filtered, size.height / 2, size.width.saturating_sub(99) / 2, 0);
             let found = filtered.found(at[0] % size.width, at[1] % size.height);

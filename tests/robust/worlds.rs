@@ -6,7 +6,7 @@ use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
 use attractor::plane::{Field, LinearRgb};
 use attractor::trace::material::{
     Anisotropic, Clear, Highlight, Interior, Lit, Material, Medium, Mixture, Phong, Sight, Specular,
-    TorranceSparrow,
+    Tabulated, TorranceSparrow,
 };
 use attractor::trace::refracted_direction;
 use attractor::trace::solid::{
@@ -205,6 +205,41 @@ fn materials_at_any_point() {
         assert_eq!(response.refracted, material.passes());
         assert_eq!(material.normal(&point), normal);
         material.is_charted() || material.medium().is_none() || response.reflected.brightest() >= Lumen::ZERO
+    });
+}
+
+/// Tables of any words, and those of any points of a surface; a highlight by each.
+#[test]
+fn tables_of_any_slopes() {
+    let words = (0..3_u16, 0..9_u16, 20..2100_u16, vec(any::<u16>(), 100));
+    let points = vec((real(), real()), 0..9);
+    let direction = || vector(inside(4));
+    let look = (direction(), direction(), direction(), direction(), unit());
+    fuzz((words, points, look), 8, |((version, side, reach, mut words), points, look)| {
+        let (a, b, c, d, reflectance) = look;
+        let [Some(normal), Some(direction), Some(tangent), Some(towards)] =
+            [a, b, c, d].map(Vec3::normalised)
+        else {
+            return false;
+        };
+        let view = Sight { normal, direction, tangent };
+        let _ = Tabulated::new(&words, reflectance);
+        // alike for opposite slopes
+        let count = usize::from(side) * usize::from(side);
+        words.splice(..3, [version, side, reach]);
+        words.truncate(3 + count);
+        for k in 0..count / 2 {
+            words[2 + count - k] = words[3 + k];
+        }
+        let mine = Tabulated::new(&words, reflectance).map(|model| model.part(&view, towards));
+        let points: Vec<[Real; 2]> = points.into_iter().map(|(slope, value)| [slope, value]).collect();
+        let (mut counts, mut table) = (vec![0; count], vec![0; Tabulated::words(side)]);
+        let all = (points.as_slice(), points.as_slice());
+        if let Ok(table) = Tabulated::tabulate(all, (side, reach), &mut counts, &mut table) {
+            let model = Tabulated::new(table, Unit::ONE).expect("a table that core made");
+            let _ = model.part(&view, towards);
+        }
+        mine.is_ok()
     });
 }
 

@@ -11,12 +11,14 @@
 //! Inside, the abscissa `u = (x - x_0) / (x_N - x_0)` runs over `[0, 1]` with 63 fractional bits, values
 //! have 55.
 
+mod above;
 mod bounds;
 mod calculus;
 mod chaos;
 mod compiled;
 mod compose;
 mod dyadic;
+mod ended;
 mod error;
 mod evaluate;
 mod function;
@@ -26,6 +28,7 @@ mod moments;
 mod polynomial;
 mod pyramid;
 mod stretch;
+mod sums;
 mod surface;
 mod value;
 mod variance;
@@ -39,4 +42,6 @@ pub use graph::Graph;
 pub use moments::{Moments, Spread};
 pub use pyramid::{Cell, Pyramid};
 pub use stretch::Stretch;
+pub(crate) use sums::Width;
+pub use sums::{Sum, Sums, Trend};
 pub use surface::{Factor, Surface};

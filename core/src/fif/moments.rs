@@ -5,15 +5,15 @@
 //! the covariance of slope and value needs no table: `cov(f', f) = (f(x1)^2 - f(x0)^2) / (2 length) - m mean
 //! = m e`. Source: [`super::variance`]; the identity is the fundamental theorem for `f f'`.
 
+use super::above::{self, Above};
+use super::ended::Ended;
 use super::function::Fif;
-use super::map::Map;
-use super::polynomial::{Polynomial, part_of, twice_high};
 use super::pyramid::{Cell, Pyramid};
-use super::stretch::{Pool, Run, Stretch, times};
-use super::value::{FRACTION_Q55, ONE_UQ63};
-use super::variance::{FRACTION_OF_SQUARES, Variance};
+use super::stretch::{Pool, Stretch, times};
+use super::value::FRACTION_Q55;
+use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
-use crate::num::{Real, Reciprocal, Wide, nth, real_from};
+use crate::num::{Real, Reciprocal, Wide, real_from};
 
 /// How much a function varies above one of its cells, beside what a [`Cell`] says of it. 12 bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -30,6 +30,14 @@ pub struct Spread {
 impl Spread {
     /// All zero: for the memory that moments are lent.
     pub const ZERO: Self = Self { slope: Real::ZERO, value: Real::ZERO, lift: Real::ZERO };
+
+    fn of<const D: usize>(cell: &Above<D>) -> Self {
+        Self {
+            slope: real_from(cell.slope.variance, FRACTION_OF_SQUARES),
+            value: real_from(cell.value.variance, FRACTION_OF_SQUARES),
+            lift: real_from(cell.lift, FRACTION_Q55),
+        }
+    }
 }
 
 /// The moments of a differentiable function above the cells of its pyramid, in memory lent by the caller: as
@@ -54,59 +62,6 @@ impl Spread {
 pub struct Moments<'a> {
     pyramid: Pyramid<'a>,
     spreads: &'a [Spread],
-    /// Whether cells have two equal parts.
-    halved: bool,
-}
-
-/// A function and its slope above one cell, on the way from the whole domain to a cell.
-#[derive(Debug, Clone, Copy)]
-struct Above<const D: usize> {
-    value: Variance<D>,
-    slope: Variance<D>,
-    /// 55 fractional bits.
-    lift: i64,
-    /// The interval, 63 fractional bits.
-    start: u64,
-    width: u64,
-    index: usize,
-}
-
-/// `(p(0) + p(1)) / 2 - mean of p`.
-fn lift<const D: usize>(p: &Polynomial<D>) -> i64 {
-    let terms = (1_u32..).zip(p.powers).map(|(k, c)| nth(c, 2 * (k + 1)).wrapping_mul(i64::from(k - 1)));
-    terms.fold(0, i64::wrapping_add)
-}
-
-impl<const D: usize> Above<D> {
-    const ZERO: Self =
-        Self { value: Variance::ZERO, slope: Variance::ZERO, lift: 0, start: 0, width: ONE_UQ63, index: 0 };
-
-    fn whole<const N: usize>(fif: &Fif<N, D>, slope: &Fif<N, D>) -> Self {
-        let middle = (fif.first >> 1).wrapping_add(fif.last >> 1);
-        let lift = middle.wrapping_sub(fif.mean());
-        Self { value: Variance::of(fif), slope: Variance::of(slope), lift, ..Self::ZERO }
-    }
-
-    /// Above the part that a map makes, among `count` cells of this level.
-    fn part(&self, map: &Map<D>, slope: &Map<D>, (j, count): (usize, usize)) -> Self {
-        let (p, r) = (map.q.part(self.start, self.width), slope.q.part(self.start, self.width));
-        Self {
-            value: self.value.part(map.scaling, &p),
-            slope: self.slope.part(slope.scaling, &r),
-            lift: twice_high(self.lift, map.scaling).wrapping_add(lift(&p)),
-            start: map.start.wrapping_add(part_of(self.start, map.width)),
-            width: if self.width == ONE_UQ63 { map.width } else { part_of(self.width, map.width) },
-            index: j * count + self.index,
-        }
-    }
-
-    fn spread(&self) -> Spread {
-        Spread {
-            slope: real_from(self.slope.variance, FRACTION_OF_SQUARES),
-            value: real_from(self.value.variance, FRACTION_OF_SQUARES),
-            lift: real_from(self.lift, FRACTION_Q55),
-        }
-    }
 }
 
 impl<const N: usize, const D: usize> Fif<N, D> {
@@ -130,7 +85,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
                 above = above.part(map, slope, (0, 0));
             }
         }
-        Ok(above.spread())
+        Ok(Spread::of(&above))
     }
 }
 
@@ -163,39 +118,13 @@ impl<'a> Moments<'a> {
             let (given, expected) = (fif.maps.len(), pyramid.starts().len());
             return Err(Error::LengthMismatch { what: "maps of the pyramid's function", given, expected });
         }
-        let slopes: Fif<N, D> = fif.slopes()?;
-        // depth first: of every level the cell that is being divided
-        const LEVELS: usize = Pyramid::MAX_DEPTH as usize + 1;
-        let mut path = [(Above::ZERO, 0); LEVELS];
-        let whole = Above::whole(fif, &slopes);
-        path[0] = (whole, 0);
-        if let Some(root) = spreads.first_mut() {
-            *root = whole.spread();
-        }
-        let (mut level, depth) = (0, pyramid.depth());
-        // as many steps as cells, and as many back
-        while let Some((above, next)) = path.get_mut(level) {
-            let j = *next;
-            *next += 1;
-            match (fif.maps.get(j), slopes.maps.get(j)) {
-                (Some(map), Some(slope)) if (level as u32) < depth => {
-                    let (offset, count) = pyramid.place(level as u32);
-                    let part = above.part(map, slope, (j, count));
-                    if let Some(spread) = spreads.get_mut(offset + count + part.index) {
-                        *spread = part.spread();
-                    }
-                    level += 1;
-                    if let Some(below) = path.get_mut(level) {
-                        *below = (part, 0);
-                    }
-                }
-                _ => match level.checked_sub(1) {
-                    Some(above) => level = above,
-                    None => break,
-                },
+        above::walk(fif, pyramid.depth(), |level, cell| {
+            let (offset, _) = pyramid.place(level);
+            if let Some(spread) = spreads.get_mut(offset + cell.index) {
+                *spread = Spread::of(cell);
             }
-        }
-        Ok(Self { pyramid: *pyramid, spreads, halved: pyramid.starts() == [0, 1 << 30] })
+        })?;
+        Ok(Self { pyramid: *pyramid, spreads })
     }
 
     /// The pyramid beside which they stand.
@@ -226,12 +155,11 @@ impl<'a> Moments<'a> {
             let distance = if x.to_bits() < x0 { 0 } else { x.to_bits().wrapping_sub(x0) as u64 };
             (whole.quotient(distance.min(width)).wrapping_add(1 << 31) >> 32) as u32
         };
-        self.between(unit(from.min(to)), unit(from.max(to)), Pyramid::MAX_DEPTH)
+        self.between(unit(from.min(to)), unit(from.max(to)))
     }
 
-    /// The same in the unit abscissa with 31 fractional bits, from cells down to `finest`.
-    #[inline(never)]
-    pub(crate) fn between(&self, from: u32, to: u32, finest: u32) -> Option<Stretch> {
+    /// The same in the unit abscissa with 31 fractional bits.
+    fn between(&self, from: u32, to: u32) -> Option<Stretch> {
         let (from, to) = (from.min(1 << 31), to.min(1 << 31));
         if from >= to {
             return None;
@@ -245,9 +173,8 @@ impl<'a> Moments<'a> {
             }
         };
         // the cells with the two ends, level by level: first node of the level, then both ends' cells
-        let whole = Ended { index: 0, start: 0, end: 1 << 31 };
-        let (mut offset, mut left, mut right) = (0, whole, whole);
-        for _ in 0..finest.min(self.pyramid.depth()) {
+        let (mut offset, mut left, mut right) = (0, Ended::WHOLE, Ended::WHOLE);
+        for _ in 0..self.pyramid.depth() {
             offset = offset * n + 1;
             let last = right.index;
             let same = left.index == last;
@@ -275,66 +202,5 @@ impl<'a> Moments<'a> {
             add(offset + right.index, to.min(right.end).saturating_sub(right.start));
         }
         pool.and_then(|pool| pool.stretch())
-    }
-
-    /// The same from the three to five cells of one level that cover the interval, or fewer where the pyramid
-    /// is not so deep: what pictures take. The means alone unless `ALL`.
-    #[inline(never)]
-    pub(crate) fn covered<const ALL: bool>(&self, from: u32, to: u32) -> Option<Stretch> {
-        let (from, to) = (from.min(1 << 31), to.min(1 << 31));
-        let width = to.checked_sub(from).filter(|width| *width > 0)?;
-        // cells of at most half the interval
-        let level = (width.leading_zeros() + 1).min(self.pyramid.depth());
-        if !self.halved {
-            return self.between(from, to, level.saturating_mul(2));
-        }
-        // 15 at least
-        let shift = 31_u32.wrapping_sub(level);
-        let (left, right) = (from >> (shift & 31), (to - 1) >> (shift & 31));
-        let first = (1_usize << (level & 31)) - 1;
-        let nodes = first + left as usize..first + right as usize + 1;
-        let cells = self.pyramid.all().get(nodes.clone())?.iter();
-        let mut cells = cells.zip(self.spreads.get(nodes)?).map(|(cell, spread)| together(cell, spread));
-        let one = cells.next()?;
-        let count = right - left;
-        // how much of a cell lies before a place
-        let part = |u: u32, cell: u32| u.wrapping_sub(cell << (shift & 31)) >> (shift.wrapping_sub(15) & 31);
-        if count == 0 {
-            return Some(one);
-        }
-        let mut run = Run::<ALL>::beginning(&one, Run::<ALL>::WHOLE - part(from, left));
-        for _ in 1..count {
-            run.add(&cells.next()?, Run::<ALL>::WHOLE);
-        }
-        run.add(&cells.next()?, part(to, right));
-        run.stretch()
-    }
-}
-
-/// A cell: index in its level, both ends with 31 fractional bits.
-#[derive(Clone, Copy)]
-struct Ended {
-    index: usize,
-    start: u32,
-    end: u32,
-}
-
-impl Ended {
-    fn place(self, start: u32) -> u32 {
-        let width = self.end.wrapping_sub(self.start);
-        self.start.wrapping_add(((u64::from(start) * u64::from(width) + (1 << 30)) >> 31) as u32)
-    }
-
-    fn part(self, starts: &[u32], j: usize) -> Self {
-        let start = starts.get(j).map_or(self.start, |s| self.place(*s));
-        let end = starts.get(j + 1).map_or(self.end, |s| self.place(*s));
-        Self { index: self.index * starts.len() + j, start, end }
-    }
-
-    /// The part that holds `u`; a place between two parts counts to the right one for the left end of an
-    /// interval, to the left one for its right end.
-    fn holding(self, starts: &[u32], u: u32, left_end: bool) -> Self {
-        let before = |s: u32| if left_end { self.place(s) <= u } else { self.place(s) < u };
-        self.part(starts, starts.partition_point(|s| before(*s)).saturating_sub(1))
     }
 }

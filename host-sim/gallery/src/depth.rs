@@ -31,7 +31,7 @@ pub const fn surface_depth(maps: [usize; 2], wanted: Option<u32>, side: u32) -> 
     if depth < deepest { depth } else { deepest }
 }
 
-/// The same for a filtered picture, whose pixels are made of boxes: cells half as wide as a pixel.
+/// The depth of the running sums of a filtered picture: cells an eighth as wide as a pixel.
 pub const fn filtered_depth(maps: [usize; 2], wanted: Option<u32>, side: u32) -> u32 {
-    surface_depth(maps, wanted, side.saturating_mul(2))
+    surface_depth(maps, wanted, side.saturating_mul(8))
 }

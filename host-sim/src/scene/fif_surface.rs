@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use attractor::fif::{Cell, Factor, Moments, Pyramid, Spread, Surface};
+use attractor::fif::{Cell, Factor, Pyramid, Sum, Sums, Surface};
 use attractor::num::Vec3;
 use attractor::plane::Field;
 use attractor::trace::{
@@ -186,17 +186,14 @@ impl FifSurface {
     /// How deep the pyramids are for a display whose longer side has so many pixels.
     pub(crate) fn depth_of_pyramids(&self, side: u32) -> u32 {
         let maps = [self.f.function.fixed.maps(), self.g.function.fixed.maps()];
-        match self.filter {
-            None => surface_depth(maps, self.depth, side),
-            Some(_) => filtered_depth(maps, self.depth, side),
-        }
+        surface_depth(maps, self.depth, side)
     }
 
-    /// Builds the pyramids down to cells finer than a pixel, and the moments where pixels are filtered.
+    /// Builds the pyramids down to cells finer than a pixel, and the running sums where pixels are filtered.
     fn with_surface<T>(
         &self,
         side: u32,
-        use_it: impl FnOnce(HeightField<'_>, Option<[Moments<'_>; 2]>) -> Result<T, Fail>,
+        use_it: impl FnOnce(HeightField<'_>, Option<[Sums<'_>; 2]>) -> Result<T, Fail>,
     ) -> Result<T, Fail> {
         let (f, g) = (&self.f.function.fixed, &self.g.function.fixed);
         let depth = self.depth_of_pyramids(side);
@@ -208,10 +205,11 @@ impl FifSurface {
         if self.filter.is_none() {
             return use_it(surface, None);
         }
-        let spreads = |maps: usize| vec![Spread::ZERO; Pyramid::cells(maps, depth)];
-        let (mut a, mut b) = (spreads(f.maps()), spreads(g.maps()));
-        let x = Moments::new(f, &x, &mut a).map_err(|error| self.f.scalings.fail(error))?;
-        let y = Moments::new(g, &y, &mut b).map_err(|error| self.g.scalings.fail(error))?;
+        let depth = filtered_depth([f.maps(), g.maps()], self.depth, side);
+        let places = |maps: usize| vec![Sum::ZERO; Sums::places(maps, depth)];
+        let (mut a, mut b) = (places(f.maps()), places(g.maps()));
+        let x = Sums::new(f, depth, &mut a).map_err(|error| self.f.scalings.fail(error))?;
+        let y = Sums::new(g, depth, &mut b).map_err(|error| self.g.scalings.fail(error))?;
         use_it(surface, Some([x, y]))
     }
 
@@ -269,10 +267,10 @@ impl FifSurface {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        self.with_surface(request.size.width.max(request.size.height), |surface, moments| {
+        self.with_surface(request.size.width.max(request.size.height), |surface, sums| {
             let fail = |error| self.eye.fail_at(request.size, error);
             let caster = self.caster(surface, request.size, request.seed).map_err(fail)?;
-            match self.filtered(&caster, moments).map_err(fail)? {
+            match self.filtered(&caster, sums).map_err(fail)? {
                 None => draw_field(&caster, self.palette, target, watch),
                 Some(filtered) => draw_field(&filtered, self.palette, target, watch),
             };
@@ -283,19 +281,19 @@ impl FifSurface {
     fn filtered<'a>(
         &self,
         caster: &RayCaster<'a>,
-        moments: Option<[Moments<'a>; 2]>,
+        sums: Option<[Sums<'a>; 2]>,
     ) -> Result<Option<FilteredCaster<'a>>, attractor::Error> {
-        let (Some([x, y]), Some(quality)) = (moments, self.filter) else { return Ok(None) };
+        let (Some([x, y]), Some(quality)) = (sums, self.filter) else { return Ok(None) };
         FilteredCaster::new(caster.clone(), &x, &y, quality).map(Some)
     }
 
     /// The tone of every pixel, by its samples, by the ray through its centre alone, and filtered, if it is.
     pub(super) fn pixels(&self, request: &Request, out: &mut Csv) -> Result<(), Fail> {
-        self.with_surface(request.size.width.max(request.size.height), |surface, moments| {
+        self.with_surface(request.size.width.max(request.size.height), |surface, sums| {
             let fail = |error| self.eye.fail_at(request.size, error);
             let caster = self.caster(surface, request.size, request.seed).map_err(fail)?;
             let one = caster.clone().with_sampling(Sampling::Centre, Filter::Box).map_err(fail)?;
-            let filtered = self.filtered(&caster, moments).map_err(fail)?;
+            let filtered = self.filtered(&caster, sums).map_err(fail)?;
             out.write_record(["i", "j", "found", "filtered", "sampled", "one"])?;
             for (j, i) in (0..request.size.height).flat_map(|j| (0..request.size.width).map(move |i| (j, i)))
             {

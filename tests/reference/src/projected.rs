@@ -1,11 +1,14 @@
 //! What the pixels of a height field `f(x) g(y)` show: the mean of the tone over a pixel's area, with every
 //! place of the surface projected into the picture.
 //!
-//! The surface is cut into `n x n` equal squares of its domain; each stands with the values of its middle for
-//! an area of the picture in proportion to `-n . v / depth^3`, `n = (-h_x, -h_y, 1)`, `v` from the eye to the
-//! surface. A pixel that is covered once over, by a surface that nowhere turns away, is interior: what it shows
-//! needs no other rays. Source: CONTRIBUTING.md, "The filtered picture of a height field, defined"; Cochran,
-//! Lewis and Hart, eq. 52 with the weight 1 over the pixel.
+//! The surface is cut into `n x n` equal squares of its domain; each stands for an area of the picture in
+//! proportion to `-n . v / depth^3`, `n = (-h_x, -h_y, 1)`, `v` from the eye to the surface. Along a square
+//! of a rough surface the slope still varies: it stands with its mean, the rise over the length, and by turns
+//! above and below by its deviation, so that neighbours together have its mean and variance. (With the slopes
+//! at their middles, a picture of 24,000 squares a side is off by 0.0004, as all squares above one `x` err
+//! alike; with these, one of 6,000 by 0.00004.) A pixel that is covered once over, by a surface that nowhere
+//! turns away, is interior: what it shows needs no other rays. Source: CONTRIBUTING.md, "The filtered picture
+//! of a height field, defined"; Cochran, Lewis and Hart, eq. 52 with the weight 1 over the pixel.
 
 use crate::camera::Camera;
 use crate::shade::{Environment, Finish};
@@ -26,12 +29,30 @@ pub struct Pixel {
     pub tones: Vec<f64>,
 }
 
-/// The slope and the value at the middles of `n` parts of a domain, and the middles.
-fn table(factor: &Factor, n: usize) -> Vec<(f64, f64, f64)> {
+/// One of the equal parts of a domain: its middle, the mean slope, the deviation of the slope, the mean
+/// value.
+struct Part {
+    at: f64,
+    slope: f64,
+    deviation: f64,
+    value: f64,
+}
+
+fn table(factor: &Factor, n: usize) -> Vec<Part> {
+    const PLACES: usize = 48;
     let knots = &factor.value.knots_x;
     let (from, to) = (knots[0], knots[knots.len() - 1]);
-    let at = |i: usize| from + (to - from) * (i as f64 + 0.5) / n as f64;
-    (0..n).map(|i| (at(i), factor.slope.at(at(i)), factor.value.at(at(i)))).collect()
+    let length = (to - from) / n as f64;
+    let at = |i: f64| from + length * i;
+    let part = |i: usize| {
+        let [a, b] = [i, i + 1].map(|i| factor.value.at(at(i as f64)));
+        let slopes = (0..PLACES).map(|k| factor.slope.at(at(i as f64 + (k as f64 + 0.37) / PLACES as f64)));
+        let (sum, squares) = slopes.fold((0.0, 0.0), |(sum, squares), s| (sum + s, squares + s * s));
+        let mean = sum / PLACES as f64;
+        let deviation = libm::sqrt((squares / PLACES as f64 - mean * mean).max(0.0));
+        Part { at: at(i as f64 + 0.5), slope: (b - a) / length, deviation, value: (a + b) / 2.0 }
+    };
+    (0..n).map(part).collect()
 }
 
 /// The interior pixels of a picture of `side x side` pixels, from `n x n` places.
@@ -48,7 +69,7 @@ pub fn interior(
     let r = normalised(cross(w, camera.up));
     let u = cross(r, w);
     let per_pixel = camera.footprint(side, 1);
-    let length = |t: &[(f64, f64, f64)]| t[1].0 - t[0].0;
+    let length = |t: &[Part]| t[1].at - t[0].at;
     let scale = length(&xs) * length(&ys) / (per_pixel * per_pixel);
     let half = side as f64 / 2.0;
     struct Sum {
@@ -59,9 +80,10 @@ pub fn interior(
     }
     let empty = || Sum { area: 0.0, turned: false, places: 0, tones: vec![0.0; looks.len()] };
     let mut sums: Vec<Sum> = (0..side * side).map(|_| empty()).collect();
-    for &(px, f, big_f) in &xs {
-        for &(py, g, big_g) in &ys {
-            let v = [px - camera.eye[0], py - camera.eye[1], big_f * big_g - camera.eye[2]];
+    let sign = |odd: bool| if odd { -1.0 } else { 1.0 };
+    for (i, x) in xs.iter().enumerate() {
+        for (j, y) in ys.iter().enumerate() {
+            let v = [x.at - camera.eye[0], y.at - camera.eye[1], x.value * y.value - camera.eye[2]];
             let depth = dot(v, w);
             let column = half + dot(v, r) / depth / per_pixel;
             let row = half - dot(v, u) / depth / per_pixel;
@@ -69,7 +91,10 @@ pub fn interior(
                 continue;
             }
             let sum = &mut sums[row as usize * side + column as usize];
-            let normal = [-f * big_g, -big_f * g, 1.0];
+            // along x in turns with j, along y with i and half as often with j: all four pairs alike
+            let f = x.slope + x.deviation * sign(j % 2 == 1);
+            let g = y.slope + y.deviation * sign((i + j / 2) % 2 == 1);
+            let normal = [-f * y.value, -x.value * g, 1.0];
             let area = -dot(normal, v) / (depth * depth * depth) * scale;
             sum.turned |= area <= 0.0;
             sum.area += area;

@@ -14,7 +14,7 @@ use attractor::escape::{
     Arithmetic, Buffered, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
     Mandelbrot, OrbitPoint, Pan, Smooth, View,
 };
-use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread};
+use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread, Sum, Sums};
 use attractor::num::Complex;
 use attractor::num::{RandomField, Real, Scaling, Unit, Vec3, Wide};
 use attractor::plane::{Bounds2, Field, Point2, Window, from_fn};
@@ -133,7 +133,10 @@ fn rays() -> Result<(), Error> {
     let mut spreads = [Spread::ZERO; Pyramid::cells(2, 4)];
     let moments = Moments::new(&f, &pyramid, &mut spreads)?;
     bb((moments.over(bb(Wide::ZERO), bb(Wide::ONE)), f.spread_at(bb(9), bb(5))?));
-    let filtered = FilteredCaster::new(caster, &moments, &moments, bb(Quality::Fine))?;
+    let mut places = [Sum::ZERO; Sums::places(2, 4)];
+    let sums = Sums::new(&f, bb(4), &mut places)?;
+    bb(sums.over(bb(Wide::ZERO), bb(Wide::ONE)));
+    let filtered = FilteredCaster::new(caster, &sums, &sums, bb(Quality::Fine))?;
     bb((filtered.row(bb(0), bb(0)..bb(100)).last(), filtered.found(bb(3), bb(4))));
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use attractor::Error;
 use attractor::draw::Ink;
-use attractor::fif::{Cell, Fif, Moments, Pyramid, Spread};
+use attractor::fif::{Cell, Fif, Pyramid, Sum, Sums};
 use attractor::trace::{FilteredCaster, HeightField, Quality, RayCaster};
 use attractor_gallery::{CELLS_ACROSS, Chart, Named, depth_for, draw_field, filtered_depth, surface_depth};
 use embedded_graphics::geometry::Size;
@@ -72,9 +72,9 @@ pub(super) fn surface<C: Colour + Ink, const N: usize, const D: usize, const CEL
     })
 }
 
-/// Cells, and spreads, of a filtered surface.
-pub(super) const fn cells_of_filtered(maps: usize, depth: Option<u32>, size: Size) -> usize {
-    Pyramid::cells(maps, depth_of_filtered(maps, depth, size))
+/// Places of the sums of a filtered surface.
+pub(super) const fn places_of_filtered(maps: usize, depth: Option<u32>, size: Size) -> usize {
+    Sums::places(maps, depth_of_filtered(maps, depth, size))
 }
 
 const fn depth_of_filtered(maps: usize, depth: Option<u32>, size: Size) -> u32 {
@@ -83,20 +83,26 @@ const fn depth_of_filtered(maps: usize, depth: Option<u32>, size: Size) -> u32 {
 }
 
 /// The same with the normals of each pixel integrated.
-pub(super) fn filtered<C: Colour + Ink, const N: usize, const D: usize, const CELLS: usize>(
+pub(super) fn filtered<
+    C: Colour + Ink,
+    const N: usize,
+    const D: usize,
+    const CELLS: usize,
+    const PLACES: usize,
+>(
     stage: &mut Stage<'_>,
     factor: fn() -> Result<Fif<N, D>, Error>,
     depth: Option<u32>,
     (caster, quality): (Caster, Quality),
     palette: Named,
 ) -> Result<(), Failure> {
-    stage.claim(size_of::<[Cell; CELLS]>() + size_of::<[Spread; CELLS]>())?;
-    filtered_in::<C, N, D, CELLS>(stage, factor, depth, (caster, quality), palette)
+    stage.claim(size_of::<[Cell; CELLS]>() + size_of::<[Sum; PLACES]>())?;
+    filtered_in::<C, N, D, CELLS, PLACES>(stage, factor, depth, (caster, quality), palette)
 }
 
 /// The claim comes before the frame with the cells.
 #[inline(never)]
-fn filtered_in<C: Colour + Ink, const N: usize, const D: usize, const CELLS: usize>(
+fn filtered_in<C: Colour + Ink, const N: usize, const D: usize, const CELLS: usize, const PLACES: usize>(
     stage: &mut Stage<'_>,
     factor: fn() -> Result<Fif<N, D>, Error>,
     depth: Option<u32>,
@@ -104,13 +110,13 @@ fn filtered_in<C: Colour + Ink, const N: usize, const D: usize, const CELLS: usi
     palette: Named,
 ) -> Result<(), Failure> {
     let (f, size) = (factor()?, stage.size());
-    let (mut cells, mut spreads) = ([Cell::ZERO; CELLS], [Spread::ZERO; CELLS]);
-    let pyramid = Pyramid::new(&f, depth_of_filtered(N, depth, size), &mut cells)?;
-    let moments = Moments::new(&f, &pyramid, &mut spreads)?;
+    let (mut cells, mut places) = ([Cell::ZERO; CELLS], [Sum::ZERO; PLACES]);
+    let pyramid = Pyramid::new(&f, depth_of_surface(N, depth, size), &mut cells)?;
+    let sums = Sums::new(&f, depth_of_filtered(N, depth, size), &mut places)?;
     let caster = caster(HeightField::new(&pyramid, &pyramid)?, size, SEED as u32)?;
-    let caster = FilteredCaster::new(caster, &moments, &moments, quality)?;
-    let lent = size_of::<[Cell; CELLS]>() + size_of::<[Spread; CELLS]>();
-    let bytes = size_of_val(&f) + size_of_val(&moments) + lent + size_of_val(&caster);
+    let caster = FilteredCaster::new(caster, &sums, &sums, quality)?;
+    let lent = size_of::<[Cell; CELLS]>() + size_of::<[Sum; PLACES]>();
+    let bytes = size_of_val(&f) + size_of_val(&sums) + lent + size_of_val(&caster);
     stage.draw::<C>(bytes, |sink| {
         draw_field(&caster, palette, sink, &mut |_, _, _| true);
         Ok(())

@@ -55,7 +55,8 @@ macro_rules! filtered {
             C,
             { of::$scene::MAPS },
             { of::$scene::DEGREE },
-            { fif::cells_of_filtered(of::$scene::MAPS, of::$scene::DEPTH, S) },
+            { fif::cells_of_surface(of::$scene::MAPS, of::$scene::DEPTH, S) },
+            { fif::places_of_filtered(of::$scene::MAPS, of::$scene::DEPTH, S) },
         >(
             stage,
             of::$scene::factor,

@@ -2,7 +2,7 @@
 //!
 //! Pixels inside the surface, of 96 x 96: those that every quality filters.
 
-use attractor::fif::{Cell, Moments, Pyramid, Spread};
+use attractor::fif::{Cell, Pyramid, Sum, Sums};
 use attractor::num::{Real, Unit, Vec3};
 use attractor::plane::{Field as _, Tone};
 use attractor::trace::{
@@ -16,6 +16,8 @@ use crate::exported::{figure_6_gg, figure_6_gg_phong};
 const SIDE: u32 = 96;
 const DEPTH: u32 = 8;
 const CELLS: usize = Pyramid::cells(2, DEPTH);
+const FINER: u32 = 10;
+const PLACES: usize = Sums::places(2, FINER);
 const COUNT: usize = 12;
 /// Pixels of a row at a time.
 const RUN: u32 = 12;
@@ -36,16 +38,16 @@ fn timed(
     around: Environment,
     quality: Option<Quality>,
 ) -> Option<Tally> {
-    let (mut cells, mut spreads) = ([Cell::ZERO; CELLS], [Spread::ZERO; CELLS]);
+    let (mut cells, mut places) = ([Cell::ZERO; CELLS], [Sum::ZERO; PLACES]);
     let g = figure_6_gg::factor::<2, 2>().ok()?;
     let pyramid = Pyramid::new(&g, DEPTH, &mut cells).ok()?;
-    let moments = Moments::new(&g, &pyramid, &mut spreads).ok()?;
+    let sums = Sums::new(&g, FINER, &mut places).ok()?;
     let surface = HeightField::new(&pyramid, &pyramid).ok()?;
     let caster = RayCaster::new(surface, figure_6_gg::camera().ok()?, Size::new(SIDE, SIDE)).ok()?;
     let caster = caster.with_finish(finish).ok()?.with_environment(around).ok()?;
     let light = Light::new(Vec3::new(Real::NEG_ONE, Real::from_num(-2), Real::from_num(3))).ok()?;
     let caster = caster.with_light(light).with_sampling(Sampling::Centre, Filter::Box).ok()?;
-    let finest = FilteredCaster::new(caster.clone(), &moments, &moments, Quality::Finest).ok()?;
+    let finest = FilteredCaster::new(caster.clone(), &sums, &sums, Quality::Finest).ok()?;
     // runs evenly over the picture, as many as there is room for
     let mut places = [(0, 0); COUNT];
     let runs = (0..SIDE * SIDE / RUN).step_by(7).map(|i| (i * RUN % SIDE, i * RUN / SIDE));
@@ -56,7 +58,7 @@ fn timed(
     let tally = match quality {
         None => watch.over(&places, |(x, y)| caster.row(y, x..x + RUN).fold(0, fold)),
         Some(quality) => {
-            let filtered = FilteredCaster::new(caster, &moments, &moments, quality).ok()?;
+            let filtered = FilteredCaster::new(caster, &sums, &sums, quality).ok()?;
             watch.over(&places, |(x, y)| filtered.row(y, x..x + RUN).fold(0, fold))
         }
     };

@@ -6,16 +6,16 @@
 //! - Phong's mirrored ray against the light, `m . l = d . l - 2 (n^ . d) (n^ . l)`;
 //! - the mirrored ray itself, `d - 2 (n^ . d) n^`.
 //!
-//! Diffuse light to second order: with `c = n^ . l` at the mean slopes, `n` and `l` their first two components,
-//! `z` the third of `n^`, `S` the covariance,
-//! `E(w n^ . l) / E w = c + z^2 / 2 (3 c n' S n - 2 l' S n - c tr S) + z (c n - l)' S d / w`.
+//! Diffuse light changes so little over a pixel that four points stand for all of its boxes; what is mirrored
+//! has four for each.
 //!
 //! Formats: slopes and `w` 24 fractional bits, unit vectors and tones 30.
 
 use core::num::NonZeroU32;
 
-use super::footprint::Quality;
-use super::slopes::{Slope, Slopes};
+use super::footprint::Footprint;
+use super::ground::Ground;
+use super::slopes::{Pool, Slope};
 use crate::num::{Unit, Vec3, product, reciprocal_of, reciprocal_sqrt_of};
 use crate::trace::environment::Environment;
 use crate::trace::finish::Finish;
@@ -31,7 +31,6 @@ pub(super) struct View<'a> {
     straight: i32,
     finish: Finish,
     environment: &'a Environment,
-    quality: Quality,
 }
 
 /// A normal: its length's reciprocal, and how it stands to eye and light.
@@ -45,9 +44,9 @@ struct Facing {
     root: (i32, u32),
 }
 
-/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of 4 times as many boxes.
+/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Shown {
+struct Shown {
     boxes: i64,
     matt: i64,
     highlight: i64,
@@ -89,28 +88,38 @@ impl<'a> View<'a> {
         light: Vec3<Unit>,
         finish: Finish,
         environment: &'a Environment,
-        quality: Quality,
     ) -> Self {
         let [direction, towards] = [direction, light].map(|v| [v.x, v.y, v.z].map(Unit::to_bits));
         let straight = direction.iter().zip(towards).fold(0, |sum, (a, b)| sum + unit_product(*a, b));
-        Self { direction, light: towards, straight, finish, environment, quality }
+        Self { direction, light: towards, straight, finish, environment }
     }
 
-    /// Adds what a box shows; `false` where a part of it may turn away from the eye.
+    /// What the footprint shows; none where a part of it may turn away from the eye.
     #[inline(always)]
-    pub(super) fn add(&self, slopes: &Slopes, shown: &mut Shown) -> bool {
-        shown.boxes += 1;
-        if let (Quality::Coarse, Finish::Diffuse { .. }) = (self.quality, self.finish)
-            && let Some(lit) = self.second_order(slopes)
-        {
-            shown.matt += i64::from(lit);
-            return true;
+    pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
+        let mut shown = Shown::default();
+        if let Finish::Diffuse { .. } = self.finish {
+            let mut pool = Pool::new(footprint.slope(), footprint.half());
+            footprint.each(ground, |part| {
+                pool.add(&part.slopes, part.share);
+                Some(())
+            })?;
+            self.add(&pool.points()?, &mut shown)?;
+        } else {
+            footprint.each(ground, |part| self.add(&part.slopes.points(), &mut shown))?;
         }
+        Some(self.finished(&shown))
+    }
+
+    /// Adds what four points show; none where one turns away from the eye.
+    #[inline(always)]
+    fn add(&self, points: &[Slope; 4], shown: &mut Shown) -> Option<()> {
+        shown.boxes += 1;
         let (mut area, mut matt, mut highlight) = (0_u32, 0_i64, 0_i64);
-        for slope in slopes.points() {
-            let facing = Facing::new(slope, self);
+        for slope in points {
+            let facing = Facing::new(*slope, self);
             if facing.area <= 0 {
-                return false;
+                return None;
             }
             // 20 fractional bits: below 2^26
             let weight = facing.area >> 4;
@@ -122,16 +131,15 @@ impl<'a> View<'a> {
                     let along = Unit::from_bits(along.clamp(0, 1 << 30));
                     (facing.lit.max(0), power(along, shininess).to_bits())
                 }
-                Finish::Mirror => (self.reflection(slope, &facing).to_bits(), 0),
+                Finish::Mirror => (self.reflection(*slope, &facing).to_bits(), 0),
             };
             (matt, highlight) = (matt + product(a, weight), highlight + product(b, weight));
         }
-        let Some(area) = NonZeroU32::new(area) else { return false };
-        let (mantissa, zeros) = reciprocal_of(area);
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
         let over = |sum: i64| product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30;
         shown.matt += over(matt);
         shown.highlight += over(highlight);
-        true
+        Some(())
     }
 
     /// What the mirrored ray meets.
@@ -152,56 +160,19 @@ impl<'a> View<'a> {
         self.environment.tone(Vec3::new(x, y, z))
     }
 
-    /// Diffuse light to second order; none where some of the box may lie in the shade or turn away.
-    #[inline(always)]
-    fn second_order(&self, slopes: &Slopes) -> Option<i32> {
-        let slope = slopes.mean();
-        let facing = Facing::new(slope, self);
-        // within two deviations of slopes of a half
-        if facing.lit < 3 << 28 || facing.eye < 1 << 28 {
-            return None;
-        }
-        let n = slope.map(|s| scaled(s.wrapping_neg(), facing.root));
-        let z = scaled(1 << 24, facing.root);
-        let [xx, xy, yy] = slopes.covariance();
-        if xx | yy >= 1 << 25 {
-            return None;
-        }
-        // S v, 24 fractional bits
-        let times_s = |[x, y]: [i32; 2]| {
-            let row = |a: i32, b: i32| ((product(a, x) + product(b, y)) >> 30) as i32;
-            [row(xx, xy), row(xy, yy)]
-        };
-        let with = |[a, b]: [i32; 2], [x, y]: [i32; 2]| ((product(a, x) + product(b, y)) >> 30) as i32;
-        let [lx, ly, _] = self.light;
-        let [dx, dy, _] = self.direction;
-        let (sn, c) = (times_s(n), facing.lit);
-        let curved = unit_product(3 * with(sn, n) - xx - yy, c) - 2 * with(sn, [lx, ly]);
-        let curved = unit_product(unit_product(curved, z), z) >> 1;
-        // (c n - l)' S d / (w / |n|), with w / |n| the cosine to the eye, and z / w = z^2 / cosine
-        let across = n.map(|n| unit_product(n, c));
-        let tilt = with(times_s([dx, dy]), [across[0].wrapping_sub(lx), across[1].wrapping_sub(ly)]);
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(facing.eye.unsigned_abs())?);
-        let tilt = unit_product(unit_product(tilt, z), z);
-        // over a number with 30 fractional bits
-        let tilt = (product(tilt, mantissa) >> ((32_u32.wrapping_sub(zeros)) & 63)) as i32;
-        let sum = i64::from(c) + (i64::from(curved.saturating_add(tilt)) << 6);
-        Some(sum.clamp(0, 1 << 30) as i32)
-    }
-
     /// The tone of all boxes together.
     #[inline(always)]
-    pub(super) fn tone(&self, shown: &Shown) -> Unit {
-        const PART: [i32; 11] = {
-            let (mut part, mut n) = ([0; 11], 1);
-            while n < 11 {
+    fn finished(&self, shown: &Shown) -> Unit {
+        const PART: [i32; 13] = {
+            let (mut part, mut n) = ([0; 13], 1);
+            while n < 13 {
                 part[n] = (1 << 30) / n as i32;
                 n += 1;
             }
             part
         };
         let part = PART.get(shown.boxes as usize).copied().unwrap_or(0);
-        // a sum of at most ten ones
+        // a sum of at most twelve ones
         let mean =
             |sum: i64| Unit::from_bits((((sum >> 4) * i64::from(part)) >> 26).clamp(0, 1 << 30) as i32);
         let (matt, highlight) = (mean(shown.matt), mean(shown.highlight));

@@ -9,10 +9,11 @@ use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
 
-use super::answer::{Shown, View};
-use super::footprint::{Ground, Place, Quality, Sight, into};
+use super::answer::View;
+use super::footprint::{Place, Quality, Sight, into};
+use super::ground::Ground;
 use crate::Error;
-use crate::fif::Moments;
+use crate::fif::Sums;
 use crate::num::{Unit, unit};
 use crate::plane::{Field, Tone, along};
 use crate::trace::height_field::halves::Pencil;
@@ -49,24 +50,18 @@ pub enum Found {
 }
 
 impl<'a> FilteredCaster<'a> {
-    /// The picture of `caster` with its normals integrated by the moments along x and y; the samples of
-    /// `caster` are those of pixels at edges.
+    /// The picture of `caster` with its normals integrated by the running sums along x and y; the samples of
+    /// `caster` are those of pixels at edges. Sums of cells a quarter as wide as a pixel do.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for moments that do not belong to the pyramids of the surface.
-    pub fn new(
-        caster: RayCaster<'a>,
-        x: &Moments<'a>,
-        y: &Moments<'a>,
-        quality: Quality,
-    ) -> Result<Self, Error> {
+    /// [`Error::Unsupported`] for sums of other functions than those of the surface's pyramids.
+    pub fn new(caster: RayCaster<'a>, x: &Sums<'a>, y: &Sums<'a>, quality: Quality) -> Result<Self, Error> {
         let hierarchy = &caster.surface.hierarchy;
-        let same = |profile: &[_], moments: &Moments<'_>| core::ptr::eq(profile, moments.pyramid().all());
-        if !same(hierarchy.x.cells, x) || !same(hierarchy.y.cells, y) {
-            let allowed = "those beside the cells of the surface's own pyramids";
-            return Err(Error::Unsupported { what: "surface's moments", allowed });
+        if !x.is_of(hierarchy.x.starts) || !y.is_of(hierarchy.y.starts) {
+            let allowed = "those of the functions of the surface's own pyramids";
+            return Err(Error::Unsupported { what: "running sums", allowed });
         }
-        let ground = [(x, &hierarchy.x), (y, &hierarchy.y)].map(|(m, p)| Ground::new(*m, p.origin, p.width));
+        let ground = [(x, &hierarchy.x), (y, &hierarchy.y)].map(|(s, p)| Ground::new(*s, p.origin, p.width));
         let pixels = caster.surface.pencil(caster.rays.origin, caster.footprint);
         let edges = [caster.right, caster.down].map(|edge| edge.map(narrow));
         Ok(Self { caster, ground, quality, pixels, edges })
@@ -123,15 +118,7 @@ impl<'a> FilteredCaster<'a> {
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let RayCaster { material, light, environment, .. } = &self.caster;
         let footprint = self.quality.footprint(&self.ground, sight, self.edges, first, reach)?;
-        let view = View::new(unit(sight.direction), light.towards, *material, environment, self.quality);
-        let (mut shown, mut turned) = (Shown::default(), true);
-        footprint.each(|at| {
-            turned = turned
-                && footprint
-                    .slopes::<true>(&self.ground, at)
-                    .is_some_and(|slopes| view.add(&slopes, &mut shown));
-        });
-        turned.then(|| view.tone(&shown))
+        View::new(unit(sight.direction), light.towards, *material, environment).tone(&self.ground, &footprint)
     }
 
     #[inline(always)]

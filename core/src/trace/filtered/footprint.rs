@@ -1,17 +1,23 @@
-//! What a pixel covers of a height field: a parallelogram above the plane through the surface's mean, cut into
-//! boxes.
+//! What a pixel covers of a height field: a parallelogram above the plane through the surface's mean, cut
+//! into boxes along lines that follow the surface.
 //!
 //! A ray `eye + t d` that moves by `r` on the image plane moves along the plane with slopes `(p, q)` by
-//! `t (r - d (n . r) / (n . d))`, `n = (-p, -q, 1)`: the pixel's edges `a` and `b`. A part of the parallelogram
-//! has the variances `(a_x^2 + b_x^2) / 12` and `(a_y^2 + b_y^2) / 12`; its box is the one with these. The
-//! plane is the mean one over the box of the whole pixel, put where the ray through the pixel's centre meets
-//! it. Formats: lengths 24 fractional bits, directions 28.
+//! `t (r - d (n . r) / (n . d))`, `n = (-p, -q, 1)`: the pixel's edges `a` and `b`. The plane is the mean one
+//! over the box of the whole pixel, put where the ray through the pixel's centre meets it.
+//!
+//! The parallelogram is cut into columns and these into rows. Where a line between two rows lies `e` above
+//! the surface's mean height along it, its rays meet the surface `e d / (-n . d)` farther: the line is moved
+//! so. What a pixel loses at a line, its neighbour gains, and nothing is counted twice. (With all lines on
+//! the plane the tone of `G x G` in matt light is off by 0.0013 however finely it is cut; with two columns of
+//! four rows by 0.0008.) Each part has the variances `(a_x^2 + b_x^2) / 12` and `(a_y^2 + b_y^2) / 12`; its
+//! box is the one with these. Formats: lengths and heights 24 fractional bits, directions 28, parts of the
+//! domain 30.
 
 use core::num::NonZeroU32;
 
+use super::ground::{Ground, Side, moved};
 use super::slopes::{Slope, Slopes};
-use crate::fif::Moments;
-use crate::num::{product, reciprocal, reciprocal_of, rough_sqrt};
+use crate::num::{product, reciprocal_of, rough_sqrt};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,61 +25,23 @@ use crate::num::{product, reciprocal, reciprocal_of, rough_sqrt};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Quality {
-    /// Two boxes, diffuse light to second order.
+    /// Two boxes.
     Coarse,
-    /// Six boxes.
+    /// Eight boxes.
     Fine,
-    /// Ten boxes.
+    /// Twelve boxes.
     Finest,
 }
 
 impl Quality {
-    /// Parts of the longer and of the shorter edge.
+    /// Parts of the shorter and of the longer edge.
     #[inline(always)]
     const fn parts(self) -> [i32; 2] {
         match self {
-            Self::Coarse => [2, 1],
-            Self::Fine => [3, 2],
-            Self::Finest => [5, 2],
+            Self::Coarse => [1, 2],
+            Self::Fine => [2, 4],
+            Self::Finest => [2, 6],
         }
-    }
-}
-
-/// One axis of the ground: the moments above it and where it lies.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Ground<'a> {
-    moments: Moments<'a>,
-    origin: i32,
-    width: i32,
-    /// `2^31 / width` as a mantissa and a shift.
-    per_width: (u32, u32),
-}
-
-impl<'a> Ground<'a> {
-    /// The axis of a profile that begins at `origin` and is `width` long.
-    pub(super) fn new(moments: Moments<'a>, origin: i32, width: i32) -> Self {
-        let (mantissa, shift) = reciprocal(width.unsigned_abs());
-        Self { moments, origin, width, per_width: (mantissa, shift - 31) }
-    }
-
-    /// A length as a part of the whole, 31 fractional bits.
-    #[inline(always)]
-    fn part(&self, length: i32) -> i64 {
-        let (mantissa, shift) = self.per_width;
-        // a mantissa of 2^31 is that of a power of two
-        (i64::from(length) * i64::from(mantissa)) >> (shift & 63)
-    }
-
-    /// From the middle so far to both sides; none where more than half of a side leaves the domain.
-    #[inline(always)]
-    fn around<const ALL: bool>(&self, middle: i32, half: i32) -> Option<crate::fif::Stretch> {
-        let (from, to) = (middle.saturating_sub(half), middle.saturating_add(half));
-        let (from, to) = (from.checked_sub(self.origin)?, to.checked_sub(self.origin)?);
-        if from < -(half >> 1) || to.saturating_sub(self.width) > half >> 1 {
-            return None;
-        }
-        let end = |x: i32| self.part(x.max(0).min(self.width)).clamp(0, 1 << 31) as u32;
-        self.moments.covered::<ALL>(end(from), end(to))
     }
 }
 
@@ -137,65 +105,118 @@ impl Sight {
     }
 }
 
-/// The pixel's edges on the ground and how they are cut.
+/// A pixel's edges along the plane that its ray meets.
+#[inline(always)]
+fn edges(place: &Place, sight: &Sight, steep: (i32, u32), edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
+    let [dx, dy, _] = sight.direction;
+    edges.map(|r| {
+        let along = over(into(place.slope, r), steep, 28);
+        [(r[0], dx), (r[1], dy)].map(|(r, d)| {
+            // n . r / n . d is along
+            let moved = i64::from(r) - (product(d, along) >> 28);
+            ((moved * i64::from(place.t)) >> 28).clamp(-(1 << 29), 1 << 29) as i32
+        })
+    })
+}
+
+/// The sides of the box with the variances of a parallelogram.
+#[inline(always)]
+fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
+    let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
+    let half = [half(a[0], b[0]), half(a[1], b[1])];
+    let [x, y] = ground;
+    (half, [x.side(half[0]), y.side(half[1])])
+}
+
+/// A pixel's footprint and how it is cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Footprint {
-    place: Place,
-    /// Steps along both edges, and half of a box.
-    steps: [[i32; 2]; 2],
+    /// The plane's slopes.
+    slope: Slope,
+    /// The end of the first line, on the plane, and its height.
+    at: [i32; 2],
+    height: i32,
+    /// From a column to the next and from a line to the next: on the ground, and how much the plane rises.
+    steps: [([i32; 2], i32); 2],
     parts: [i32; 2],
+    /// How far a line moves where it lies 1 above the surface; it is never thought to lie higher than
+    /// `reach`.
+    farther: [(i32, u32); 2],
+    reach: i32,
     half: [i32; 2],
+    sides: [Side; 2],
+}
+
+/// A part of a footprint: the surface over its box, and the box's share of the ground.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    pub(super) slopes: Slopes,
+    pub(super) share: i32,
 }
 
 impl Footprint {
-    /// Of the pixel with these edges on the image plane.
-    #[inline(always)]
-    pub(super) fn new(place: Place, sight: &Sight, edges: [[i32; 3]; 2], parts: [i32; 2]) -> Self {
-        let steep = steepness(place.slope, sight.direction);
-        let [dx, dy, _] = sight.direction;
-        let [a, b] = edges.map(|r| {
-            let along = over(into(place.slope, r), steep, 28);
-            [(r[0], dx), (r[1], dy)].map(|(r, d)| {
-                // n . r / n . d is along
-                let moved = i64::from(r) - (product(d, along) >> 28);
-                ((moved * i64::from(place.t)) >> 28).clamp(-(1 << 29), 1 << 29) as i32
-            })
-        });
-        let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
-        let parts = if length(a) < length(b) { [parts[1], parts[0]] } else { parts };
-        let steps = [cut(a, parts[0]), cut(b, parts[1])];
-        let half = [0, 1].map(|i| {
-            let [s, t] = steps.map(|s| s.get(i).copied().unwrap_or(0));
-            (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32
-        });
-        Self { place, steps, parts, half }
+    /// Half of a box along both axes.
+    pub(super) const fn half(&self) -> [i32; 2] {
+        self.half
     }
 
-    /// The middles of the boxes.
-    #[inline(always)]
-    pub(super) fn each(&self, mut then: impl FnMut([i32; 2])) {
-        let [a, b] = self.steps;
-        let [n, m] = self.parts;
-        let first = |i: usize| {
-            let [a, b, at] = [a, b, self.place.at].map(|v| v.get(i).copied().unwrap_or(0));
-            at.wrapping_sub((a.wrapping_mul(n - 1).wrapping_add(b.wrapping_mul(m - 1))) >> 1)
-        };
-        let mut row = [first(0), first(1)];
-        for _ in 0..n {
-            let mut at = row;
-            for _ in 0..m {
-                then(at);
-                at = [at[0].wrapping_add(b[0]), at[1].wrapping_add(b[1])];
-            }
-            row = [row[0].wrapping_add(a[0]), row[1].wrapping_add(a[1])];
-        }
+    /// The plane's slopes.
+    pub(super) const fn slope(&self) -> Slope {
+        self.slope
     }
 
-    /// The surface over a box; its means alone unless `ALL`.
+    /// Where the rays of a line meet the surface: at its middle.
     #[inline(always)]
-    pub(super) fn slopes<const ALL: bool>(&self, ground: &[Ground<'_>; 2], at: [i32; 2]) -> Option<Slopes> {
+    fn line(&self, ground: &[Ground<'_>; 2], at: [i32; 2], height: i32) -> [i32; 2] {
+        let ([ax, ay], _) = self.steps[0];
         let [x, y] = ground;
-        Some(Slopes { x: x.around::<ALL>(at[0], self.half[0])?, y: y.around::<ALL>(at[1], self.half[1])? })
+        let surface =
+            |ax: i32, ay: i32| product(x.value(at[0].wrapping_add(ax)), y.value(at[1].wrapping_add(ay)));
+        // the mean height along it, by two points
+        let (ax, ay) = (ax >> 2, ay >> 2);
+        let mean = ((surface(ax, ay) >> 1) + (surface(-ax, -ay) >> 1)) >> 24;
+        let mean = mean as i32;
+        let above = height.saturating_sub(mean).max(-self.reach).min(self.reach);
+        let [fx, fy] = self.farther;
+        [at[0].wrapping_add(moved(above, fx)), at[1].wrapping_add(moved(above, fy))]
+    }
+
+    /// Shows all parts; none where one leaves the domain or `then` gives none.
+    #[inline(always)]
+    pub(super) fn each(
+        &self,
+        ground: &[Ground<'_>; 2],
+        mut then: impl FnMut(&Part) -> Option<()>,
+    ) -> Option<()> {
+        let [(a, rise_a), (b, rise_b)] = self.steps;
+        let [columns, rows] = self.parts;
+        // the axis along which a part's share is counted
+        let along = usize::from(b[0].unsigned_abs() < b[1].unsigned_abs());
+        let whole = b.get(along).copied().unwrap_or(0);
+        let sign = (whole >> 31) | 1;
+        let shift = 17_u32.saturating_sub(whole.unsigned_abs().leading_zeros()) & 31;
+        let (mut first, mut top) = (self.at, self.height);
+        for _ in 0..columns {
+            let (mut at, mut height) = (first, top);
+            let mut before = self.line(ground, at, height);
+            for _ in 0..rows {
+                at = [at[0].wrapping_add(b[0]), at[1].wrapping_add(b[1])];
+                height = height.wrapping_add(rise_b);
+                let line = self.line(ground, at, height);
+                let middle = [0, 1].map(|i| (before[i] >> 1) + (line[i] >> 1));
+                let gained = line[along & 1].wrapping_sub(before[along & 1]).wrapping_mul(sign);
+                let [x, y] = ground;
+                let slopes = Slopes {
+                    x: x.around(middle[0], &self.sides[0])?,
+                    y: y.around(middle[1], &self.sides[1])?,
+                };
+                then(&Part { slopes, share: (gained >> shift).clamp(0, 1 << 20) })?;
+                before = line;
+            }
+            first = [first[0].wrapping_add(a[0]), first[1].wrapping_add(a[1])];
+            top = top.wrapping_add(rise_a);
+        }
+        Some(())
     }
 }
 
@@ -215,14 +236,52 @@ impl Quality {
         self,
         ground: &[Ground<'_>; 2],
         sight: &Sight,
-        edges: [[i32; 3]; 2],
+        pixel: [[i32; 3]; 2],
         first: Place,
         reach: i32,
     ) -> Option<Footprint> {
-        let whole = Footprint::new(first, sight, edges, [1, 1]);
-        let slopes = whole.slopes::<false>(ground, first.at)?;
-        let [_, _, z] = sight.at(first.t);
-        let place = sight.meet(first.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach);
-        Some(Footprint::new(place, sight, edges, self.parts()))
+        let [x, y] = ground;
+        let whole = edges(&first, sight, steepness(first.slope, sight.direction), pixel);
+        let (_, [sx, sy]) = sides(ground, whole);
+        // the leaf where the ray comes in may lie far off the mean plane
+        let mut place = first;
+        for _ in 0..2 {
+            let over_all =
+                Slopes { x: x.around(x.place(place.at[0]), &sx)?, y: y.around(y.place(place.at[1]), &sy)? };
+            let [_, _, z] = sight.at(place.t);
+            place = sight.meet(place.t, over_all.mean(), z.wrapping_sub(over_all.height()), reach);
+        }
+        let slope = place.slope;
+        let steep = steepness(slope, sight.direction);
+        let [a, b] = edges(&place, sight, steep, pixel);
+        // more parts along the longer edge
+        let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
+        let [few, many] = self.parts();
+        let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
+        let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
+        let (half, sides) = sides(ground, [a, b]);
+        let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
+        let rises = [a, b].map(rise);
+        let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
+        // from the middle to the end of the first line
+        let back =
+            |a: i32, b: i32| (a.wrapping_mul(parts[0] - 1)).wrapping_add(b.wrapping_mul(parts[1])) >> 1;
+        let at = [
+            x.place(place.at[0]).wrapping_sub(back(a[0], b[0])),
+            y.place(place.at[1]).wrapping_sub(back(a[1], b[1])),
+        ];
+        let [_, _, z] = sight.at(place.t);
+        let [dx, dy, _] = sight.direction;
+        Some(Footprint {
+            slope,
+            at,
+            height: z.wrapping_sub(back(rises[0], rises[1])),
+            steps: [(a, rises[0]), (b, rises[1])],
+            parts,
+            farther: [x.factor(over(i64::from(dx), steep, 26)), y.factor(over(i64::from(dy), steep, 26))],
+            reach,
+            half,
+            sides,
+        })
     }
 }

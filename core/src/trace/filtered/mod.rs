@@ -4,6 +4,7 @@
 mod answer;
 mod caster;
 mod footprint;
+mod ground;
 mod slopes;
 
 pub use caster::{FilteredCaster, Found};

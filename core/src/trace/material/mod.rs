@@ -10,6 +10,7 @@ mod phong;
 mod respond;
 mod specular;
 mod sum;
+mod tabulated;
 mod torrance_sparrow;
 
 pub use anisotropic::Anisotropic;
@@ -19,4 +20,5 @@ pub use mixture::{Clear, Interior, Mixture};
 pub use phong::Phong;
 pub use respond::{Lit, Material, Medium, Response};
 pub use specular::{Sight, Specular};
+pub use tabulated::Tabulated;
 pub use torrance_sparrow::TorranceSparrow;

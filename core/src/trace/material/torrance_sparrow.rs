@@ -59,26 +59,37 @@ impl TorranceSparrow {
 impl Specular for TorranceSparrow {
     fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen {
         let half = view.half(towards);
-        let clamped = |u: Unit| u.clamp(Unit::ZERO, Unit::ONE);
-        let [a, light] = [half, towards].map(|v| clamped(view.normal.dot(v)));
-        let (eye, between) = (view.height(), clamped(view.direction.dot(half).saturating_neg()));
-        // 2 (n . h) min(n . v, n . l) / (v . h), 30 fractional bits, at most 1
-        let (mantissa, shift) = reciprocal(between.to_bits().unsigned_abs());
-        let product = u64::from(times(a, eye.min(light)).to_bits().unsigned_abs());
-        let shadowed = ((2 * product * u64::from(mantissa >> 1)) >> ((shift - 31) & 63)).min(1 << 30);
-        // over 4 (n . v), 24 fractional bits, at most 2^10
-        let (mantissa, shift) = reciprocal(eye.to_bits().unsigned_abs());
-        let part = (shadowed * u64::from(mantissa)) >> ((shift - 22) & 63);
-        let off = Unit::ONE.saturating_sub(between);
-        let square = times(off, off);
-        let fifth = times(times(square, square), off);
-        let fresnel = self.reflectance + times(Unit::ONE.saturating_sub(self.reflectance), fifth);
-        let facing = self.facing(a).min(1 << 31);
-        // `(n . h) / (v . h)` is below 2^8 where `D` is not 0: what is cut off is beyond any light
-        let part = (part * u64::from(fresnel.to_bits().unsigned_abs())) >> 30;
-        let part = (part.min(1 << 32) * facing) >> 28;
-        Lumen::from_bits(u32::try_from(part).unwrap_or(u32::MAX))
+        let a = view.normal.dot(half).clamp(Unit::ZERO, Unit::ONE);
+        seen(view, towards, half, self.reflectance, self.facing(a))
     }
+}
+
+/// `F D G / (4 n . v)` where `facing`, `D` with 20 fractional bits, of the mirrors face `half`.
+pub(super) fn seen(
+    view: &Sight,
+    towards: Vec3<Unit>,
+    half: Vec3<Unit>,
+    reflectance: Unit,
+    facing: u64,
+) -> Lumen {
+    let clamped = |u: Unit| u.clamp(Unit::ZERO, Unit::ONE);
+    let [a, light] = [half, towards].map(|v| clamped(view.normal.dot(v)));
+    let (eye, between) = (view.height(), clamped(view.direction.dot(half).saturating_neg()));
+    // 2 (n . h) min(n . v, n . l) / (v . h), 30 fractional bits, at most 1
+    let (mantissa, shift) = reciprocal(between.to_bits().unsigned_abs());
+    let product = u64::from(times(a, eye.min(light)).to_bits().unsigned_abs());
+    let shadowed = ((2 * product * u64::from(mantissa >> 1)) >> ((shift - 31) & 63)).min(1 << 30);
+    // over 4 (n . v), 24 fractional bits, at most 2^10
+    let (mantissa, shift) = reciprocal(eye.to_bits().unsigned_abs());
+    let part = (shadowed * u64::from(mantissa)) >> ((shift - 22) & 63);
+    let off = Unit::ONE.saturating_sub(between);
+    let square = times(off, off);
+    let fifth = times(times(square, square), off);
+    let fresnel = reflectance + times(Unit::ONE.saturating_sub(reflectance), fifth);
+    // `(n . h) / (v . h)` is below 2^8 where `D` is not 0: what is cut off is beyond any light
+    let part = (part * u64::from(fresnel.to_bits().unsigned_abs())) >> 30;
+    let part = (part.min(1 << 32) * facing.min(1 << 31)) >> 28;
+    Lumen::from_bits(u32::try_from(part).unwrap_or(u32::MAX))
 }
 
 #[cfg(test)]

@@ -1,0 +1,316 @@
+//! Running sums of a differentiable function: value, area and the squares of the slope from the left end to
+//! each of many places, so that two look-ups tell what the function does between any two.
+//!
+//! Between `a` and `b`, `w` apart: the mean slope `(F(b) - F(a)) / w`, the mean value `(A(b) - A(a)) / w`
+//! with the area `A`, the slope's variance `(Q(b) - Q(a)) / w - slope^2` with the sum `Q` of the squares of
+//! slopes, and the covariance of slope and value `slope ((F(a) + F(b)) / 2 - value)`, by the fundamental
+//! theorem for `F F'`. The places are the ends of the cells of one level, over which the sums are exact; in a
+//! cell value and squares go straight, and the area is that under a straight value. Sources: Crow,
+//! "Summed-area tables for texture mapping", SIGGRAPH 1984; the moments of cells: [`super::variance`].
+//! Formats: values 24 fractional bits, areas and squares as many as the whole leaves room for.
+
+use core::num::NonZeroU32;
+
+use super::above;
+use super::ended::Ended;
+use super::function::Fif;
+use super::polynomial::product_q55;
+use super::pyramid::Pyramid;
+use super::stretch::times;
+use super::value::FRACTION_Q55;
+use super::variance::FRACTION_OF_SQUARES;
+use crate::Error;
+use crate::num::{
+    Real, Wide, high, high_u, mul_high, mul_high_u, product, product_u, quotient, real_from, reciprocal_of,
+    sqrt,
+};
+
+/// What a function and its slope have come to at one place. 12 bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Sum {
+    value: i32,
+    area: i32,
+    squares: i32,
+}
+
+impl Sum {
+    /// All zero: for the memory that sums are lent.
+    pub const ZERO: Self = Self { value: 0, area: 0, squares: 0 };
+}
+
+/// What a function does between two places: mean slope and value, how much the slope varies, and the value
+/// with it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Trend {
+    /// Mean slope.
+    pub slope: Real,
+    /// Mean value.
+    pub value: Real,
+    /// Variance of the slope.
+    pub variance: Real,
+    /// Covariance of slope and value.
+    pub covariance: Real,
+}
+
+/// The running sums of a differentiable function, in memory lent by the caller.
+///
+/// ```
+/// use attractor::fif::{Fif, Knot, Sum, Sums};
+/// use attractor::num::{Scaling, Wide};
+///
+/// let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+/// let g = Fif::<2, 2>::interpolating(&knots, &[0.85, -0.85].map(Scaling::from_num))?;
+/// let integral = g.integral::<2>(Wide::ZERO)?;
+/// let mut memory = [Sum::ZERO; Sums::places(2, 8)];
+/// let sums = Sums::new(&integral, 8, &mut memory)?;
+/// // the slope of the integral is g, whose variance is 100/333
+/// let whole = sums.over(Wide::ZERO, Wide::from_num(2)).unwrap();
+/// assert!((whole.variance.to_num::<f64>() - 100.0 / 333.0).abs() < 1e-5);
+/// # Ok::<(), attractor::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Sums<'a> {
+    places: &'a [Sum],
+    /// Left ends of the maps' intervals, 31 fractional bits.
+    starts: &'a [u32],
+    depth: u32,
+    /// How many cells and how wide, 31 fractional bits, if they are of one width.
+    even: Option<(u32, u32)>,
+    x0: i64,
+    width: u64,
+    /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits.
+    per_domain: (i32, u32),
+    /// Fractional bits of areas and of squares, beyond 24.
+    extra: [u32; 2],
+}
+
+/// The reciprocals of an interval's width: mantissas and shifts of products, 1 to 31.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Width {
+    slope: (i32, u32),
+    area: (i32, u32),
+    squares: (i32, u32),
+}
+
+/// A mantissa with a shift up to 31.
+#[inline(always)]
+fn short(mantissa: i32, shift: u32) -> (i32, u32) {
+    let most = shift.clamp(1, 31);
+    (mantissa >> (shift.saturating_sub(most) & 31), most)
+}
+
+/// The low word of `v mantissa / 2^shift`, of what fits one.
+#[inline(always)]
+fn over(v: i32, (mantissa, shift): (i32, u32)) -> i32 {
+    let product = product(v, mantissa);
+    let (high, low) = ((product >> 32) as u32, product as u32);
+    (low >> (shift & 31) | high << 1 << ((31 - shift) & 31)) as i32
+}
+
+impl Sums<'static> {
+    /// How many places the cells of level `depth` of a function of `maps` maps have: the memory to lend.
+    pub const fn places(maps: usize, depth: u32) -> usize {
+        let (mut count, mut k) = (1_usize, 0);
+        while k < depth {
+            (count, k) = (count.saturating_mul(maps), k + 1);
+        }
+        count.saturating_add(1)
+    }
+
+    /// Sums are never deeper.
+    pub const MAX_DEPTH: u32 = Pyramid::MAX_DEPTH;
+}
+
+/// How many more than 24 fractional bits a number leaves room for in 31 bits, given with `fraction`; 10 at
+/// most.
+fn room(number: i64, fraction: u32) -> u32 {
+    let bits = (64 - number.unsigned_abs().leading_zeros() + 24).saturating_sub(fraction);
+    30_u32.saturating_sub(bits).min(10)
+}
+
+impl<'a> Sums<'a> {
+    /// The sums of `fif` at the ends of the cells of level `depth`.
+    ///
+    /// Cost: a step for each cell of each level, of `2 D^2` products of 64 bits.
+    ///
+    /// # Errors
+    /// [`Error::BufferLength`] if `memory` is shorter than [`Sums::places`]; [`Error::Capacity`] for a depth
+    /// above [`Sums::MAX_DEPTH`]; [`Error::NotDifferentiable`] if some `|alpha_j| >= a_j`, and
+    /// [`Error::OutOfRange`] if the slope leaves the format.
+    pub fn new<const N: usize, const D: usize>(
+        fif: &'a Fif<N, D>,
+        depth: u32,
+        memory: &'a mut [Sum],
+    ) -> Result<Self, Error> {
+        if depth > Sums::MAX_DEPTH {
+            let (needed, capacity) = (depth as usize, Sums::MAX_DEPTH as usize);
+            return Err(Error::Capacity { what: "levels", needed, capacity });
+        }
+        let (given, needed) = (memory.len(), Sums::places(fif.maps.len(), depth));
+        let what = "places of the running sums";
+        let places = memory.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
+        let mut extra = [0; 2];
+        above::walk(fif, depth, |level, cell| {
+            // rise over length, which is short of 2^63 / 2^16 of the domain
+            let length = mul_high_u(fif.width, cell.width) << 1;
+            let [first, last] = cell.ends;
+            let slope = quotient(last.saturating_sub(first), 48, length.max(1));
+            let squares = mul_high(slope, slope).saturating_add(cell.slope.variance);
+            if level == 0 {
+                let most = fif.range.0.unsigned_abs().max(fif.range.1.unsigned_abs());
+                extra = [room(most as i64, FRACTION_Q55), room(squares, FRACTION_OF_SQUARES)];
+            }
+            // means of what stays below 2^31 stay there
+            let squares = squares.min(127 << FRACTION_OF_SQUARES);
+            if let Some(place) = places.get_mut(cell.index).filter(|_| level == depth) {
+                let mean = (first >> 1).wrapping_add(last >> 1).wrapping_sub(cell.lift);
+                let part = |v: i64, fraction: u32, extra: u32| {
+                    real_from(product_q55(v, cell.width), fraction.saturating_sub(extra)).to_bits()
+                };
+                *place = Sum {
+                    value: real_from(first, FRACTION_Q55).to_bits(),
+                    area: part(mean, FRACTION_Q55, extra[0]),
+                    squares: part(squares, FRACTION_OF_SQUARES, extra[1]),
+                };
+            }
+        })?;
+        // from each cell's own to what lies before it
+        let (mut area, mut squares) = (0_i32, 0_i32);
+        if let Some(end) = places.last_mut() {
+            *end = Sum { value: real_from(fif.last, FRACTION_Q55).to_bits(), area: 0, squares: 0 };
+        }
+        for place in places.iter_mut() {
+            let own = *place;
+            (place.area, place.squares) = (area, squares);
+            area = area.saturating_add(own.area);
+            squares = squares.saturating_add(own.squares);
+        }
+        let even = |(j, start): (u64, &u32)| {
+            let exact = (j << 31).checked_div(fif.maps.len() as u64).unwrap_or(0);
+            (exact as u32).abs_diff(*start) <= 1
+        };
+        let count = (needed - 1).clamp(1, u32::MAX as usize) as u32;
+        let even = (0..).zip(&fif.starts).all(even).then_some((count, (1_u32 << 31) / count));
+        let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
+        let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
+        let (x0, width) = (fif.x0, fif.width);
+        Ok(Self { places, starts: &fif.starts, depth, even, x0, width, per_domain, extra })
+    }
+
+    /// Whether a pyramid is that of the same function.
+    pub(crate) fn is_of(&self, starts: &[u32]) -> bool {
+        core::ptr::eq(self.starts, starts)
+    }
+
+    /// Means, variance and covariance above `[from, to]`; what lies outside the domain does not count, and an
+    /// interval without any width inside has none.
+    ///
+    /// Error: where the ends are those of cells and the interval is at least a 256th of the domain, `2^-18`
+    /// of the largest of 1 and the squares of slope and value (`running_sums_tell_what_the_reference_says`);
+    /// elsewhere also what a cell at each end varies. Cost: two look-ups in one table.
+    pub fn over(&self, from: Wide, to: Wide) -> Option<Trend> {
+        let unit = |x: Wide| {
+            let distance = if x.to_bits() < self.x0 { 0 } else { x.to_bits().wrapping_sub(self.x0) };
+            let part = quotient(distance.min(self.width as i64), 32, self.width);
+            part.clamp(0, i64::from(u32::MAX)) as u32
+        };
+        let (from, to) = (unit(from.min(to)), unit(from.max(to)));
+        let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
+        Some(self.between(&self.at(from), &self.at(to), &width))
+    }
+
+    /// Slopes and values that stand for the function above `[from, to]`: of each of half as many equal parts
+    /// as there are points, two, `f -+ s` with `F -+ c / s`, `s^2` the variance of the slope and `c` the
+    /// covariance. An interval without any width inside the domain leaves `points` as they are.
+    pub fn points(&self, from: Wide, to: Wide, points: &mut [[Real; 2]]) {
+        let step = quotient(to.to_bits().saturating_sub(from.to_bits()), 1, points.len().max(1) as u64);
+        let at = |k: i64| Wide::from_bits(from.to_bits().saturating_add(k.saturating_mul(step)));
+        for (k, pair) in (0..).zip(points.chunks_mut(2)) {
+            let Some(trend) = self.over(at(k), at(k + 1)) else { continue };
+            let [slope, value] = [trend.slope, trend.value].map(Real::to_bits);
+            // 24 fractional bits: the root of v, of a unit at least, with 48
+            let s = sqrt(u64::from(trend.variance.to_bits().max(1).unsigned_abs()) << 24) as i32;
+            let c = quotient(trend.covariance.to_bits().into(), 24, s.unsigned_abs().into());
+            let c = c.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+            for (point, (s, c)) in pair.iter_mut().zip([(s, c), (s.wrapping_neg(), c.saturating_neg())]) {
+                *point = [slope.saturating_add(s), value.saturating_add(c)].map(Real::from_bits);
+            }
+        }
+    }
+
+    /// The reciprocals of a width.
+    #[inline(always)]
+    pub(crate) fn width_of(&self, width: NonZeroU32) -> Width {
+        let (mantissa, zeros) = reciprocal_of(width);
+        let (per_domain, more) = self.per_domain;
+        let per_length = (product(mantissa, per_domain) >> 31) as i32;
+        let [area, squares] = self.extra.map(|extra| short(mantissa, (30 + extra).saturating_sub(zeros)));
+        Width { slope: short(per_length, 37_u32.saturating_sub(zeros + more)), area, squares }
+    }
+
+    /// The two places around another, 32 fractional bits, how far it lies between them, and the cell's width,
+    /// 31.
+    #[inline(always)]
+    fn place(&self, u: u32) -> Option<(&'a [Sum; 2], u32, u32)> {
+        let (node, part, width) = match self.even {
+            Some((count, width)) => {
+                let place = product_u(u, count);
+                ((place >> 32) as usize, place as u32, width)
+            }
+            None => self.uneven(u >> 1),
+        };
+        Some((self.places.get(node..)?.first_chunk()?, part, width))
+    }
+
+    #[inline(never)]
+    fn uneven(&self, u: u32) -> (usize, u32, u32) {
+        let cell = (0..self.depth).fold(Ended::WHOLE, |cell, _| cell.holding(self.starts, u, true));
+        let (into, width) = (u.saturating_sub(cell.start), cell.end.saturating_sub(cell.start));
+        let part = (u64::from(into) << 32).checked_div(width.into()).unwrap_or(0);
+        (cell.index, part.min(u64::from(u32::MAX)) as u32, width)
+    }
+
+    /// What the function has come to at a place, 32 fractional bits.
+    #[inline(always)]
+    pub(crate) fn at(&self, u: u32) -> Sum {
+        let Some(([a, b], part, width)) = self.place(u) else { return Sum::ZERO };
+        let half = (part >> 1) as i32;
+        let rise = |a: i32, b: i32| b.wrapping_sub(a) << 1;
+        let value = rise(a.value, b.value);
+        // t (1 - t) / 2 of a cell with 31 fractional bits, and its width with 20 and those that areas have
+        // more
+        let bent = (high_u(part, part.wrapping_neg()) >> 2) as i32;
+        let width = ((width >> 11) << (self.extra[0] & 15)) as i32;
+        let short = (product(high(value, bent), width) >> 20) as i32;
+        Sum {
+            value: a.value.wrapping_add(high(value, half)),
+            area: a.area.wrapping_add(high(rise(a.area, b.area), half)).wrapping_sub(short),
+            squares: a.squares.wrapping_add(high(rise(a.squares, b.squares), half)),
+        }
+    }
+
+    /// The value at a place.
+    #[inline(always)]
+    pub(crate) fn value_at(&self, u: u32) -> i32 {
+        let Some(([a, b], part, _)) = self.place(u) else { return 0 };
+        a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
+    }
+
+    /// What it does between two places of this width.
+    #[inline(always)]
+    pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Trend {
+        // means of what is inside the format
+        let slope = over(b.value.wrapping_sub(a.value), width.slope);
+        let value = over(b.area.wrapping_sub(a.area), width.area);
+        let squares = over(b.squares.wrapping_sub(a.squares), width.squares);
+        let lift = (a.value >> 1).wrapping_add(b.value >> 1).wrapping_sub(value);
+        Trend {
+            slope: Real::from_bits(slope),
+            value: Real::from_bits(value),
+            variance: Real::from_bits(squares.wrapping_sub(times(slope, slope)).max(0)),
+            covariance: Real::from_bits(times(slope, lift)),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! One axis of the ground under a height field: the running sums of its profile above intervals.
+//!
+//! Formats: lengths 24 fractional bits, places and widths as parts of the domain 30.
+
+use core::num::NonZeroU32;
+
+use crate::fif::{Sums, Trend, Width};
+use crate::num::{product, reciprocal_of};
+
+/// The whole domain.
+const WHOLE: i32 = 1 << 30;
+
+/// One axis: the sums above it and where it lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ground<'a> {
+    sums: Sums<'a>,
+    origin: i32,
+    /// The reciprocal of its length: mantissa and shift of a product.
+    per_length: (i32, u32),
+}
+
+/// Half of a box along an axis, and the reciprocals of its width.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Side {
+    half: i32,
+    width: Width,
+}
+
+/// A length times a factor.
+#[inline(always)]
+pub(super) fn moved(length: i32, (mantissa, shift): (i32, u32)) -> i32 {
+    (product(length, mantissa) >> (shift & 31)) as i32
+}
+
+impl<'a> Ground<'a> {
+    /// The axis of a profile that begins at `origin` and is `length` long.
+    pub(super) fn new(sums: Sums<'a>, origin: i32, length: i32) -> Self {
+        let length = NonZeroU32::new(length.unsigned_abs()).unwrap_or(NonZeroU32::MIN);
+        let (mantissa, zeros) = reciprocal_of(length);
+        Self { sums, origin, per_length: (mantissa, 32_u32.saturating_sub(zeros)) }
+    }
+
+    /// A length as a part of the whole, saturated at twice the whole.
+    #[inline(always)]
+    pub(super) fn part(&self, length: i32) -> i32 {
+        let (mantissa, shift) = self.per_length;
+        let part = product(length, mantissa) >> (shift & 63);
+        part.clamp(-2 * i64::from(WHOLE), 2 * i64::from(WHOLE) - 1) as i32
+    }
+
+    /// A factor, 26 fractional bits, by which lengths become parts of the whole, for [`moved`].
+    #[inline(always)]
+    pub(super) fn factor(&self, times: i32) -> (i32, u32) {
+        let (mantissa, shift) = self.per_length;
+        ((product(times, mantissa) >> 31) as i32, shift.saturating_sub(5).min(31))
+    }
+
+    /// Where a place lies in the domain.
+    #[inline(always)]
+    pub(super) fn place(&self, x: i32) -> i32 {
+        self.part(x.saturating_sub(self.origin))
+    }
+
+    /// So far to both sides.
+    #[inline(always)]
+    pub(super) fn side(&self, half: i32) -> Side {
+        let half = self.part(half).clamp(1, WHOLE / 2 - 1);
+        let width = NonZeroU32::new(half.unsigned_abs() << 3).unwrap_or(NonZeroU32::MIN);
+        Side { half, width: self.sums.width_of(width) }
+    }
+
+    /// The profile so far to both sides of a place, moved inside where less than a quarter is outside; none
+    /// where more is.
+    #[inline(always)]
+    pub(super) fn around(&self, middle: i32, side: &Side) -> Option<Trend> {
+        let Side { half, width } = side;
+        let (from, most) = (middle.saturating_sub(*half), WHOLE - (half << 1));
+        if from < -(half >> 1) || from > most + (half >> 1) {
+            return None;
+        }
+        let from = from.max(0).min(most);
+        let to = (from + (half << 1)).min(WHOLE - 1);
+        Some(self.sums.between(&self.sums.at((from as u32) << 2), &self.sums.at((to as u32) << 2), width))
+    }
+
+    /// The value at a place, that at the nearer end outside.
+    #[inline(always)]
+    pub(super) fn value(&self, place: i32) -> i32 {
+        self.sums.value_at((place.max(0).min(WHOLE - 1) as u32) << 2)
+    }
+}
