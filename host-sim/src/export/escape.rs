@@ -1,7 +1,7 @@
 //! Orbits: views of the Mandelbrot set and of filled-in Julia sets, with their colours, and Julia sets
 //! themselves.
 
-use attractor::escape::{DeepMandelbrot, FractionalDwell, View};
+use attractor::escape::{DeepMandelbrot, View};
 use attractor::num::Complex;
 use attractor::num::{Limbs, Wide};
 use attractor::plane::MAX_SIDE;
