@@ -81,13 +81,14 @@ fn zero(
     let (mut last, mut before) =
         if a.unsigned_abs() < b.unsigned_abs() { ((from, a), (to, b)) } else { ((to, b), (from, a)) };
     for _ in 0..STEPS {
-        let at = Some(secant(last, before)).filter(|at| from < *at && *at < to);
-        let at = at.unwrap_or(from + ((to - from) >> 1));
+        let root = Some(secant(last, before)).filter(|at| i64::from(from) < *at && *at < i64::from(to));
+        let at = root.map_or(from + ((to - from) >> 1), |root| root as i32);
         // parts of the piece, 30 fractional bits
         let [p, q] = [last, before].map(|(place, _)| at.abs_diff(place) << level);
         let bent = product_u((product_u(p, q) >> 30) as u32, eighth) >> 28;
         // and what the secant's root is rounded by
-        if bent + u64::from(last.1.abs_diff(before.1) >> 14) <= u64::from(NEAR) {
+        let rounded = (last.1.unsigned_abs() >> 14) + (last.1.abs_diff(before.1) >> 14);
+        if root.is_some() && bent + u64::from(rounded) <= u64::from(NEAR) {
             return at;
         }
         let here = over(at);
@@ -104,15 +105,16 @@ fn zero(
     last.0
 }
 
-/// Where the line through two values, of which the first is less or of the other sign, is 0.
+/// Where the line through two values is 0, wherever that is.
 #[inline(always)]
-fn secant((last, h): (Q30, Q24), (before, g): (Q30, Q24)) -> Q30 {
+fn secant((last, h): (Q30, Q24), (before, g): (Q30, Q24)) -> i64 {
     let (part, whole) = (h.unsigned_abs(), h.abs_diff(g));
     // both to 16 bits, so that 16 more fit
     let shift = 16_u32.saturating_sub((part | whole).leading_zeros());
-    let ratio = ((part >> shift) << 16).checked_div(whole >> shift).unwrap_or(0).min(1 << 16);
+    let ratio = ((part >> shift) << 16).checked_div(whole >> shift).unwrap_or(0);
     let way = (i64::from(before.wrapping_sub(last)) * i64::from(ratio)) >> 16;
-    if (h ^ g) < 0 { last.wrapping_add(way as i32) } else { last.wrapping_sub(way as i32) }
+    let is_there = (h ^ g) < 0 || part > g.unsigned_abs();
+    i64::from(last) + if is_there { way } else { -way }
 }
 
 #[cfg(test)]
