@@ -271,7 +271,7 @@ impl Search<'_> {
         // whether the part before was gone into; the first of the surface is taken for met
         let mut entered = node.level == 0;
         for (k, part) in passed.iter().enumerate() {
-            let is_far = |axis: usize, q: u32| (q % 2 == 0) == (self.direction[axis] > 0);
+            let is_far = |axis: usize, q: u32| q.is_multiple_of(2) == (self.direction[axis] > 0);
             let is_last = k > 0 && is_far(0, part.index.0) && is_far(1, part.index.1);
             if !(self.spares && (entered || is_last) && !self.is_leaf(part)) {
                 self.truth.statistics.box_tests += 1;

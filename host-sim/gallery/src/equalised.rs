@@ -46,11 +46,13 @@ where
             watch(target, height, height);
             return Ok(true);
         }
-        for y in rows..(2 * rows).clamp(1, height) {
+        let until = (2 * rows).clamp(1, height);
+        while rows < until {
+            let y = rows;
             let start = y as usize * width as usize;
             let row = known.iter_mut().skip(start).zip(field.row(y, 0..width));
             row.for_each(|(slot, value)| *slot = Some(value));
-            rows = y + 1;
+            rows += 1;
             let so_far = Known { size: Size::new(width, rows), values: known };
             let Ok(()) = Picture::new(so_far, &color).draw_row(target, y);
             if !watch(target, rows, height) {
@@ -110,7 +112,7 @@ mod tests {
         fn at(&self, x: u32, y: u32) -> Option<u32> {
             self.computed.set(self.computed.get() + 1);
             let value = (x * 7 + y * y) % 97;
-            (value % 11 > 0).then_some(value)
+            (!value.is_multiple_of(11)).then_some(value)
         }
     }
 
