@@ -218,7 +218,7 @@ fn tables_of_any_slopes() {
     fuzz((words, points, look), 8, |((version, side, reach, mut words), points, look)| {
         let (a, b, c, d, reflectance) = look;
         let [Some(normal), Some(direction), Some(tangent), Some(towards)] =
-            [a, b, c, d].map(Vec3::normalised)
+            [a, b, c, d].map(|v| v.normalised())
         else {
             return false;
         };
