@@ -203,7 +203,7 @@ impl Footprint {
                 at = [at[0].wrapping_add(b[0]), at[1].wrapping_add(b[1])];
                 height = height.wrapping_add(rise_b);
                 let line = self.line(ground, at, height);
-                let middle = [0, 1].map(|i| (before[i] >> 1) + (line[i] >> 1));
+                let middle = [(before[0] >> 1) + (line[0] >> 1), (before[1] >> 1) + (line[1] >> 1)];
                 let gained = line[along & 1].wrapping_sub(before[along & 1]).wrapping_mul(sign);
                 let [x, y] = ground;
                 let slopes = Slopes {

@@ -86,6 +86,6 @@ impl<'a> Ground<'a> {
     /// The value at a place, that at the nearer end outside.
     #[inline(always)]
     pub(super) fn value(&self, place: i32) -> i32 {
-        self.sums.value_at((place.max(0).min(WHOLE - 1) as u32) << 2)
+        self.sums.value_at((place.clamp(0, WHOLE - 1) as u32) << 2)
     }
 }

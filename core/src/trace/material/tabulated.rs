@@ -153,8 +153,8 @@ impl<'a> Tabulated<'a> {
             }
         }
         let highest = counts.iter().copied().max().unwrap_or(1).max(1);
-        let (header, weights) = table.split_at_mut(HEADER);
-        header.copy_from_slice(&[VERSION, side, reach]);
+        let Some((header, weights)) = table.split_first_chunk_mut::<HEADER>() else { return Ok(table) };
+        *header = [VERSION, side, reach];
         for (weight, count) in weights.iter_mut().zip(counts) {
             let share = (u64::from(*count) * 0xffff + u64::from(highest / 2)).checked_div(highest.into());
             *weight = share.unwrap_or(0) as u16;
