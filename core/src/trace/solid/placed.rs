@@ -265,8 +265,8 @@ mod tests {
             _ => Vec3::new(origin.x * 60, origin.y * 60, origin.z * 60),
         };
         let Some(d) = origin.towards(target) else { return ray(map, near, word) };
-        // about as long as a camera makes it, and as short as half of that
-        let length = 2 + (word() % 7) as i32;
+        // about as long as a camera makes it
+        let length = 3 + (word() % 6) as i32;
         let [x, y, z] = [d.x, d.y, d.z].map(|c| Real::from_bits((c.to_bits() >> 8) * length));
         Ray::new(origin, Vec3::new(x, y, z))
     }
