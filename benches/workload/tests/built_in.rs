@@ -26,7 +26,11 @@ const MISSING: &[(&str, &str)] = &[
     ("island", LATTICE),
     ("flight", LATTICE),
     ("jacksboro", LATTICE),
+    ("patch-joinings", FLASH),
 ];
+/// Each kind of surface is a ray caster of its own.
+const FLASH: &str =
+    "a third caster of surfaces by control points takes more flash than the image of scenes has";
 /// Up to 16 rays a pixel, and as many again as there are bounces.
 const LONG: &str = "the emulator would take minutes for it";
 

@@ -85,7 +85,6 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(patch_curve!("patch-takagi", patch_takagi)),
     both_roomy(patch_curve!("patch-spirals", patch_spirals)),
     both_roomy(patch_surface!("patch-rock", patch_rock)),
-    both_roomy(patch_surface!("patch-joinings", patch_joinings)),
     both_roomy(patch_surface!("patch-diagonal", patch_diagonal)),
     both_roomy(patch_surface!("patch-mountain", patch_mountain)),
     l_system!("cantor", cantor),
