@@ -104,7 +104,7 @@ impl<S: Shape> Surface for Placed<S> {
                 let Some([first, last]) = ends else { return };
                 // what is a little behind the begin is at it, what is beyond the format's end is not
                 let (mut t, mut enters) = if first >= -SAME { (first, true) } else { (last, false) };
-                while t >= -SAME && t < i32::MAX {
+                while (-SAME..i32::MAX).contains(&t) {
                     let crossing = Crossing { t: Real::from_bits(t.max(0)), enters, face: 0, memo: [0; 2] };
                     if found(crossing).is_break() || !enters {
                         return;
