@@ -46,7 +46,7 @@ const NOT_SERDE: [(&str, &[&str]); 6] = [
     ),
     (
         "what a stream says, which is the written form",
-        &["Header", "Shape", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge", "Luma"],
+        &["Header", "Shape", "Place", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge", "Luma"],
     ),
     (
         "things, materials and textures of a world: made of what is written, or of functions",
@@ -101,7 +101,7 @@ const NOT_DEFMT: [(&str, &[&str]); 5] = [
     ("a step on the way to a value", &["Ending", "OrbitPoint"]),
     (
         "what a stream says, and what reads it",
-        &["Shape", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge", "Luma"],
+        &["Shape", "Place", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge", "Luma"],
     ),
     (
         "things, materials and textures of a world: made of what is logged, or of functions",

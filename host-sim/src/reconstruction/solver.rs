@@ -303,12 +303,13 @@ mod tests {
             model.fit(&hills, &Family::Lattice.starts()[0], 20, |_, error| errors.push(error)).unwrap();
         assert!(errors.len() > 3 && fitted.error < 0.3 * errors[0], "{errors:?}");
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0] * 1.01), "{errors:?}");
-        // no step raises the cost, so that no height is further off than the start's cost allows; 62 without it
+        // no step raises the cost, so that no height is further off than the start's cost allows: 180. The tether
+        // keeps them much nearer, to 11; without it one goes to 62
         let start = model.fit(&hills, &Family::Lattice.starts()[0], 0, |_, _| ()).unwrap();
         let away = |heights: &[f64]| heights.iter().map(|height| (height - MIDDLE).powi(2)).sum::<f64>();
         let tether = Family::Lattice.tether();
         let bound = ((start.error + tether * away(&start.heights)) / tether).sqrt();
         let largest = fitted.heights.iter().fold(0.0_f64, |most, height| most.max((height - MIDDLE).abs()));
-        assert!(largest <= bound && bound < 40.0 && largest > 2.0, "{largest} {bound}");
+        assert!(largest <= bound && (2.0..16.0).contains(&largest), "{largest} {bound}");
     }
 }

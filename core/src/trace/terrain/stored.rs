@@ -178,20 +178,26 @@ impl Surface for Terrain<'_> {
     fn cross(&self, ray: &Ray, _: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
         let axes = ray.axes();
         let plain = self.plain_crossing(&axes);
-        // a ray comes to the plain after the land on the way down, and before it on the way up
-        let before = plain.filter(|crossing| !crossing.enters);
+        // a ray comes to the plain after the land on the way down, and before it on the way up; where it is
+        // under the land then, the land is the higher of both
+        let mut before = plain.filter(|crossing| !crossing.enters);
         if let Some(crossing) = before
-            && found(crossing).is_break()
+            && self.land.is_passed_by(ray)
         {
+            let _ = found(crossing);
             return;
         }
-        if before.is_some() && self.land.is_passed_by(ray) {
-            return;
-        }
-        if let (ControlFlow::Continue(above), Some(crossing)) =
-            (crossings(self, &self.frame, &axes, found), plain)
-            && crossing.enters
+        let walked = crossings(self, &self.frame, &axes, &mut |crossing| {
+            if let Some(first) = before.take()
+                && crossing.enters
+            {
+                found(first)?;
+            }
+            found(crossing)
+        });
+        if let (ControlFlow::Continue(above), Some(crossing)) = (walked, plain)
             && above != Some(false)
+            && (crossing.enters || before.is_some())
         {
             let _ = found(crossing);
         }

@@ -1,0 +1,106 @@
+//! As `nopanic`, for surfaces and the ray caster: height fields with filtered normals, and terrain. An image of
+//! its own, so that each fits the flash of a Cortex-M0.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box as bb;
+use core::ops::ControlFlow;
+
+use attractor::Error;
+use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread, Sum, Sums};
+use attractor::num::{RandomField, Real, Scaling, Unit, Vec3, Wide};
+use attractor::plane::Field;
+use attractor::terrain::{
+    Heights, InnerGeometry, Law, Magnification, PlaneToLine, Rows, Seam, Seamed, Side, Triangles,
+};
+use attractor::trace::{
+    Camera, DeepTerrain, Environment, Filter, FilteredCaster, Finish, HeightField, HeightRange, Light,
+    Quality, Ray, RayCaster, Sampling, Statistics, Surface, Terrain,
+};
+use attractor_cortex_m::{Wire, entry, semihosting};
+use embedded_graphics::pixelcolor::Rgb565;
+
+attractor_cortex_m::never_panics!();
+
+#[entry]
+fn main() -> ! {
+    // what is refused is refused: only panics count
+    let _ = bb(rays());
+    let _ = bb(terrain());
+    semihosting::process::exit(0)
+}
+
+fn rays() -> Result<(), Error> {
+    let knots = [(0, 0), (1, 1), (2, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+    let f = Fif::<2, 1>::interpolating(bb(&knots[..]), bb(&[Scaling::from_bits(1 << 30); 2][..]))?;
+    let mut memory = [Cell::ZERO; Pyramid::cells(2, 4)];
+    let pyramid = Pyramid::new(&f, bb(4), &mut memory)?;
+    let surface = HeightField::new(&pyramid, &pyramid)?;
+    bb((surface.depth(), surface.heights()));
+    let v = Vec3::new(bb(Real::ONE), bb(Real::ONE), bb(Real::ONE));
+    if let Some(hit) = surface.intersect(&Ray::new(v, v), bb(Unit::ZERO)) {
+        bb(hit.normal());
+    }
+    bb(surface.intersect_counted(&Ray::new(v, v), bb(Unit::ZERO), &mut Statistics::default()));
+    let camera = Camera::new(v, bb(v), bb(v), bb(Real::ONE))?;
+    let caster = RayCaster::new(surface, camera, bb(Wire::<Rgb565>::SIZE))?
+        .with_finish(bb(Finish::PHONG))?
+        .with_light(Light::new(v)?)
+        .with_environment(bb(Environment::SKY))?
+        .with_sampling(bb(Sampling::Centre), bb(Filter::Box))?;
+    bb((caster.row(bb(0), bb(0)..bb(100)).last(), caster.row(bb(1), bb(0)..bb(100)).nth(bb(5))));
+    bb((caster.hit(bb(0), bb(0)), caster.statistics()));
+    let mut spreads = [Spread::ZERO; Pyramid::cells(2, 4)];
+    let moments = Moments::new(&f, &pyramid, &mut spreads)?;
+    bb((moments.over(bb(Wide::ZERO), bb(Wide::ONE)), f.spread_at(bb(9), bb(5))?));
+    let mut places = [Sum::ZERO; Sums::places(2, 4)];
+    let sums = Sums::new(&f, bb(4), &mut places)?;
+    bb(sums.over(bb(Wide::ZERO), bb(Wide::ONE)));
+    let filtered = FilteredCaster::new(caster, &sums, &sums, bb(Quality::Fine))?;
+    bb((filtered.row(bb(0), bb(0)..bb(100)).last(), filtered.found(bb(3), bb(4))));
+    Ok(())
+}
+
+/// Surfaces by subdivision: heights, rows, triangles, patches, and both kinds under rays.
+fn terrain() -> Result<(), Error> {
+    let knots = bb([Real::ONE; 9]);
+    let law = Law::new(bb(Unit::DELTA), bb(Unit::DELTA))?;
+    let seams = [Seam::new(bb(1), bb([0, 0]), bb([0, 1]))?];
+    let random = Seamed::new(RandomField::new(bb(1)), &seams);
+    let knots = Heights::new(bb(3), bb(3), &knots)?.with_origin(bb(1), bb(1))?;
+    let function = PlaneToLine::new(knots, law, random)?;
+    let [u, v] = function.point(bb(3), bb(1), bb(2));
+    bb((function.height(u, v), law.offset(bb(1)), law.reach(bb(1), bb(2)), knots.range()));
+    bb(function.extrapolated(bb(Side::West), &mut [Real::ZERO; 3]))?;
+    let near = Magnification { eye: bb([u; 3]), length: bb(Unit::DELTA), most: bb(4) };
+    bb(Triangles::new(&function, bb(1), bb([0, 0]), &near)?.last());
+    let (mut rows, mut heights) = ([Real::ZERO; 64], [Real::ZERO; 81]);
+    Rows::of(&function, bb(1), [bb(0)..bb(2), bb(0)..bb(2)], bb(2), &mut rows)?.write(&mut heights)?;
+    Rows::new(&function, bb(2), &mut rows)?.write(&mut heights)?;
+    let heights = Heights::new(bb(9), bb(9), &heights)?;
+    let patch = bb(InnerGeometry::BSpline).patch(&heights, bb(1), bb(2));
+    bb((
+        patch.height(bb(Unit::DELTA), Unit::DELTA),
+        patch.slopes(bb(Unit::DELTA), Unit::DELTA),
+        patch.range(),
+    ));
+    let over = bb([[Real::ZERO, Real::ONE]; 2]);
+    crossed(&DeepTerrain::new(&function, bb(3), over)?);
+    let mut ranges = [HeightRange::default(); Terrain::ranges(9, 9)];
+    let land = Terrain::new(heights, bb(InnerGeometry::Ferguson), over, &mut ranges)?;
+    crossed(&land);
+    crossed(&land.with_plain(bb(Real::ZERO)));
+    Ok(())
+}
+
+/// All that a caster asks of a surface.
+fn crossed(surface: &impl Surface) {
+    let ray = Ray::new(bb(Vec3::X), bb(Vec3::Z));
+    let mut last = None;
+    surface.cross(&ray, bb(Unit::DELTA), &mut |crossing| {
+        last = Some(crossing);
+        bb(ControlFlow::Continue(()))
+    });
+    bb(last.map(|crossing| surface.point(&ray, bb(Unit::DELTA), &crossing, bb(true))));
+    bb((surface.value(bb(Vec3::X)), surface.extent(), surface.ball(), surface.error()));
+}
