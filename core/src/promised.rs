@@ -46,7 +46,10 @@ const NOT_SERDE: [(&str, &[&str]); 6] = [
     ),
     (
         "what a stream says, which is the written form",
-        &["Header", "Shape", "Place", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge", "Luma"],
+        &[
+            "Header", "Shape", "Place", "Leaf", "Levels", "Setting", "Opened", "Model", "Bytes", "Edge",
+            "Luma",
+        ],
     ),
     (
         "things, materials and textures of a world: made of what is written, or of functions",

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use attractor::Error;
 use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
 use attractor::plane::{Field, LinearRgb};
 use attractor::trace::material::{
@@ -380,6 +381,42 @@ fn any_shape(shape: impl Shape + Copy, map: &Affine3, ray: &Ray, cone: Unit, pla
         let _ = (moved.value(place), moved.error(), moved.extent(), moved.most_crossings());
     }
     true
+}
+
+/// What is placed at design time is what is placed later, and refused where that is.
+fn alike<S: Shape + Copy>(early: Result<Placed<S>, Error>, shape: S, map: &Affine3, place: Vec3) -> bool {
+    let known = |placed: Placed<S>| (placed.extent(), placed.ball(), placed.error(), placed.value(place));
+    let (early, late) = (early.map(known), Placed::new(shape, map).map(known));
+    assert!(early == late, "{early:?} {late:?}");
+    late.is_ok()
+}
+
+#[test]
+fn shapes_placed_at_design_time_under_any_map() {
+    fuzz((map(), vector(real()), real()), 60, |(map, place, cap)| {
+        let mut any = alike(Placed::sphere(&map), Sphere, &map, place);
+        any |= alike(Placed::plane(&map), Plane, &map, place);
+        any |= alike(Placed::square(&map), Square, &map, place);
+        any |= alike(Placed::cube(&map), Cube, &map, place);
+        if let Ok(shape) = TaperedCylinder::new(cap) {
+            any |= alike(Placed::tapered_cylinder(shape, &map), shape, &map, place);
+        }
+        any
+    });
+}
+
+/// A ball alone, as a leaf of its own: a world of leaves takes it, wherever it is.
+#[test]
+fn a_world_of_one_leaf_anywhere() {
+    fuzz(map(), 60, |map| {
+        let Ok(ball) = Placed::sphere(&map) else { return false };
+        let leaves = [Leaf { surface: ball, materials: &[0] }];
+        let objects = [Object::leaf(0, &leaves[0].surface)];
+        let materials = [Mixture::matt(Rgb::WHITE)];
+        let world = World::of_leaves(&leaves, &objects, &materials);
+        assert!(world.is_ok() && objects[0].extent() == leaves[0].surface.extent());
+        true
+    });
 }
 
 #[test]
