@@ -41,7 +41,7 @@ pub fn factor<const N: usize, const D: usize>() -> Result<Fif<N, D>, Error> {
 }
 
 /// How deep the pyramids are; none: their cells are half as wide as a pixel.
-/// One pyramid serves for both factors: 1023 cells, and as many spreads are lent on 240 pixels a side, 9 deep.
+/// One pyramid serves for both factors: 511 cells, and as many spreads are lent on 240 pixels a side, 8 deep.
 pub const DEPTH: Option<u32> = None;
 
 /// Where the camera stands.
