@@ -31,7 +31,8 @@ fn exact(p: [f64; 3]) -> f64 {
     ((gyroid.abs() - 0.25) / 8.0).max((p.iter().map(|c| c * c).sum::<f64>() - 1.0) / 2.0)
 }
 
-/// The gradient of the wall is below `2 pi sqrt(3) / 8`, that of the ball below the length of the box's diagonal.
+/// The gradient of the wall is below `2 pi sqrt(3) / 8`, that of the ball below the length of the box's
+/// diagonal.
 #[test]
 fn a_gyroid_ball_is_met_where_its_function_changes_sign() {
     let one = Near::ONE;

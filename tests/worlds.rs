@@ -1,4 +1,5 @@
-//! What a picture of a world promises, with surfaces that an outsider wrote: balls and boxes in floating point.
+//! What a picture of a world promises, with surfaces that an outsider wrote: balls and boxes in floating
+//! point.
 //!
 //! Each fault that is known of other ray tracers has its test: a surface seen from where a ray left it, a
 //! total reflection that is black, glass in water, faces that coincide.

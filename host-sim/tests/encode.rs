@@ -1,4 +1,5 @@
-//! `encode`, `decode` and `inspect`: targets are met, pictures of every size and kind come back, bad input is named.
+//! `encode`, `decode` and `inspect`: targets are met, pictures of every size and kind come back, bad input is
+//! named.
 
 use std::fs;
 use std::path::Path;
@@ -38,7 +39,8 @@ fn psnr(a: &[u8], b: &[u8]) -> f64 {
     10.0 * (65025.0 * a.len() as f64 / square).log10()
 }
 
-/// Sizes at which others wrote past the end or lost a row (fractal-image-compression 8, libheif 130, openmv 6).
+/// Sizes at which others wrote past the end or lost a row (fractal-image-compression 8, libheif 130, openmv
+/// 6).
 #[test]
 fn pictures_of_any_size_come_back_in_that_size() {
     let directory = tempfile::tempdir().unwrap();

@@ -23,8 +23,8 @@ fn picture(path: &Path, side: [u32; 2], depth: png::BitDepth, value: impl Fn(u32
     encoder.write_header().unwrap().write_image_data(&bytes).unwrap();
 }
 
-/// A window of the landscape by each family: the scene is drawn, its numbers are those of the reference, the lattice
-/// is nearer than every spline.
+/// A window of the landscape by each family: the scene is drawn, its numbers are those of the reference, the
+/// lattice is nearer than every spline.
 #[test]
 fn a_fit_is_a_scene_that_is_drawn_and_sampled() {
     let directory = tempfile::tempdir().unwrap();
@@ -98,8 +98,9 @@ fn what_cannot_be_fitted_is_said_in_one_line_and_nothing_is_written() {
     assert!(String::from_utf8_lossy(&low.stderr).contains("terraces") && low.status.success());
 }
 
-/// Samples on which no start can improve: `a (x) a` with `a = (-1, 2, 0, -2, 1)` is at right angles to all products of
-/// what parabolas and Takagi's curves have at quarters, so that the best heights are level, and maps do not matter.
+/// Samples on which no start can improve: `a (x) a` with `a = (-1, 2, 0, -2, 1)` is at right angles to all
+/// products of what parabolas and Takagi's curves have at quarters, so that the best heights are level, and
+/// maps do not matter.
 #[test]
 fn a_fit_that_does_not_improve_writes_nothing() {
     let directory = tempfile::tempdir().unwrap();

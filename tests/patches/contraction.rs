@@ -46,7 +46,8 @@ fn maps_that_do_not_join_or_contract_are_refused() {
     ));
 }
 
-/// The bounds of `Contraction` hold: points stay within `radius` of the ends' mean, and `levels` leave less than a unit.
+/// The bounds of `Contraction` hold: points stay within `radius` of the ends' mean, and `levels` leave less
+/// than a unit.
 #[test]
 fn a_contraction_bounds_what_is_left() {
     let mut words = Words(5);

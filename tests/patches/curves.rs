@@ -58,8 +58,8 @@ fn weights_are_within_two_units_a_digit() {
     assert!(tried > 20 && most[0] > 1.0, "{tried} {most:?}");
 }
 
-/// `ProjectedCurve::weights` and `ProjectedCurve::value` where everything is known: Takagi's function and a parabola to 14 digits
-/// to the last bit, Bernstein's polynomials and B-splines.
+/// `ProjectedCurve::weights` and `ProjectedCurve::value` where everything is known: Takagi's function and a
+/// parabola to 14 digits to the last bit, Bernstein's polynomials and B-splines.
 #[test]
 fn a_parabola_and_takagis_curve_are_exact() {
     let (takagi, parabola) = (takagi().unwrap(), bezier::<3>().unwrap());

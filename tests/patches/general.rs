@@ -62,8 +62,8 @@ fn a_patch_is_within_two_units_a_digit() {
     assert!(most > 0.2, "{most}");
 }
 
-/// On the boundary a patch is its boundary curve, in the weights of that side; at joints all four addresses agree,
-/// and so do both sides computed by their own maps.
+/// On the boundary a patch is its boundary curve, in the weights of that side; at joints all four addresses
+/// agree, and so do both sides computed by their own maps.
 #[test]
 fn a_patch_joins_along_its_sides() {
     let mut words = Words(13);
@@ -231,8 +231,8 @@ fn inverse(of: &Matrix) -> Matrix {
     rows.iter().map(|row| row[size..].to_vec()).collect()
 }
 
-/// `Barycentric::control_points`: a surface whose maps are `R T_ij R^-1`, by f64, is that of the maps `T_ij` with other
-/// control points.
+/// `Barycentric::control_points`: a surface whose maps are `R T_ij R^-1`, by f64, is that of the maps `T_ij`
+/// with other control points.
 #[test]
 fn other_coordinates_have_the_same_surface() {
     let mut words = Words(31);

@@ -129,8 +129,8 @@ fn a_sheet_is_its_cells() {
     assert!(matches!(Sheet::new(&mask, &twist, 0), Err(Error::OutOfRange { .. })));
 }
 
-/// `Sheet::normal`: that of a product of parabolas everywhere, by its derivatives; at no joint of a product of Takagi's
-/// curves; on a roof of flat pieces beside its ridges, not on them.
+/// `Sheet::normal`: that of a product of parabolas everywhere, by its derivatives; at no joint of a product
+/// of Takagi's curves; on a roof of flat pieces beside its ridges, not on them.
 #[test]
 fn there_is_a_normal_where_a_plane_touches() {
     let tolerance = Real::lit("0.02");

@@ -88,8 +88,9 @@ pub(super) fn seeded_mask(words: &mut Words) -> Option<Mask> {
     Mask::new(entries).ok()
 }
 
-/// What rounding can make of weights, in units: each digit is off by a vector that adds up to 0, of `J - 1` units in sum,
-/// which the maps of the digits before it make as much as their norm says, and half of a sum is the most of one weight.
+/// What rounding can make of weights, in units: each digit is off by a vector that adds up to 0, of `J - 1`
+/// units in sum, which the maps of the digits before it make as much as their norm says, and half of a sum is
+/// the most of one weight.
 pub(super) fn allowed(maps: &[Matrix], digits: &[usize]) -> f64 {
     let size = maps[0].len();
     let norm = |of: &Matrix| {

@@ -1,6 +1,7 @@
 //! A fault of the compiler for RV32 that no picture has to show: LLVM 22.1 (rustc 1.95) makes nothing of the
-//! upper word where a function multiplies twice, in 64 bits, by one constant whose upper word is `-2^k`, `k` at
-//! least 2. For instance `a * -0x3_2434_5678 ^ b * -0x3_2434_5678` for two `i64`, whose upper word is `-4`.
+//! upper word where a function multiplies twice, in 64 bits, by one constant whose upper word is `-2^k`, `k`
+//! at least 2. For instance `a * -0x3_2434_5678 ^ b * -0x3_2434_5678` for two `i64`, whose upper word is
+//! `-4`.
 //!
 //! Shifts behind a product are drawn into such constants, so that no source shows them. The compiler's last
 //! intermediate form of an image does: it is looked through for them.

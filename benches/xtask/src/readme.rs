@@ -1,7 +1,7 @@
 //! `cargo xtask readme`: the tables of README.md that say how large and how fast, from `counts.toml`.
 //!
-//! Which rows, in which order and under which names: `benches/cortex-m/readme.toml`. They stand between two comments
-//! in README.md, and a test fails while they are not what the counts say.
+//! Which rows, in which order and under which names: `benches/cortex-m/readme.toml`. They stand between two
+//! comments in README.md, and a test fails while they are not what the counts say.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -190,8 +190,8 @@ impl<'a> Inverse<'a> {
     }
 
     /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns`
-    /// those of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is rounded to
-    /// `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
+    /// those of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is
+    /// rounded to `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
     ///
     /// The pixels of a row and the one that mirrors it, at `j` and at the place that mirrors that, with 7
     /// fractional bits: upper left, upper right, lower left, lower right.

@@ -2,9 +2,9 @@
 //!
 //! "Curves and surfaces may be generated all at once, from any boundary, or in any or all directions from
 //! somewhere in the middle. The random function guarantees the repeatability of the shape regardless of the
-//! direction taken." A part is halved as before, from its first point to its last, but of its halves the second
-//! one is walked first. Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980,
-//! "Summary".
+//! direction taken." A part is halved as before, from its first point to its last, but of its halves the
+//! second one is walked first. Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces",
+//! 1980, "Summary".
 
 use super::displacement::{Displacement, Part};
 use super::subdivision::{End, Stop, Subdivision, half};

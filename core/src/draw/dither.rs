@@ -5,7 +5,8 @@ use embedded_graphics_core::pixelcolor::Rgb888;
 use super::palette::Palette;
 
 /// Another palette, dithered on every display, with greys and dots as bright as its colours: bands of equal
-/// colour become smooth on displays of 16 bits. [`Ink::dithered_ink`](crate::draw::Ink::dithered_ink) says how.
+/// colour become smooth on displays of 16 bits. [`Ink::dithered_ink`](crate::draw::Ink::dithered_ink) says
+/// how.
 ///
 /// Outermost: a palette round it computes with its colours and shows them as ever.
 ///

@@ -13,8 +13,8 @@
 //! Colour has two halves. A [`Palette`] turns a value into a display-independent colour, [`Ink`] turns that
 //! colour into what one display can show at one position: the nearest colour, or ordered dithering where
 //! there are few levels; a palette may ask for dithering everywhere ([`Dithered`]), and that of pictures in
-//! colour, [`Srgb`], does. Both are open: a closure is a palette, and a colour type of your own becomes usable
-//! with one `impl Ink`.
+//! colour, [`Srgb`], does. Both are open: a closure is a palette, and a colour type of your own becomes
+//! usable with one `impl Ink`.
 //!
 //! ```
 //! use attractor::draw::{Grey, Picture};

@@ -7,8 +7,8 @@
 //!        ((v + 0.055) / 1.055)^2.4      else
 //! ```
 //!
-//! Source: IEC 61966-2-1. Format: light in 65535ths, codes in 255ths. One table of 510 bytes serves both ways:
-//! where codes begin.
+//! Source: IEC 61966-2-1. Format: light in 65535ths, codes in 255ths. One table of 510 bytes serves both
+//! ways: where codes begin.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
@@ -62,8 +62,8 @@ fn light(code: u8) -> u16 {
     }
 }
 
-/// How much light a colour gives off, of 65535: `0.2126 R + 0.7152 G + 0.0722 B` of ITU-R BT.709, the channels
-/// decoded.
+/// How much light a colour gives off, of 65535: `0.2126 R + 0.7152 G + 0.0722 B` of ITU-R BT.709, the
+/// channels decoded.
 #[inline]
 pub(super) fn luminance(rgb: Rgb888) -> u16 {
     let [r, g, b] = [rgb.r(), rgb.g(), rgb.b()].map(|code| u32::from(light(code)));

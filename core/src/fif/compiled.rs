@@ -125,11 +125,12 @@ impl<const N: usize, const D: usize> Compiled<N, D> {
         real(self.walk(u.to_bits()), self.fraction)
     }
 
-    /// A bound on the error of [`Compiled::at`] at a place that it has evaluated, for the maps of the function
-    /// as it was compiled, scalings of 31 bits among them, rounded up: over `1 - max|alpha|` half a unit of a
-    /// word and three quarters for each power, `2^-32 max|f|` and the slope times the shift of the place;
-    /// `2^-31 max|f|` for each level; what is left of the function after the last; half a unit of the result.
-    /// Hard cases reach half of it (`a_compiled_error_bound_is_less_than_five_times_the_worst_error`).
+    /// A bound on the error of [`Compiled::at`] at a place that it has evaluated, for the maps of the
+    /// function as it was compiled, scalings of 31 bits among them, rounded up: over `1 - max|alpha|` half a
+    /// unit of a word and three quarters for each power, `2^-32 max|f|` and the slope times the shift of the
+    /// place; `2^-31 max|f|` for each level; what is left of the function after the last; half a unit of the
+    /// result. Hard cases reach half of it
+    /// (`a_compiled_error_bound_is_less_than_five_times_the_worst_error`).
     pub fn error_bound(&self) -> Real {
         self.error
     }

@@ -65,11 +65,11 @@ pub struct Moments<'a> {
 }
 
 impl<const N: usize, const D: usize> Fif<N, D> {
-    /// The spread of cell `index` of any level, deeper than any pyramid too: every cell is the whole, shrunken
-    /// and sheared. Indices beyond the level's last count from 0 again.
+    /// The spread of cell `index` of any level, deeper than any pyramid too: every cell is the whole,
+    /// shrunken and sheared. Indices beyond the level's last count from 0 again.
     ///
-    /// Error: a unit (`cells_finer_than_a_pyramid_are_those_of_the_reference`). Cost: a step for each level, of
-    /// `2 D^2` products of 64 bits.
+    /// Error: a unit (`cells_finer_than_a_pyramid_are_those_of_the_reference`). Cost: a step for each level,
+    /// of `2 D^2` products of 64 bits.
     ///
     /// # Errors
     /// [`Error::NotDifferentiable`] and [`Error::OutOfRange`] as [`Moments::new`].

@@ -240,8 +240,8 @@ const fn level_at(maps: usize, level: u32) -> (usize, usize) {
     (offset, count)
 }
 
-/// Every cell above the finest level is narrowed to the hull of its parts: from the last to the first, so that
-/// the parts come before what they are parts of.
+/// Every cell above the finest level is narrowed to the hull of its parts: from the last to the first, so
+/// that the parts come before what they are parts of.
 #[inline(never)]
 fn tighten(cells: &mut [Cell], maps: usize) {
     // every node but the first is one of the parts `maps q + 1` to `maps q + maps` of a node `q`

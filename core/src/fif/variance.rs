@@ -1,5 +1,5 @@
-//! The variance of a function over its cells, and its covariance with the powers of the abscissa, by which the
-//! variance goes from a cell to its parts.
+//! The variance of a function over its cells, and its covariance with the powers of the abscissa, by which
+//! the variance goes from a cell to its parts.
 //!
 //! With `t` from 0 to 1 along a cell, `y(t)` over the cell `w` and the map `s y + p(t)` that makes the part
 //! `j w` (`p` the map's polynomial over the interval of `w`), all of it central, so that nothing cancels:

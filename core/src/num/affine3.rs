@@ -1,7 +1,7 @@
 //! Affine maps of space: what puts a thing, described in coordinates of its own, into a world.
 //!
-//! A map is `x -> A x + b`; entries have 48 fractional bits, so that one composed of many keeps what they say.
-//! Its inverse, which brings rays to the thing, is the adjugate over the determinant, both exact for the
+//! A map is `x -> A x + b`; entries have 48 fractional bits, so that one composed of many keeps what they
+//! say. Its inverse, which brings rays to the thing, is the adjugate over the determinant, both exact for the
 //! matrix rounded to 30 bits: `A^-1 = adj A / det A`.
 
 use super::formats::{Q30, Q48, Real, UQ63, Unit, Wide};

@@ -1,12 +1,13 @@
 //! The angle of a vector in the plane, in turns: texture coordinates round an axis.
 //!
-//! The smaller component over the larger one is the tangent `q` of the angle to the nearest half-axis, at most
-//! an eighth of a turn; that half-axis and the signs tell the rest. The arctangent is the Chebyshev series
+//! The smaller component over the larger one is the tangent `q` of the angle to the nearest half-axis, at
+//! most an eighth of a turn; that half-axis and the signs tell the rest. The arctangent is the Chebyshev
+//! series
 //!
 //! `atan q = 2 (s T_1(q) - s^3 T_3(q) / 3 + s^5 T_5(q) / 5 - ..)`, `s = sqrt(2) - 1`,
 //!
-//! up to `T_21`, within `2^-32` of a radian. Source: Fox, Parker, "Chebyshev Polynomials in Numerical Analysis",
-//! 1968, section 4.
+//! up to `T_21`, within `2^-32` of a radian. Source: Fox, Parker, "Chebyshev Polynomials in Numerical
+//! Analysis", 1968, section 4.
 
 use core::num::NonZeroU32;
 
@@ -32,8 +33,8 @@ const COEFFICIENTS: [i32; 11] = [
 
 /// The angle of `(x, y)`, words of one format, from the `x` axis towards the `y` axis; 0 for `(0, 0)`.
 ///
-/// Domain: all. Error: below `2^-30` of a turn (`the_angle_of_a_vector_is_within_two_to_the_minus_30`), none on
-/// the axes. Cost: 18 multiplications, the table of the reciprocal.
+/// Domain: all. Error: below `2^-30` of a turn (`the_angle_of_a_vector_is_within_two_to_the_minus_30`), none
+/// on the axes. Cost: 18 multiplications, the table of the reciprocal.
 ///
 /// ```
 /// use attractor::num::{Angle, Near, atan2};

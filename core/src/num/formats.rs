@@ -1,5 +1,5 @@
-//! The formats of numbers: the types that are handed over, and names for the raw integers that kernels compute
-//! with.
+//! The formats of numbers: the types that are handed over, and names for the raw integers that kernels
+//! compute with.
 //!
 //! A kernel works on plain words, since a shift or the upper word of a product then is one instruction. The
 //! word itself does not tell what it is worth. These names do, in signatures, fields, tables and constants,

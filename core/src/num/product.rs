@@ -114,8 +114,8 @@ pub(crate) fn product_shifted<const S: u32>(a: i32, b: i32, half: i32) -> i32 {
 /// `p + d v` for complex numbers: the product of `d = a + b i` and `v = x + y i` added to both parts of `p`.
 ///
 /// Domain: `|d| < 2^31`, `x >= -2^31 + 2^15`, `y > -2^31`; the sums modulo `2^64`. Cost: four
-/// multiplications that add, and a change of sign; on a Cortex-M0 16 multiplications instead of 20, and half the
-/// additions of four products.
+/// multiplications that add, and a change of sign; on a Cortex-M0 16 multiplications instead of 20, and half
+/// the additions of four products.
 #[inline(always)]
 pub(crate) fn complex_product_added(p: [i64; 2], d: [i32; 2], v: [i32; 2]) -> [i64; 2] {
     if cfg!(no_long_product) {
@@ -125,8 +125,8 @@ pub(crate) fn complex_product_added(p: [i64; 2], d: [i32; 2], v: [i32; 2]) -> [i
     }
 }
 
-/// `v / 2^S` rounded down, where that fits a word, by words: of a 64-bit shift, cut off to 32 bits, the compiler
-/// makes three instructions more wherever the result is multiplied.
+/// `v / 2^S` rounded down, where that fits a word, by words: of a 64-bit shift, cut off to 32 bits, the
+/// compiler makes three instructions more wherever the result is multiplied.
 ///
 /// Domain: `0 < S < 32`.
 #[inline(always)]
@@ -275,9 +275,9 @@ mod halves {
     }
 
     /// With signed lower halves, from `-2^15` up, sums of two products fit a word: `ah xl - bh yl`, because
-    /// `|ah| + |bh| <= sqrt(2) (2^15 + 1)`; `al xh - bl yh` and `bl xh + al yh`, which would reach `2^31` only
-    /// for `xh = -2^15`; `al xl - bl yl`; and `al yl + bl xl` from `-2^31 + 2^16` to `2^31`, when its sign is
-    /// changed.
+    /// `|ah| + |bh| <= sqrt(2) (2^15 + 1)`; `al xh - bl yh` and `bl xh + al yh`, which would reach `2^31`
+    /// only for `xh = -2^15`; `al xl - bl yl`; and `al yl + bl xl` from `-2^31 + 2^16` to `2^31`, when its
+    /// sign is changed.
     #[inline(always)]
     pub(super) fn complex_product_added([p, q]: [i64; 2], d: [i32; 2], v: [i32; 2]) -> [i64; 2] {
         let [[ah, al], [bh, bl]] = d.map(split_signed);

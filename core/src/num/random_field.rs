@@ -8,8 +8,8 @@
 //! The text adds bytes of `u` and of a rotated `v` and keeps ten bits: shifted copies of that correlate at
 //! 0.97, and its spectrum has peaks of 1,312 times its mean. Here the two parameters are one word of 64 bits,
 //! which a bijection mixes: no two points share a hash, and none is the mirror image of another. The mix is
-//! three multiplications by an odd number with the upper word added to the lower one between them, modulo 2; the
-//! seed goes through it first. Each half of the result chooses a number of the table of quantiles. (Two
+//! three multiplications by an odd number with the upper word added to the lower one between them, modulo 2;
+//! the seed goes through it first. Each half of the result chooses a number of the table of quantiles. (Two
 //! multiplications, the finalizer of MurmurHash3, leave correlations of 0.04 between neighbouring knots.)
 //!
 //! "Many totally different surfaces may be created using the same table by adding offsets to the computed

@@ -34,8 +34,8 @@ pub(crate) fn decay(x: Real) -> UQ30 {
     exp_minus(Real::from_bits(exponent as i32)).to_bits().unsigned_abs()
 }
 
-/// The offsets of all levels, when the variance falls by `decay` each. Level `k` is low by at most `2 k` units
-/// and high by at most one, beside what the root adds.
+/// The offsets of all levels, when the variance falls by `decay` each. Level `k` is low by at most `2 k`
+/// units and high by at most one, beside what the root adds.
 pub(crate) fn offsets<const LEVELS: usize>(offset: UQ28, decay: UQ30) -> [Q28; LEVELS] {
     let mut amplitude = u64::from(offset) << 30; // 58 fractional bits
     // 2^-H with 31 fractional bits
@@ -51,8 +51,8 @@ pub(crate) fn offsets<const LEVELS: usize>(offset: UQ28, decay: UQ30) -> [Q28; L
 mod tests {
     use super::*;
 
-    /// Offsets from 0 on; those of level `k` are `o 2^(-H k)` within `1 + 2 k` units of `2^-28` and what the root
-    /// adds.
+    /// Offsets from 0 on; those of level `k` are `o 2^(-H k)` within `1 + 2 k` units of `2^-28` and what the
+    /// root adds.
     #[test]
     fn offsets_fall_by_a_power_of_two_a_level() {
         let checked = [-1, 0, i32::MAX].map(|o| checked_offset(Unit::from_bits(o)).ok());

@@ -1,11 +1,11 @@
 //! Addresses in base `N`: which maps lead to a point of an attractor, and the parameter that they spell.
 //!
-//! `s = sum_i sigma_i / N^i`, `phi(s) = lim T_sigma1 ... T_sigman lambda`. Digits end with `0 0 0 ...` or with
-//! `N-1 N-1 ...`; a parameter `i / N^p` inside `(0, 1)` has both: `1/2` is `1 0 0 ...` and `0 1 1 ...` in base
-//! 2.
+//! `s = sum_i sigma_i / N^i`, `phi(s) = lim T_sigma1 ... T_sigman lambda`. Digits end with `0 0 0 ...` or
+//! with `N-1 N-1 ...`; a parameter `i / N^p` inside `(0, 1)` has both: `1/2` is `1 0 0 ...` and `0 1 1 ...`
+//! in base 2.
 //!
-//! Source: Tosan, Guerin, Baskurt, section 2.2, and 3.1 ("double binary development"). A surface has an address
-//! for each of its two parameters.
+//! Source: Tosan, Guerin, Baskurt, section 2.2, and 3.1 ("double binary development"). A surface has an
+//! address for each of its two parameters.
 
 use crate::Error;
 use crate::num::{Wide, ratio};

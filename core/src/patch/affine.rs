@@ -1,7 +1,8 @@
 //! A map of weights by all of them but the first, which is what is left of 1.
 //!
-//! `lambda_0 = 1 - sum_(j>0) lambda_j`, so that `(T lambda)_i = T_i0 + sum_(j>0) (T_ij - T_i0) lambda_j`: of `J^2`
-//! products `(J - 1)^2` are left. The same bits as [`Barycentric::image`] (`both_ways_give_the_same_weights`).
+//! `lambda_0 = 1 - sum_(j>0) lambda_j`, so that `(T lambda)_i = T_i0 + sum_(j>0) (T_ij - T_i0) lambda_j`: of
+//! `J^2` products `(J - 1)^2` are left. The same bits as [`Barycentric::image`]
+//! (`both_ways_give_the_same_weights`).
 //!
 //! Formats: differences have 28 fractional bits, what a row begins with 56.
 

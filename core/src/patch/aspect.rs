@@ -1,12 +1,12 @@
 //! What a curve looks like at its ends and its joints, from the eigenvalues of its maps.
 //!
 //! `L_i` is `T_i` on differences of points. Towards the end `c_0` the curve repeats itself under `L_0`: real
-//! eigenvalues draw it along a half-tangent, the eigenvector of the greater one; complex ones turn it in a spiral.
-//! At a joint the images of both ends meet: `L_0 u_1` and `L_1 u_0` are its half-tangents there.
+//! eigenvalues draw it along a half-tangent, the eigenvector of the greater one; complex ones turn it in a
+//! spiral. At a joint the images of both ends meet: `L_0 u_1` and `L_1 u_0` are its half-tangents there.
 //!
-//! For two maps of three control points: `L_i` is a matrix of two rows, and everything is a root of a quadratic
-//! equation. Being on one line, and on which side of a point, are the same for all control points that are
-//! not on one line themselves.
+//! For two maps of three control points: `L_i` is a matrix of two rows, and everything is a root of a
+//! quadratic equation. Being on one line, and on which side of a point, are the same for all control points
+//! that are not on one line themselves.
 //!
 //! Source: Tosan, Guerin, Baskurt, section 3.2 and figure 2. Formats: 28 fractional bits in 64.
 

@@ -3,13 +3,14 @@
 //! `(T lambda)_i = sum_j T_ij lambda_j` for points `lambda` of the barycentric space
 //! `B_J = {lambda : sum lambda_j = 1}`, and `(P T)_k = sum_j p_j T_jk` for control points `P`.
 //!
-//! Source: E. Tosan, E. Guerin, A. Baskurt, "Design and Reconstruction of Fractal Surfaces", 2002, section 2.3.
-//! Formats: entries and weights have 28 fractional bits; a row is a sum of 64 bits. Weights that add up to 1 have an
-//! image that does: the sums of its last 1, 2, 3 ... rows are rounded to nearest, and weights are what these differ by.
-//! So each weight is less than a unit off, what is off adds up to 0 and is `J - 1` units in sum at most, and the maps of
-//! the digits before contract it: a weight at `sigma_1 ... sigma_n` is off by at most `(J - 1) / 2` units times
-//! `sum_(k < n) |T_sigma_1 ... T_sigma_k|`, which stays bounded however many digits there are. A level stays level, and
-//! what is 0 in both stays 0: a side of a patch knows its own control points only.
+//! Source: E. Tosan, E. Guerin, A. Baskurt, "Design and Reconstruction of Fractal Surfaces", 2002, section
+//! 2.3. Formats: entries and weights have 28 fractional bits; a row is a sum of 64 bits. Weights that add up
+//! to 1 have an image that does: the sums of its last 1, 2, 3 ... rows are rounded to nearest, and weights
+//! are what these differ by. So each weight is less than a unit off, what is off adds up to 0 and is `J - 1`
+//! units in sum at most, and the maps of the digits before contract it: a weight at `sigma_1 ... sigma_n` is
+//! off by at most `(J - 1) / 2` units times `sum_(k < n) |T_sigma_1 ... T_sigma_k|`, which stays bounded
+//! however many digits there are. A level stays level, and what is 0 in both stays 0: a side of a patch knows
+//! its own control points only.
 
 use crate::Error;
 use crate::num::formats::{Q24, Q28};
@@ -69,8 +70,9 @@ impl<const J: usize> Barycentric<J> {
         (index < J).then(|| self.rows.map(|row| Near::from_bits(row.get(index).copied().unwrap_or(0))))
     }
 
-    /// A change of coordinates: the control points `P = Q R` of the surface with the control points `Q`, whose maps are
-    /// `R T_ij R^-1`, for the maps `T_ij`; saturated. `R e_kl = r_kl` are the corners of the other system.
+    /// A change of coordinates: the control points `P = Q R` of the surface with the control points `Q`,
+    /// whose maps are `R T_ij R^-1`, for the maps `T_ij`; saturated. `R e_kl = r_kl` are the corners of the
+    /// other system.
     ///
     /// `F = P phi = Q (R phi)`: a patch whose corners are not control points is a patch whose corners are
     /// (Tosan, Guerin, Baskurt, section 4.2), and no matrix has to be inverted.
@@ -119,8 +121,8 @@ impl<const J: usize> Barycentric<J> {
     }
 }
 
-/// Makes a column that rounding left off by up to `J` units add up to 1: its entry of greatest magnitude takes it
-/// up.
+/// Makes a column that rounding left off by up to `J` units add up to 1: its entry of greatest magnitude
+/// takes it up.
 ///
 /// # Errors
 /// [`Error::NotBarycentric`] for a column with another sum.
@@ -149,7 +151,8 @@ pub(super) fn completed<const J: usize>(mut weights: [Q28; J]) -> [Q28; J] {
 
 /// `P lambda`: what control points make of weights, rounded once and saturated.
 ///
-/// Domain: the sum of the weights' magnitudes below 15, which [`super::Contraction`] proves: a sum below `2^63`.
+/// Domain: the sum of the weights' magnitudes below 15, which [`super::Contraction`] proves: a sum below
+/// `2^63`.
 #[inline(always)]
 pub(super) fn mixed<const J: usize>(points: &[Q24; J], weights: &[Q28; J]) -> Q24 {
     let mut sum = HALF;
@@ -213,8 +216,8 @@ mod tests {
         sums
     }
 
-    /// The sums of the last rows of an image are the exact ones, rounded to nearest; so is each control point of a
-    /// part.
+    /// The sums of the last rows of an image are the exact ones, rounded to nearest; so is each control point
+    /// of a part.
     #[test]
     fn sums_of_rows_are_rounded_once() {
         let (mut word, mut tried, mut most) = (words(7), 0, 0);

@@ -1,8 +1,8 @@
 //! Curves that have a name: Bezier, B-spline, Takagi, and the six types of figure 2.
 //!
-//! Bezier: de Casteljau's algorithm at 1/2; columns are `binomial(k, i) / 2^k`. B-spline: a uniform one of degree
-//! `M - 1` between two knots; its control polygon is refined by `binomial(M, k) / 2^(M-1)` (J. M. Lane,
-//! R. F. Riesenfeld, 1980). Takagi: `f(x) = sum_n d(2^n x) / 2^n`, `d` the distance to the next integer
+//! Bezier: de Casteljau's algorithm at 1/2; columns are `binomial(k, i) / 2^k`. B-spline: a uniform one of
+//! degree `M - 1` between two knots; its control polygon is refined by `binomial(M, k) / 2^(M-1)` (J. M.
+//! Lane, R. F. Riesenfeld, 1980). Takagi: `f(x) = sum_n d(2^n x) / 2^n`, `d` the distance to the next integer
 //! (T. Takagi, 1903), over the unit interval through `(0,0) (1/2,1/2) (1,0)`.
 
 use super::barycentric::{Barycentric, unit};
@@ -86,7 +86,8 @@ pub fn b_spline<const M: usize>() -> Result<ProjectedCurve<2, M>, Error> {
     ProjectedCurve::with_ends([left, right], [start, end])
 }
 
-/// Takagi's curve over three control points: both ends and the point above the middle, twice as high as there.
+/// Takagi's curve over three control points: both ends and the point above the middle, twice as high as
+/// there.
 ///
 /// The control points `(0, 0), (1/2, 1/2), (1, 0)` give the graph of Takagi's function.
 ///

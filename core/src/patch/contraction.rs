@@ -5,22 +5,24 @@
 //! `max_ij |T e_i - T e_j|_1 / 2` (R. L. Dobrushin, 1956, "ergodic coefficient"), a finite maximum that
 //! integers decide. The text has no such test: its words "contractive operator" and "attractor" need one.
 //!
-//! A word `w` of digits stands for the product `T_w`. Every address begins with a word of a finite list: from the
-//! empty word on, each is lengthened by all digits until its product has a norm of at most `rho < 1`. Where that
-//! comes to an end, with no word longer than `d`,
+//! A word `w` of digits stands for the product `T_w`. Every address begins with a word of a finite list: from
+//! the empty word on, each is lengthened by all digits until its product has a norm of at most `rho < 1`.
+//! Where that comes to an end, with no word longer than `d`,
 //!
 //! - `T_s1 T_s2 ...` converges, at least by `rho` every `d` levels;
-//! - every point `phi` has `|phi - c|_1 <= r`, `r = max_w |T_w c - c|_1 / (1 - |T_w|)`: the points no further from `c` are
-//!   mapped among themselves by every word of the list, whose norm is `|T_w|`. So `|phi|_1` is at most `|c|_1 + r`, and
-//!   `max_w |T_w c|_1 + rho r`. Any `c` will do: the mean of the ends or the corners tells most;
+//! - every point `phi` has `|phi - c|_1 <= r`, `r = max_w |T_w c - c|_1 / (1 - |T_w|)`: the points no further
+//!   from `c` are mapped among themselves by every word of the list, whose norm is `|T_w|`. So `|phi|_1` is
+//!   at most `|c|_1 + r`, and `max_w |T_w c|_1 + rho r`. Any `c` will do: the mean of the ends or the corners
+//!   tells most;
 //! - `k d` levels leave an error of at most `rho^k r` times the difference of the greatest and the least
 //!   control point.
 //!
-//! Words of unequal length prove with hundreds of products what all words of one length do not with thousands: in
-//! a rough surface a few corners contract slowly. So with `r` too: a word that moves `c` little may have a norm near to
-//! 1, and words are lengthened until the `r` of each is what is asked for.
+//! Words of unequal length prove with hundreds of products what all words of one length do not with
+//! thousands: in a rough surface a few corners contract slowly. So with `r` too: a word that moves `c` little
+//! may have a norm near to 1, and words are lengthened until the `r` of each is what is asked for.
 //!
-//! Formats: 28 fractional bits in 64; norms and radii are rounded up, with what the rounding of products adds.
+//! Formats: 28 fractional bits in 64; norms and radii are rounded up, with what the rounding of products
+//! adds.
 
 use super::barycentric::{Barycentric, ONE, wide};
 use crate::Error;
@@ -31,9 +33,9 @@ use crate::num::{Near, Real, Wide, product, ratio};
 const DEEPEST: usize = 12;
 const MOST_PRODUCTS: usize = 4096;
 
-/// The norms and the radii that are tried, 28 fractional bits, norms with what rounding upwards adds: small ones tell
-/// most about where points are. A norm nearer to 1 than the last would take millions of levels; of the radii the last
-/// is what the formats bear, as `|c|_1` is 1 or little more.
+/// The norms and the radii that are tried, 28 fractional bits, norms with what rounding upwards adds: small
+/// ones tell most about where points are. A norm nearer to 1 than the last would take millions of levels; of
+/// the radii the last is what the formats bear, as `|c|_1` is 1 or little more.
 const ATTEMPTS: [(i64, i64); 4] = [
     ((1 << 26) + (1 << 15), 32 << 28),
     ((1 << 27) + (1 << 15), 32 << 28),
@@ -41,10 +43,10 @@ const ATTEMPTS: [(i64, i64); 4] = [
     ((1 << 28) - (1 << 18), 27 << 27),
 ];
 
-/// What an entry of a product is wrong by at most. Each factor adds half a unit, which the factors behind it make
-/// `|T_v|_1` times as much, and that is at most [`Contraction::reach`] for any word `v`: 12 factors stay within this
-/// bound if `reach` is at most a sixth of it, which is checked in the end. (Of words of `k` digits this follows from
-/// what is known of shorter ones.)
+/// What an entry of a product is wrong by at most. Each factor adds half a unit, which the factors behind it
+/// make `|T_v|_1` times as much, and that is at most [`Contraction::reach`] for any word `v`: 12 factors stay
+/// within this bound if `reach` is at most a sixth of it, which is checked in the end. (Of words of `k`
+/// digits this follows from what is known of shorter ones.)
 const ERROR: i64 = 1 << 10;
 const MOST_REACH: i64 = (2 * ERROR / DEEPEST as i64) << 28;
 
@@ -153,8 +155,8 @@ fn radius(displacement: i64, norm: i64) -> i64 {
 }
 
 impl Words {
-    /// Words whose products have a norm and a radius of at most so much, depth first; none where they are too many or
-    /// too long, or where a product leaves the format.
+    /// Words whose products have a norm and a radius of at most so much, depth first; none where they are too
+    /// many or too long, or where a product leaves the format.
     fn of<const J: usize>(
         maps: &[Barycentric<J>],
         (c, size): (&[Near; J], i64),
@@ -237,7 +239,8 @@ impl Contraction {
         Self { depth: words.depth as u32, norm: words.norm, radius, sum, reach: sum.saturating_add(between) }
     }
 
-    /// The proof for the tensor product of two systems: `x (x) y - x' (x) y' = (x - x') (x) y + x' (x) (y - y')`.
+    /// The proof for the tensor product of two systems:
+    /// `x (x) y - x' (x) y' = (x - x') (x) y + x' (x) (y - y')`.
     ///
     /// # Errors
     /// As [`Contraction::prove`].
@@ -293,8 +296,8 @@ impl Contraction {
         Wide::from_bits(i64::try_from(most).unwrap_or(i64::MAX).saturating_mul(1 << 24))
     }
 
-    /// How far points of the part with these control points can be from the mean of its corners, 24 fractional
-    /// bits, rounded up: `r / 2` times the difference of the greatest and the least.
+    /// How far points of the part with these control points can be from the mean of its corners, 24
+    /// fractional bits, rounded up: `r / 2` times the difference of the greatest and the least.
     #[inline(always)]
     pub(super) fn half_width(&self, spread: u32) -> u32 {
         // radius < 2^33: a quarter of it times 2^32 fits

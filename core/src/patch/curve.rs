@@ -4,8 +4,8 @@
 //! `T_(i-1) c_1 = T_i c_0`. The `M` coordinates of `phi` are the blending functions of the control points
 //! `p_0 .. p_(M-1)`; de Casteljau's matrices give Bezier curves.
 //!
-//! A parameter `i / N^p` takes `p` products, from the *last* digit to the first, beginning with the end `c_0`:
-//! nothing is cut off, and the cost of `phi` does not depend on the dimension of the points.
+//! A parameter `i / N^p` takes `p` products, from the *last* digit to the first, beginning with the end
+//! `c_0`: nothing is cut off, and the cost of `phi` does not depend on the dimension of the points.
 //!
 //! Source: Tosan, Guerin, Baskurt, sections 2 and 3; H. Prautzsch, C. A. Micchelli, "Computing curves
 //! invariant under halving", 1987. Formats: matrices and weights 28 fractional bits.
@@ -55,8 +55,9 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
         Self::between(maps, exact, 4 * M as i64)
     }
 
-    /// The curve through a grid of `(M - 1) N + 1` points of the barycentric space: `T_i e_k = q_((M-1) i + k)`.
-    /// Its parts have their ends in common, so that it joins whatever the points are, but for its own two ends.
+    /// The curve through a grid of `(M - 1) N + 1` points of the barycentric space:
+    /// `T_i e_k = q_((M-1) i + k)`. Its parts have their ends in common, so that it joins whatever the points
+    /// are, but for its own two ends.
     ///
     /// # Errors
     /// As [`ProjectedCurve::new`], [`Error::LengthMismatch`] for another number of points, and those of
@@ -112,9 +113,9 @@ impl<const N: usize, const M: usize> ProjectedCurve<N, M> {
 
     /// `phi` at an address: how much of each control point. Both addresses of a joint give the same bits.
     ///
-    /// They add up to 1 exactly. Error: below `(M - 1) / 2` units of `2^-28` a digit, times how much the maps before
-    /// it contract (`weights_are_within_two_units_a_digit`); none where the products need
-    /// no more than 28 fractional bits, as those of a parabola up to 14 binary digits
+    /// They add up to 1 exactly. Error: below `(M - 1) / 2` units of `2^-28` a digit, times how much the maps
+    /// before it contract (`weights_are_within_two_units_a_digit`); none where the products need no more than
+    /// 28 fractional bits, as those of a parabola up to 14 binary digits
     /// (`a_parabola_and_takagis_curve_are_exact`).
     pub fn weights(&self, address: Address<N>) -> [Near; M] {
         self.weights_bits(address).map(Near::from_bits)

@@ -2,13 +2,15 @@
 //!
 //! `phi(s, t) = lim T_(s1,t1) ... T_(sn,tn) lambda` over a grid of `M x M` control points, `M = m + 1`. The
 //! patch is given by a grid of `(m N + 1)^2` points of the barycentric space, the columns of its maps:
-//! `T_ij e_kl = r_(m i + k, m j + l)`. Neighbouring maps have columns in common, so that any grid joins inside; on
-//! its boundary it has to be the embedding of one curve along `s` on both sides, and of one along `t`:
+//! `T_ij e_kl = r_(m i + k, m j + l)`. Neighbouring maps have columns in common, so that any grid joins
+//! inside; on its boundary it has to be the embedding of one curve along `s` on both sides, and of one along
+//! `t`:
 //!
 //! `r_(k, 0) = q u_k`, `r_(k, mN) = q' u_k`, `r_(0, k) = q v_k`, `r_(mN, k) = q' v_k`.
 //!
-//! Then both sides of every joint are the image of the same curve, and `phi` is continuous. Corners are fixed:
-//! `r_(0,0) = e_00` and so on; a change of coordinates `R e_kl = r_kl` leads there from any other choice.
+//! Then both sides of every joint are the image of the same curve, and `phi` is continuous. Corners are
+//! fixed: `r_(0,0) = e_00` and so on; a change of coordinates `R e_kl = r_kl` leads there from any other
+//! choice.
 //!
 //! Source: Tosan, Guerin, Baskurt, sections 4.1, 4.2 and 5. Formats: 28 fractional bits, a row rounded once.
 
@@ -142,13 +144,13 @@ impl<const N: usize, const M: usize, const J: usize> Patch<N, M, J> {
         self.maps.get(i)?.get(j)
     }
 
-    /// `phi` at `s` and `t`. All addresses of a place give the same bits, and so do both patches that have a side
-    /// in common. They add up to 1 exactly.
+    /// `phi` at `s` and `t`. All addresses of a place give the same bits, and so do both patches that have a
+    /// side in common. They add up to 1 exactly.
     ///
     /// Error: below 2 units of `2^-28` a digit (`a_patch_is_within_two_units_a_digit`).
     ///
-    /// Cost: of the standard grid 28 products a digit (the kernel row `patch general` counts a point of 12 digits), of
-    /// other grids `J (J - 1)`.
+    /// Cost: of the standard grid 28 products a digit (the kernel row `patch general` counts a point of 12
+    /// digits), of other grids `J (J - 1)`.
     pub fn weights(&self, at: [Address<N>; 2]) -> [Near; J] {
         self.weights_bits(&Pair::of(at)).map(Near::from_bits)
     }

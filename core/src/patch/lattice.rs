@@ -1,17 +1,18 @@
 //! A refinable lattice: heights on a grid, and one stationary mask that makes a grid of half the step of it.
 //!
-//! `h'(x) = sum_j m(x - 2 j) h(j)`, `x` and `j` pairs of whole numbers, `m` a mask of 5 x 5 entries. The entries of
-//! each of its four classes (both indices even, the first, the second, none) add up to 1, so that a level
-//! stays level: 25 - 4 = 21 numbers. The surface is what the grids tend to. The cubic mask
-//! `(1 4 6 4 1) (x) (1 4 6 4 1) / 64` gives the bicubic B-spline; others give rougher surfaces with as few numbers.
+//! `h'(x) = sum_j m(x - 2 j) h(j)`, `x` and `j` pairs of whole numbers, `m` a mask of 5 x 5 entries. The
+//! entries of each of its four classes (both indices even, the first, the second, none) add up to 1, so that
+//! a level stays level: 25 - 4 = 21 numbers. The surface is what the grids tend to. The cubic mask
+//! `(1 4 6 4 1) (x) (1 4 6 4 1) / 64` gives the bicubic B-spline; others give rougher surfaces with as few
+//! numbers.
 //!
-//! A cell between four heights knows 4 x 4 of them, and its quarters are cells again: four maps `T_ij` of 16 control
-//! heights, `T_ij[(a,b),(k,l)] = m[i + 3 + k - 2 a][j + 3 + l - 2 b]`, a projected system like a patch. Its ends are
-//! not control points: `c_00` is the limit stencil, the eigenvector of `T_00` for 1.
+//! A cell between four heights knows 4 x 4 of them, and its quarters are cells again: four maps `T_ij` of 16
+//! control heights, `T_ij[(a,b),(k,l)] = m[i + 3 + k - 2 a][j + 3 + l - 2 b]`, a projected system like a
+//! patch. Its ends are not control points: `c_00` is the limit stencil, the eigenvector of `T_00` for 1.
 //!
-//! Source: N. Dyn, D. Levin, "Subdivision schemes in geometric modelling", 2002, for the stationary scheme; it is a
-//! patch of Tosan, Guerin, Baskurt (section 4.1) whose boundary is not a control point's. Formats: 28 fractional
-//! bits, a row rounded once.
+//! Source: N. Dyn, D. Levin, "Subdivision schemes in geometric modelling", 2002, for the stationary scheme;
+//! it is a patch of Tosan, Guerin, Baskurt (section 4.1) whose boundary is not a control point's. Formats: 28
+//! fractional bits, a row rounded once.
 
 use super::address::{Address, Pair};
 use super::barycentric::{Barycentric, ONE, mixed, wide};

@@ -1,11 +1,11 @@
 //! Steps through a lattice: the weights of 4 x 4 heights from those of a part's.
 //!
-//! `lambda'(a, b) = sum_kl m(i + 3 + k - 2 a, j + 3 + l - 2 b) lambda(k, l)`: where the digit is 0 the four `a` meet 2, 4, 3
-//! and 1 of the mask's rows, where it is 1 they meet 1, 3, 4 and 2: 100 products of both axes, of which the weight with
-//! most, 16, is what the others leave of 1.
+//! `lambda'(a, b) = sum_kl m(i + 3 + k - 2 a, j + 3 + l - 2 b) lambda(k, l)`: where the digit is 0 the four
+//! `a` meet 2, 4, 3 and 1 of the mask's rows, where it is 1 they meet 1, 3, 4 and 2: 100 products of both
+//! axes, of which the weight with most, 16, is what the others leave of 1.
 //!
-//! As in [`super::barycentric`] the sums of the last weights are rounded to nearest, and weights are what they differ by
-//! (`a_step_is_the_map_of_its_part`).
+//! As in [`super::barycentric`] the sums of the last weights are rounded to nearest, and weights are what
+//! they differ by (`a_step_is_the_map_of_its_part`).
 
 use core::cell::Cell;
 use core::sync::atomic::{Ordering, compiler_fence};
@@ -18,8 +18,8 @@ use crate::num::product;
 type Entries = [[Q28; 5]; 5];
 pub(super) type Square = [[Q28; 4]; 4];
 
-/// Numbers that are read again and again: a sum has up to 12 entries and 12 weights, of which a compiler that may keep
-/// them loads all at once and puts most of them back to memory, for want of registers.
+/// Numbers that are read again and again: a sum has up to 12 entries and 12 weights, of which a compiler that
+/// may keep them loads all at once and puts most of them back to memory, for want of registers.
 type Kept<const N: usize> = [[Cell<Q28>; N]; N];
 
 fn kept<const N: usize>(all: &[[Q28; N]; N]) -> Kept<N> {

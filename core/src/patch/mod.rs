@@ -3,8 +3,9 @@
 #![doc = include_str!("../../docs/patch.md")]
 //!
 //! `F(s) = P phi(s)`: control points `P`, and the attractor `phi` of matrices whose columns add up to 1, the
-//! projected iterated function system of E. Tosan, E. Guerin and A. Baskurt, "Design and Reconstruction of Fractal
-//! Surfaces", 2002. Bezier curves and B-splines are cases of it, and so are Takagi's curve and rough terrain.
+//! projected iterated function system of E. Tosan, E. Guerin and A. Baskurt, "Design and Reconstruction of
+//! Fractal Surfaces", 2002. Bezier curves and B-splines are cases of it, and so are Takagi's curve and rough
+//! terrain.
 //!
 //! ```
 //! use attractor::num::Real;

@@ -1,8 +1,9 @@
-//! What refines the control heights of a cell: the seam between surfaces by control points and what shows them.
+//! What refines the control heights of a cell: the seam between surfaces by control points and what shows
+//! them.
 //!
-//! A cell is a surface `z = P phi(s, t)` over its square. It has `N x N` parts, which are cells again: that of
-//! the digits `(i, j)` has the control heights `P T_ij`. All that a ray needs to know follows from them: rigorous
-//! bounds, heights of the corners, the mean normal.
+//! A cell is a surface `z = P phi(s, t)` over its square. It has `N x N` parts, which are cells again: that
+//! of the digits `(i, j)` has the control heights `P T_ij`. All that a ray needs to know follows from them:
+//! rigorous bounds, heights of the corners, the mean normal.
 //!
 //! Heights have 24 fractional bits; those of a cell are within what [`Contraction`] allows.
 
@@ -49,6 +50,6 @@ pub trait Scheme<const J: usize> {
 /// The corners of a cell: whether at the end of `s` and of `t`.
 pub(crate) const CORNERS: [[bool; 2]; 4] = [[false, false], [false, true], [true, false], [true, true]];
 
-/// What rounding adds to bounds: control heights of a part are off by half a unit, which later maps make 8 times
-/// as much at most, in up to 31 levels.
+/// What rounding adds to bounds: control heights of a part are off by half a unit, which later maps make 8
+/// times as much at most, in up to 31 levels.
 const ROUNDING: Q24 = 128;

@@ -1,7 +1,7 @@
 //! A sheet: a square of cells over `[0, 1] x [0, 1]` that share one scheme, and their heights.
 //!
-//! Cell `(i, j)` of `g x g` begins at the control height `(i m, j m)`; neighbours have a side of control heights in
-//! common, or overlap. One patch is a sheet of one cell.
+//! Cell `(i, j)` of `g x g` begins at the control height `(i m, j m)`; neighbours have a side of control
+//! heights in common, or overlap. One patch is a sheet of one cell.
 //!
 //! Source: as [`super::grid`] and [`super::lattice`]; that patches share one `T` is left to the reader there.
 
@@ -47,8 +47,8 @@ impl<'a, S: Scheme<J>, const J: usize> Sheet<'a, S, J> {
     /// The sheet of `cells x cells` cells with these heights, row after row along `s`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no cell or more than 1,024 along a side, and for a height that refining might
-    /// take out of its format; [`Error::LengthMismatch`] for another number of heights.
+    /// [`Error::OutOfRange`] for no cell or more than 1,024 along a side, and for a height that refining
+    /// might take out of its format; [`Error::LengthMismatch`] for another number of heights.
     pub fn new(scheme: &'a S, heights: &'a [Real], cells: u32) -> Result<Self, Error> {
         if cells == 0 || cells > MOST_CELLS {
             let number = |n: u32| Wide::saturating_from_num(n);
@@ -116,9 +116,9 @@ impl<'a, S: Scheme<J>, const J: usize> Sheet<'a, S, J> {
         Real::from_bits(self.scheme.at(&self.cell(cell), [s, t], levels))
     }
 
-    /// The mean normal `(-mean h_x, -mean h_y, 1)` over the part of this size at `index`, from the heights of its
-    /// corners, components saturated at ±64. The finer the part, the nearer the surface's own where it has
-    /// one: a rough surface has none, and its mean normals do not settle.
+    /// The mean normal `(-mean h_x, -mean h_y, 1)` over the part of this size at `index`, from the heights of
+    /// its corners, components saturated at ±64. The finer the part, the nearer the surface's own where it
+    /// has one: a rough surface has none, and its mean normals do not settle.
     pub fn mean_normal(&self, index: [u32; 2], levels: u32) -> Vec3 {
         let [i, j] = index;
         let next = [i.saturating_add(1), j.saturating_add(1)];
@@ -129,17 +129,18 @@ impl<'a, S: Scheme<J>, const J: usize> Sheet<'a, S, J> {
     }
 }
 
-/// Of a place where a normal is looked for: so many parts along a side at most, so that what heights are rounded by
-/// changes slopes by less than `2^-8`.
+/// Of a place where a normal is looked for: so many parts along a side at most, so that what heights are
+/// rounded by changes slopes by less than `2^-8`.
 const FINE: u64 = 1 << 14;
 
 impl<S: Scheme<J>, const J: usize> Sheet<'_, S, J> {
-    /// The normal `(-h_x, -h_y, 1)` at `index / (cells N^levels)`, components saturated at ±64; none where there is none.
+    /// The normal `(-h_x, -h_y, 1)` at `index / (cells N^levels)`, components saturated at ±64; none where
+    /// there is none.
     ///
-    /// A surface has a normal where a plane touches it: here, where the eight neighbours, as far away as parts of the
-    /// two finest levels up to `2^14` along a side are wide, are off a plane by at most `tolerance` times as much. A
-    /// rough surface is off by more the nearer they are. Smooth ones need about `2^-6`, and more where they are curved
-    /// much.
+    /// A surface has a normal where a plane touches it: here, where the eight neighbours, as far away as
+    /// parts of the two finest levels up to `2^14` along a side are wide, are off a plane by at most
+    /// `tolerance` times as much. A rough surface is off by more the nearer they are. Smooth ones need about
+    /// `2^-6`, and more where they are curved much.
     ///
     /// Result: none for a place outside, or with fewer than two finer levels.
     pub fn normal(&self, index: [u32; 2], levels: u32, tolerance: Real) -> Option<Vec3> {

@@ -2,10 +2,10 @@
 //!
 //! Of its 5 x 5 points those with even coordinates are the control points, `r_(2i,2j) = e_ij`. The others:
 //!
-//! - boundary points `u_1, u_3, v_1, v_3`, with 2 free numbers each: `r_(k,0)`, `r_(k,4)` on both sides, `r_(0,k)`,
-//!   `r_(4,k)`;
-//! - joining points `r_12, r_32, r_21, r_23`, with 8 each, which make the curves through the middle: `f` along
-//!   `s` at `t = 1/2` by the first two, `g` along `t` at `s = 1/2`;
+//! - boundary points `u_1, u_3, v_1, v_3`, with 2 free numbers each: `r_(k,0)`, `r_(k,4)` on both sides,
+//!   `r_(0,k)`, `r_(4,k)`;
+//! - joining points `r_12, r_32, r_21, r_23`, with 8 each, which make the curves through the middle: `f`
+//!   along `s` at `t = 1/2` by the first two, `g` along `t` at `s = 1/2`;
 //! - diagonal points `r_11, r_13, r_31, r_33`, with 8 each: `d(s) = (s, s)`, `e(s) = (s, 1 - s)`.
 //!
 //! `2 4 + 8 4 + 8 4 = 72`. Source: Tosan, Guerin, Baskurt, section 4.2.

@@ -1,9 +1,9 @@
 //! Steps through the standard grid: `T_ij lambda` where most of `T_ij` is known.
 //!
-//! Every part of the standard grid has one corner of the patch; seen from there all four are alike. Of the 9 columns of
-//! its map 4 are corners of the barycentric space, the control points that it has; two are on the sides of the
-//! patch that meet there, with 3 entries each; 3 are full: 33 products, of which the 5 of the first weight are what
-//! the others leave.
+//! Every part of the standard grid has one corner of the patch; seen from there all four are alike. Of the 9
+//! columns of its map 4 are corners of the barycentric space, the control points that it has; two are on the
+//! sides of the patch that meet there, with 3 entries each; 3 are full: 33 products, of which the 5 of the
+//! first weight are what the others leave.
 //!
 //! Source: Tosan, Guerin, Baskurt, section 4.2. The same bits as [`Barycentric::image`]
 //! (`a_known_map_gives_the_same_weights`).
@@ -76,7 +76,8 @@ fn step<const A: usize, const B: usize, const J: usize>(map: &Barycentric<J>, we
     weights[0] = if A == 0 && B == 0 { first.wrapping_add(from[0]) } else { first };
 }
 
-/// The columns that are not corners: three full ones, that of the side along `s` and that of the side along `t`.
+/// The columns that are not corners: three full ones, that of the side along `s` and that of the side along
+/// `t`.
 const fn multiplied(a: usize, b: usize) -> [usize; 5] {
     let (corner_s, corner_t) = (2 * a, 2 * b);
     [4, 3 + 2 - corner_t, 3 * (2 - corner_s) + 1, 3 + corner_t, 3 * corner_s + 1]

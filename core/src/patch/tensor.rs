@@ -1,7 +1,7 @@
 //! Tensor products of two curves: `phi(s, t) = phi_u(s) (x) phi_v(t)`, `T_ij = T_i (x) T_j`.
 //!
-//! Source: Tosan, Guerin, Baskurt, section 4, first paragraph. Formats: as [`super::curve`]; a height is rounded
-//! once along `t` for each row of control points, and once along `s`.
+//! Source: Tosan, Guerin, Baskurt, section 4, first paragraph. Formats: as [`super::curve`]; a height is
+//! rounded once along `t` for each row of control points, and once along `s`.
 
 use super::address::Address;
 use super::barycentric::mixed;
@@ -40,8 +40,8 @@ impl<const N: usize, const M: usize, const L: usize, const J: usize> Tensor<N, M
     /// The height at `s` and `t`, saturated. Error: below 2 units of `2^-28` a digit times the sum of the
     /// heights' magnitudes, and 2 units of `2^-24` (`a_product_is_within_two_units_a_digit`).
     ///
-    /// Cost: `(M - 1)^2 + (L - 1)^2` products a digit, and `M L + M` (the kernel rows `patch tensor 3 x 3` and
-    /// `patch tensor 4 x 4` count points of 12 digits).
+    /// Cost: `(M - 1)^2 + (L - 1)^2` products a digit, and `M L + M` (the kernel rows `patch tensor 3 x 3`
+    /// and `patch tensor 4 x 4` count points of 12 digits).
     pub fn height(&self, heights: &[Real; J], [s, t]: [Address<N>; 2]) -> Real {
         let (along_s, along_t) = (self.u.weights_bits(s), self.v.weights_bits(t));
         Real::from_bits(self.mixed(&heights.map(Real::to_bits), &along_s, &along_t))

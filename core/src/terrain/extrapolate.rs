@@ -2,9 +2,9 @@
 //!
 //! "One determines the location of a new far endpoint such that the current far endpoint is a valid midpoint
 //! of the extended curve": along each line of knots across the side the new height is
-//! `2 (h_m - o_-1 R) - h`, `h_m` that of the rim, `h` that of its inner neighbour, `R` the number of the rim's
-//! knot and `o_-1 = o 2^H` the offset of the level above the first. A grid with the new knots has the old
-//! surface as a part, bit for bit.
+//! `2 (h_m - o_-1 R) - h`, `h_m` that of the rim, `h` that of its inner neighbour, `R` the number of the
+//! rim's knot and `o_-1 = o 2^H` the offset of the level above the first. A grid with the new knots has the
+//! old surface as a part, bit for bit.
 //!
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figure 12.
 
@@ -30,8 +30,8 @@ pub enum Side {
 }
 
 impl<R: Randomness> PlaneToLine<'_, R> {
-    /// Writes the heights of a row of knots beyond a side: as many as that side has, from west to east or from
-    /// south to north.
+    /// Writes the heights of a row of knots beyond a side: as many as that side has, from west to east or
+    /// from south to north.
     ///
     /// Error: half a unit and that of the offset above, together below 2 units
     /// (`an_extrapolated_rim_is_a_row_of_midpoints`).

@@ -4,9 +4,9 @@
 //!
 //! A [`PlaneToLine`] function knows the height of any point of its lattice on demand; [`Rows`] streams the
 //! lattice, each row from those before. Random numbers are functions of the point ([`Randomness`]), so that
-//! pieces fit together whatever is drawn first, also across [seams](Seam) between patches that lie apart. What
-//! spans the finest cells is an [`InnerGeometry`]. [`Triangles`] are as fine as an [`EdgeLevel`] wants each
-//! edge, without cracks. [`crate::trace::Terrain`] puts a surface under a ray caster.
+//! pieces fit together whatever is drawn first, also across [seams](Seam) between patches that lie apart.
+//! What spans the finest cells is an [`InnerGeometry`]. [`Triangles`] are as fine as an [`EdgeLevel`] wants
+//! each edge, without cracks. [`crate::trace::Terrain`] puts a surface under a ray caster.
 //!
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980.
 //!

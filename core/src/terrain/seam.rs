@@ -1,10 +1,10 @@
 //! Seams: edges of surfaces that lie apart in the parameters and together in space.
 //!
 //! Patches in one parametric range share their edges as they are. To close a strip to a ring, or to sew six
-//! squares to a cube, both edges of a seam must get the same random numbers: "a seam function needs only to be
-//! an offset and a procedure for accessing the random number table" (L. C. Carpenter, "Computer rendering of
-//! fractal curves and surfaces", 1980). Here the offset is the number of a random field of the seam's own, and
-//! the procedure the distance from where the seam begins: the edges may run in any direction.
+//! squares to a cube, both edges of a seam must get the same random numbers: "a seam function needs only to
+//! be an offset and a procedure for accessing the random number table" (L. C. Carpenter, "Computer rendering
+//! of fractal curves and surfaces", 1980). Here the offset is the number of a random field of the seam's own,
+//! and the procedure the distance from where the seam begins: the edges may run in any direction.
 //!
 //! Where the heights of the knots along both edges agree as well, so do all heights between, bit for bit.
 

@@ -1,11 +1,12 @@
 //! A cell as triangles, with as many points on each edge as the edge asks for.
 //!
 //! Inside, the cell is a grid as fine as the finest of its four edges; the strip between it and an edge is
-//! sewn from both rows of points in turn. All points are points of the lattice. A cell on the other side of an
-//! edge has the same points on it, so that each edge of a triangle is one of another, bit for bit, the other
-//! way round: no crack, at any pair of levels.
+//! sewn from both rows of points in turn. All points are points of the lattice. A cell on the other side of
+//! an edge has the same points on it, so that each edge of a triangle is one of another, bit for bit, the
+//! other way round: no crack, at any pair of levels.
 //!
-//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figure 7 and "Summary".
+//! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figure 7 and
+//! "Summary".
 
 use super::edge_level::EdgeLevel;
 use super::law::LEVELS;

@@ -1,7 +1,7 @@
 //! A ball or a half-space that holds a thing: what most rays pass by, and where the others are near it.
 //!
-//! A ray `o + t d` is closest to a centre `c` at `t_0 = (c - o) . d / |d|^2`, or at its begin. If it is not in the
-//! ball there, it never is. `t_0` has 18 fractional bits, so that the way from there to the centre,
+//! A ray `o + t d` is closest to a centre `c` at `t_0 = (c - o) . d / |d|^2`, or at its begin. If it is not
+//! in the ball there, it never is. `t_0` has 18 fractional bits, so that the way from there to the centre,
 //! `c - o - t_0 d`, is exact with 46.
 
 use super::ray::Ray;
@@ -15,8 +15,8 @@ pub struct Ball {
     pub(super) centre: [Q24; 3],
     /// The square of the radius, rounded up; the greatest number for what has no end.
     pub(super) square: UQ16,
-    /// What has no end is below a plane through the centre, which this is at right angles to, of a length about
-    /// 1; 0 for the whole of space.
+    /// What has no end is below a plane through the centre, which this is at right angles to, of a length
+    /// about 1; 0 for the whole of space.
     pub(super) up: [Q30; 3],
 }
 
@@ -61,7 +61,8 @@ impl Ball {
         }
     }
 
-    /// Whether a place is in the ball that is so far from the centre: to `2^-14`, which the radius has room for.
+    /// Whether a place is in the ball that is so far from the centre: to `2^-14`, which the radius has room
+    /// for.
     #[inline(always)]
     pub(super) fn holds(&self, way: [Q46; 3]) -> bool {
         // words with 14 fractional bits, 222 at most
@@ -130,8 +131,8 @@ mod tests {
         [v.x, v.y, v.z].map(|c| c.to_num())
     }
 
-    /// Against distances in double precision: no ray that comes into the ball passes it by, and few that miss it
-    /// by more than a thousandth do not.
+    /// Against distances in double precision: no ray that comes into the ball passes it by, and few that miss
+    /// it by more than a thousandth do not.
     #[test]
     fn a_ray_passes_a_ball_by_that_never_comes_into_it() {
         let mut word = words(23);

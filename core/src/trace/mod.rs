@@ -7,8 +7,8 @@
 //! maps, height fields among them, alone or in [compounds](world::Object), of [materials](material) that
 //! mirror and bend light, with [textures](texture), among [lamps](world::Lamp).
 //!
-//! What a pixel shows is defined in CONTRIBUTING.md ("The picture of a height field, defined", "The picture of
-//! a world, defined"); the f64 reference implements the same pages.
+//! What a pixel shows is defined in CONTRIBUTING.md ("The picture of a height field, defined", "The picture
+//! of a world, defined"); the f64 reference implements the same pages.
 //!
 //! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", 2000, sections 4 to 6; the course unit V,
 //! sections 5.7 to 5.10.

@@ -1,14 +1,15 @@
 //! A sheet of control heights as a surface of a world: open, over `[0, 1] x [0, 1]`, its upper side outward.
 //!
 //! No pyramid is stored: a cell knows its control heights, from which follow rigorous bounds and the control
-//! heights of its `N x N` parts. A ray goes through the parts of a cell in the order in which it meets them, from
-//! plane to plane, and down into those whose box it meets, with a frame a level. A part is a leaf at the deepest
-//! level, or where it is no wider than the ray's cone; a crossing is where the ray comes into the box of a leaf, as
-//! with a [`HeightField`](super::HeightField). Planes are the same numbers for the parts on both sides, so that no ray
-//! passes between them.
+//! heights of its `N x N` parts. A ray goes through the parts of a cell in the order in which it meets them,
+//! from plane to plane, and down into those whose box it meets, with a frame a level. A part is a leaf at the
+//! deepest level, or where it is no wider than the ray's cone; a crossing is where the ray comes into the box
+//! of a leaf, as with a [`HeightField`](super::HeightField). Planes are the same numbers for the parts on
+//! both sides, so that no ray passes between them.
 //!
-//! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", section 4, for the walk; Tosan, Guerin, Baskurt,
-//! section 6.1, for control points of parts. Formats: lengths and `t` 24 fractional bits, directions 28.
+//! Source: Cochran, Lewis, Hart, "The Normal of a Fractal Surface", section 4, for the walk; Tosan, Guerin,
+//! Baskurt, section 6.1, for control points of parts. Formats: lengths and `t` 24 fractional bits, directions
+//! 28.
 
 use core::ops::ControlFlow;
 

@@ -121,8 +121,8 @@ pub struct Ray {
     /// `1 / |d|^2`, what it takes to find the place that is closest to another; 0 where nobody asked for it,
     /// and where the square is below 9/16.
     pub(super) pace: Q30,
-    /// The direction again where there is a pace, with two bits more, less `steep` where that is too long for a
-    /// word.
+    /// The direction again where there is a pace, with two bits more, less `steep` where that is too long for
+    /// a word.
     pub(super) fine: [Q30; 3],
     pub(super) steep: i32,
     /// `1 / |d|` where there is a pace.

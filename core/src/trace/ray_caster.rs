@@ -231,7 +231,8 @@ impl<'a> RayCaster<'a> {
         if self.pattern.is_centre() { self.tone(direction, true) } else { self.mean(x, y, true) }
     }
 
-    /// The tone of the environment through a pixel that shows nothing else: of its samples where it has edges.
+    /// The tone of the environment through a pixel that shows nothing else: of its samples where it has
+    /// edges.
     pub(super) fn surroundings(&self, x: u32, y: u32) -> Unit {
         if matches!(self.environment, Environment::Checkerboard { .. }) && !self.pattern.is_centre() {
             return self.mean(x, y, false);

@@ -44,9 +44,9 @@ pub(super) fn mirrored(d: Vec3<Unit>, n: Vec3<Unit>) -> Vec3<Unit> {
 /// The direction in which light along `d` goes on behind a boundary with the normal `n` against it, `eta` the
 /// index of refraction before it over that behind it; none where light is reflected totally.
 ///
-/// Domain: unit vectors with `d . n <= 0`, `eta` from 0.01 to 100. Error: below `2^-22` in each component, for
-/// an `eta` above 10 `2^-21`, away from the critical angle (`a_refracted_ray_is_within_two_to_the_minus_22`).
-/// Cost: 21 multiplications (kernel row `refraction`).
+/// Domain: unit vectors with `d . n <= 0`, `eta` from 0.01 to 100. Error: below `2^-22` in each component,
+/// for an `eta` above 10 `2^-21`, away from the critical angle
+/// (`a_refracted_ray_is_within_two_to_the_minus_22`). Cost: 21 multiplications (kernel row `refraction`).
 #[inline]
 pub fn refracted_direction(d: Vec3<Unit>, n: Vec3<Unit>, eta: Real) -> Option<Vec3<Unit>> {
     refracted(d, n, eta).map(|refracted| refracted.direction)

@@ -5,8 +5,8 @@ use crate::num::{Real, Rgb, Unit, Vec3};
 
 /// Light from all round, infinitely far away.
 pub trait Surroundings {
-    /// The light from a unit direction, where `width` is how wide the cone of directions is that is asked for:
-    /// finer details may be averaged.
+    /// The light from a unit direction, where `width` is how wide the cone of directions is that is asked
+    /// for: finer details may be averaged.
     fn light(&self, direction: Vec3<Unit>, width: Unit) -> Rgb;
 }
 
@@ -42,8 +42,8 @@ impl Surroundings for Sky {
     }
 }
 
-/// A ceiling and a floor at unit height, tiled with squares of side `1 / scale`, faded to `horizon` where the sine
-/// of the elevation falls below `fade`: [`Environment::Checkerboard`] in colour.
+/// A ceiling and a floor at unit height, tiled with squares of side `1 / scale`, faded to `horizon` where the
+/// sine of the elevation falls below `fade`: [`Environment::Checkerboard`] in colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tiles {
     /// Even and odd squares of the ceiling.

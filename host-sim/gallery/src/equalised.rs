@@ -12,8 +12,8 @@ use embedded_graphics::pixelcolor::Rgb888;
 use crate::page::{Display, Watch};
 
 /// Draws a field so that every colour covers the same share of its outside; whether it was finished. `known`
-/// takes the values, one a pixel, `counts` as many as [`Equalised::counts`] says; the inside has a colour of its
-/// own.
+/// takes the values, one a pixel, `counts` as many as [`Equalised::counts`] says; the inside has a colour of
+/// its own.
 ///
 /// # Errors
 /// [`Error::BufferLength`] if one of them is shorter.

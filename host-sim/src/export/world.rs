@@ -151,8 +151,8 @@ fn shape(figure: &Figure) -> String {
     }
 }
 
-/// The one type of a list, or an enum of them by a macro of core; and what turns a value of a type into one of
-/// the whole.
+/// The one type of a list, or an enum of them by a macro of core; and what turns a value of a type into one
+/// of the whole.
 struct Choice {
     name: &'static str,
     kinds: Vec<(String, String)>,

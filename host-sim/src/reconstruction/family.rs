@@ -1,7 +1,8 @@
 //! The families of surfaces that are fitted: how their maps depend on their numbers.
 //!
-//! All have base 2 and square cells that share their four maps `T_ij`, whose columns are barycentric. A family says
-//! what its maps are for some numbers, how they change with each of them, and the weights of a cell's corners.
+//! All have base 2 and square cells that share their four maps `T_ij`, whose columns are barycentric. A
+//! family says what its maps are for some numbers, how they change with each of them, and the weights of a
+//! cell's corners.
 //!
 //! - *standard*: Tosan, Guerin, Baskurt, section 4.2: the 72 numbers of a 5 x 5 grid, 3 x 3 heights a cell;
 //! - *tensor*: `T_ij = T_i (x) T_j`, 4 numbers along each axis, 3 x 3 heights a cell;
@@ -87,8 +88,8 @@ impl Family {
         }
     }
 
-    /// The sum of squares of samples in `[0, 1]` that being off by 1 in one number costs at first: 72 numbers of a
-    /// single patch otherwise run to where maps do not contract.
+    /// The sum of squares of samples in `[0, 1]` that being off by 1 in one number costs at first: 72 numbers
+    /// of a single patch otherwise run to where maps do not contract.
     pub(crate) const fn pull(self) -> f64 {
         match self {
             Self::Standard => 0.2,
@@ -96,8 +97,8 @@ impl Family {
         }
     }
 
-    /// The sum of squares that a height costs that is 1 away from the middle of the samples: heights at the corners
-    /// of a lattice count for next to nothing, and would be anything.
+    /// The sum of squares that a height costs that is 1 away from the middle of the samples: heights at the
+    /// corners of a lattice count for next to nothing, and would be anything.
     pub(crate) const fn tether(self) -> f64 {
         match self {
             Self::Lattice => 1e-4,

@@ -37,8 +37,8 @@ impl Scheme {
         })
     }
 
-    /// Whether core takes numbers and heights for a surface: joined by construction, proven to contract, and no height so
-    /// great that refining might take it out of its format.
+    /// Whether core takes numbers and heights for a surface: joined by construction, proven to contract, and
+    /// no height so great that refining might take it out of its format.
     pub(crate) fn is_one(family: Family, numbers: &[f64], heights: &[f64], cells: usize) -> bool {
         let numbers: Option<Vec<Near>> = numbers.iter().map(|n| rounded(*n)).collect();
         let heights: Option<Vec<Real>> = heights.iter().map(|h| rounded(*h)).collect();

@@ -1,12 +1,13 @@
 //! Levenberg-Marquardt on all numbers and heights at once.
 //!
-//! The error `sum |Q_ij - F(i, j)|^2` is a polynomial of the parameters, with exact derivatives ([`Table`]) in
-//! place of the text's finite differences. A step solves `(J'J + mu diag(J'J)) x = J'r`; one that does not lessen
-//! the error, whose maps are not proven to contract or whose heights are too great, is refused, and `mu` grows. Each sample depends on the
-//! heights of its own cell only: `J'J` is summed from rows of a few dozen entries, never from `J`.
+//! The error `sum |Q_ij - F(i, j)|^2` is a polynomial of the parameters, with exact derivatives ([`Table`])
+//! in place of the text's finite differences. A step solves `(J'J + mu diag(J'J)) x = J'r`; one that does not
+//! lessen the error, whose maps are not proven to contract or whose heights are too great, is refused, and
+//! `mu` grows. Each sample depends on the heights of its own cell only: `J'J` is summed from rows of a few
+//! dozen entries, never from `J`.
 //!
-//! Why no ready solver: those of `levenberg-marquardt` and `argmin` end where a trial step has no value, and ask
-//! for `J` as a whole. The linear algebra is that of `nalgebra`.
+//! Why no ready solver: those of `levenberg-marquardt` and `argmin` end where a trial step has no value, and
+//! ask for `J` as a whole. The linear algebra is that of `nalgebra`.
 //!
 //! Source: D. W. Marquardt, 1963; Tosan, Guerin, Baskurt, section 6.2.
 
@@ -150,8 +151,8 @@ impl Model {
         Some(matrix.cholesky()?.solve(&right).as_slice().to_vec())
     }
 
-    /// The surface that is nearest to the samples, from some numbers on. `progress` is told the error after each
-    /// step that was taken.
+    /// The surface that is nearest to the samples, from some numbers on. `progress` is told the error after
+    /// each step that was taken.
     pub(crate) fn fit(
         &self,
         samples: &Samples,
@@ -292,7 +293,8 @@ mod tests {
         }
     }
 
-    /// A lattice comes nearer and nearer than the cubic spline that it starts from, but for what its tether takes.
+    /// A lattice comes nearer and nearer than the cubic spline that it starts from, but for what its tether
+    /// takes.
     #[test]
     fn a_fit_comes_nearer() {
         let hills =
@@ -303,8 +305,8 @@ mod tests {
             model.fit(&hills, &Family::Lattice.starts()[0], 20, |_, error| errors.push(error)).unwrap();
         assert!(errors.len() > 3 && fitted.error < 0.3 * errors[0], "{errors:?}");
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0] * 1.01), "{errors:?}");
-        // no step raises the cost, so that no height is further off than the start's cost allows: 180. The tether
-        // keeps them much nearer, to 11; without it one goes to 62
+        // no step raises the cost, so that no height is further off than the start's cost allows: 180. The
+        // tether keeps them much nearer, to 11; without it one goes to 62
         let start = model.fit(&hills, &Family::Lattice.starts()[0], 0, |_, _| ()).unwrap();
         let away = |heights: &[f64]| heights.iter().map(|height| (height - MIDDLE).powi(2)).sum::<f64>();
         let tether = Family::Lattice.tether();

@@ -41,7 +41,8 @@ pub(crate) fn sides(parameters: usize) -> [usize; 2] {
     [one, other]
 }
 
-/// The sum of squares that the best spline of a degree leaves; none where there are too few coefficients or samples.
+/// The sum of squares that the best spline of a degree leaves; none where there are too few coefficients or
+/// samples.
 pub(crate) fn squared_error(samples: &Samples, [a, b]: [usize; 2], degree: usize) -> Option<f64> {
     let side = samples.side;
     if a.min(b) <= degree || a.max(b) > side {

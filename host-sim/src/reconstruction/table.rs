@@ -1,7 +1,7 @@
 //! The weights of every place of a cell, and their derivatives: all cells share them.
 //!
-//! `phi(digit, rest) = T_digit phi(rest)` and `d phi = T d phi + dT phi`: exact at every dyadic place, by as many
-//! products as there are places.
+//! `phi(digit, rest) = T_digit phi(rest)` and `d phi = T d phi + dT phi`: exact at every dyadic place, by as
+//! many products as there are places.
 
 use super::family::{Change, Family, Maps};
 

@@ -4,8 +4,8 @@
 //! The places are a definition, which the kernel's are held to: two halves of a hash of the pixel, the seed
 //! and the number of the sample.
 //!
-//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", eq. 52-53; C. Wellons, "Prospecting for
-//! hash functions", 2018, for the finaliser.
+//! Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", eq. 52-53; C. Wellons, "Prospecting
+//! for hash functions", 2018, for the finaliser.
 
 /// The samples of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]

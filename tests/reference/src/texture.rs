@@ -1,8 +1,8 @@
 //! Textures, from the texts: noise, turbulence, checker, wood, marble, pictures on a surface, bumps, an image
 //! all round.
 //!
-//! Sources: K. Perlin, "Improving Noise", 2002, with the permutation of his listing; the course unit V, section
-//! 5.8, whose slips are mended: turbulence is `sum of 2^-(k+1) noise(2^k s p)`, marble
+//! Sources: K. Perlin, "Improving Noise", 2002, with the permutation of his listing; the course unit V,
+//! section 5.8, whose slips are mended: turbulence is `sum of 2^-(k+1) noise(2^k s p)`, marble
 //! `undulate(sin(2 z + A turb))`, a bumpy normal `N + b_u (n x P_v) + b_v (P_u x n)`; Fritsch and Carlson,
 //! "Monotone piecewise cubic interpolation", 1980, for the spline.
 

@@ -1,7 +1,7 @@
 //! Runs every kernel of the table and prints a line of JSON for each.
 //!
-//! Arguments: `NAME FORMAT TIMES` runs one loop of the table's row (its spaces as `+`) (`fixed`, `f32` or `f64`) so many times
-//! and prints its units and instructions, for a histogram of these.
+//! Arguments: `NAME FORMAT TIMES` runs one loop of the table's row (its spaces as `+`) (`fixed`, `f32` or
+//! `f64`) so many times and prints its units and instructions, for a histogram of these.
 #![no_std]
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! As `nopanic`, for surfaces and the ray caster: height fields with filtered normals, and terrain. An image of
-//! its own, so that each fits the flash of a Cortex-M0.
+//! As `nopanic`, for surfaces and the ray caster: height fields with filtered normals, and terrain. An image
+//! of its own, so that each fits the flash of a Cortex-M0.
 #![no_std]
 #![no_main]
 

@@ -1,6 +1,7 @@
 //! Draws every scene of the table and prints a line of JSON for each.
 //!
-//! Arguments: `NAME SIZE` draws this scene alone (its spaces as `+`). The argument `frames` streams the pixels of each scene to a file `NAME-WIDTHxHEIGHT.raw`.
+//! Arguments: `NAME SIZE` draws this scene alone (its spaces as `+`). The argument `frames` streams the
+//! pixels of each scene to a file `NAME-WIDTHxHEIGHT.raw`.
 #![no_std]
 #![no_main]
 

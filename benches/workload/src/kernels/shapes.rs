@@ -13,7 +13,8 @@ use crate::rivals::solid::{self, Line};
 
 const COUNT: usize = 64;
 
-/// Rays as they reach a shape, two thirds of which meet it: past a place within 3/4 of the origin, from nearby.
+/// Rays as they reach a shape, two thirds of which meet it: past a place within 3/4 of the origin, from
+/// nearby.
 fn near_rays() -> [NearRay; COUNT] {
     core::array::from_fn(|i| {
         let (place, way) = (mixed(2 * i), mixed(2 * i + 1));

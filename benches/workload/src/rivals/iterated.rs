@@ -1,11 +1,12 @@
-//! The torus and the superellipsoid in floating point: the same crossings by the same methods, Newton's in brackets.
+//! The torus and the superellipsoid in floating point: the same crossings by the same methods, Newton's in
+//! brackets.
 
 use super::solid::{Line, cube};
 use super::vector::dot;
 use crate::float::Float;
 
-/// Where a function that has another sign at each end of a bracket vanishes: Newton's method, halving where it
-/// leaves the bracket. `at` answers value and derivative.
+/// Where a function that has another sign at each end of a bracket vanishes: Newton's method, halving where
+/// it leaves the bracket. `at` answers value and derivative.
 #[inline(always)]
 fn root<F: Float>(at: impl Fn(F) -> (F, F), low: F, high: F) -> F {
     let (zero, half) = (F::of(0.0), F::of(0.5));
@@ -81,8 +82,8 @@ pub(crate) fn torus<F: Float>((o, d): Line<F>, tube: F) -> ([F; 4], usize) {
     (found, crossings)
 }
 
-/// The first crossing of a superellipsoid with exponents above 1: Newton's method on the norm, from where the line
-/// enters the cube.
+/// The first crossing of a superellipsoid with exponents above 1: Newton's method on the norm, from where the
+/// line enters the cube.
 #[inline(always)]
 pub(crate) fn superellipsoid<F: Float>((o, d): Line<F>, n: F, m: F) -> Option<F> {
     let [(mut s, _), (end, _)] = cube((o, d))?;

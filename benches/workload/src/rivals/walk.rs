@@ -134,8 +134,8 @@ impl<F: Float> Place<F> {
         }
     }
 
-    /// Over the plane at its end, into the next node, and out of the nodes that end there too. Whether the ray
-    /// surely meets the box of the next node; none at the end of the surface.
+    /// Over the plane at its end, into the next node, and out of the nodes that end there too. Whether the
+    /// ray surely meets the box of the next node; none at the end of the surface.
     #[inline(always)]
     fn advance(
         &mut self,

@@ -24,8 +24,8 @@ pub struct Attractor {
 }
 
 impl Attractor {
-    /// The system of its maps; `N` is [`LARGEST`](super::LARGEST) for those of the catalogue whose number of maps is not
-    /// known beforehand.
+    /// The system of its maps; `N` is [`LARGEST`](super::LARGEST) for those of the catalogue whose number of
+    /// maps is not known beforehand.
     ///
     /// # Errors
     /// As [`Ifs::new`]; for those of the catalogue only [`Error::Capacity`] when it has more than `N` maps.

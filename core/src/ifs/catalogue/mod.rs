@@ -1,8 +1,8 @@
 //! The classical attractors: names, maps, probabilities and where they come from.
 //!
 //! Coefficients stand in the order `[a, b, c, d, e, f]` of the tables, rounded once to the formats of
-//! [`Affine`](super::Affine) (`2^-31` and `2^-25`). An [`Attractor`] is plain data with public fields: one of your own needs
-//! nothing from this file.
+//! [`Affine`](super::Affine) (`2^-31` and `2^-25`). An [`Attractor`] is plain data with public fields: one of
+//! your own needs nothing from this file.
 
 mod attractor;
 mod carpets;

@@ -16,11 +16,11 @@
 //! - With `u` a plane's place across the surface the way the ray goes, from -1/2 to 1/2, the ray crosses it
 //!   at `t = middle + whole u`, `middle` the parameter in the middle of the surface and `whole` what the ray
 //!   takes across it: one multiplication a plane, at every level.
-//! - Boxes lie inside the box of the node that they are parts of, and so do the ray's heights above them: a ray
-//!   that misses a node misses its parts. So no box but a leaf's has to be tested, the others are where it
-//!   pays. It does not pay where the ray is nearly certain to meet the box: at the first part of the surface,
-//!   at the part that a ray enters when it comes out of a node that it has met, and at the far one of four, as
-//!   it has met the node and none of the other parts. There the walk goes into the node at once.
+//! - Boxes lie inside the box of the node that they are parts of, and so do the ray's heights above them: a
+//!   ray that misses a node misses its parts. So no box but a leaf's has to be tested, the others are where
+//!   it pays. It does not pay where the ray is nearly certain to meet the box: at the first part of the
+//!   surface, at the part that a ray enters when it comes out of a node that it has met, and at the far one
+//!   of four, as it has met the node and none of the other parts. There the walk goes into the node at once.
 //!
 //! Of a node's four parts a ray passes at most three. Parameters have 24 fractional bits in 32. A ray so
 //! nearly parallel to a plane, or so steep, that it leaves that range above the surface is left to the
@@ -50,8 +50,8 @@ struct Crossings {
 /// The node in which a walk stands, along one axis: the slab of space between its two planes.
 #[derive(Debug, Clone, Copy)]
 struct Slab {
-    /// The plane at which the ray enters it: a 1, and the way there from the surface's near plane as 31 binary
-    /// digits.
+    /// The plane at which the ray enters it: a 1, and the way there from the surface's near plane as 31
+    /// binary digits.
     begin: u32,
     /// The parameter at the plane at which the ray leaves it.
     next: i32,

@@ -1,8 +1,8 @@
 //! A height field as a surface of a world: open, its upper side outward.
 //!
 //! A crossing is where a ray comes into the box of the first leaf that it meets: the ray is still on the side
-//! from which it came, no farther from the surface than the leaf is high. Leaves met one right behind the other
-//! are one crossing.
+//! from which it came, no farther from the surface than the leaf is high. Leaves met one right behind the
+//! other are one crossing.
 
 use core::ops::ControlFlow;
 

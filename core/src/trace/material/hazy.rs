@@ -1,8 +1,8 @@
 //! Aerial perspective: what lies far away takes the colour of the air.
 //!
-//! Of a point's light `e^(-d / v)` is left after the distance `d` from the eye, `v` the visibility, and the air
-//! adds the rest in its own colour: `L e^(-d / v) + A (1 - e^(-d / v))`. What the point mirrors or lets through
-//! is faded alike, as the distance of what is seen in it is not known here.
+//! Of a point's light `e^(-d / v)` is left after the distance `d` from the eye, `v` the visibility, and the
+//! air adds the rest in its own colour: `L e^(-d / v) + A (1 - e^(-d / v))`. What the point mirrors or lets
+//! through is faded alike, as the distance of what is seen in it is not known here.
 //!
 //! Source: F. K. Musgrave, in D. S. Ebert et al., "Texturing and Modeling", 1994, chapter 17 (fog of constant
 //! density); J. Beer's law.

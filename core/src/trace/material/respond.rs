@@ -33,8 +33,8 @@ pub struct Response {
     pub light: Rgb,
     /// How much of what comes along the mirrored ray is seen.
     pub reflected: Rgb,
-    /// How much of what comes along the refracted ray is seen. Of this part the share that Fresnel's equations
-    /// give, or all where light is reflected totally, joins the reflected one.
+    /// How much of what comes along the refracted ray is seen. Of this part the share that Fresnel's
+    /// equations give, or all where light is reflected totally, joins the reflected one.
     pub refracted: Rgb,
 }
 

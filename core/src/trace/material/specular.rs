@@ -35,7 +35,8 @@ impl Specular for () {
 }
 
 impl Sight {
-    /// Of a point with this normal, looked at in this direction; without a tangent for who does not look at it.
+    /// Of a point with this normal, looked at in this direction; without a tangent for who does not look at
+    /// it.
     #[inline]
     pub(super) fn new(point: &SurfacePoint, direction: Vec3<Unit>, is_charted: bool) -> Self {
         let normal = point.normal;

@@ -1,7 +1,7 @@
 //! The light of all lamps together, as a material adds it up: a product and a sum in one instruction.
 //!
-//! `sum L p`, each product rounded to nearest in the upper word; then `pigment sum + color sum` in 64 bits, rounded
-//! once. What lamps give is cut off at `2^14`, where a part of it is a word; sums saturate at `2^15`.
+//! `sum L p`, each product rounded to nearest in the upper word; then `pigment sum + color sum` in 64 bits,
+//! rounded once. What lamps give is cut off at `2^14`, where a part of it is a word; sums saturate at `2^15`.
 //!
 //! Formats: parts of at most 1 with 31 fractional bits, so that 1 is `1 - 2^-31`, which rounds to the same;
 //! light with 17, sums with 16.

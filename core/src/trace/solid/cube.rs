@@ -1,7 +1,7 @@
 //! The cube from -1 to 1 along each axis: `F = max(|x|, |y|, |z|) - 1`.
 //!
-//! Which of three planes a ray crosses last, and which first, is found by products; only these two quotients are
-//! taken.
+//! Which of three planes a ray crosses last, and which first, is found by products; only these two quotients
+//! are taken.
 //!
 //! Faces are those at `x` = -1, 1, `y` = -1, 1, `z` = -1, 1, from 0 on. Each has texture coordinates in
 //! `[0, 1]`, `v` upwards on the sides and along `y` on the others, `u` to the right as seen from outside:
@@ -30,8 +30,8 @@ struct Edge {
     face: u8,
 }
 
-/// Both planes across an axis, in the order in which a ray crosses them. One parallel to them leans by less than
-/// a direction's resolution.
+/// Both planes across an axis, in the order in which a ray crosses them. One parallel to them leans by less
+/// than a direction's resolution.
 #[inline(always)]
 fn pair(face: u8, o: Near, d: Near) -> [Edge; 2] {
     const ONE: i32 = 1 << 28;

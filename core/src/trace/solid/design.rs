@@ -1,5 +1,5 @@
-//! Shapes that are placed at design time: what [`Placed::new`] finds out of a map, as a constant, so that an image
-//! has none of the code.
+//! Shapes that are placed at design time: what [`Placed::new`] finds out of a map, as a constant, so that an
+//! image has none of the code.
 
 use super::cube::Cube;
 use super::placed::Placed;

@@ -1,12 +1,12 @@
 //! The surface where a user's function is 0, inside where it is below.
 //!
-//! The function says how fast it changes at most: `|F(p) - F(q)| <= L |p - q|`. So a ray may step by `|F| / L`
-//! without passing a zero. Near the surface these steps become short; none is taken shorter than a 1024th of the
-//! ray's way through the box, which bounds their number by 1024 and is how thin a part may be to be left out.
-//! Where the sign has changed, bisection finds the crossing.
+//! The function says how fast it changes at most: `|F(p) - F(q)| <= L |p - q|`. So a ray may step by
+//! `|F| / L` without passing a zero. Near the surface these steps become short; none is taken shorter than a
+//! 1024th of the ray's way through the box, which bounds their number by 1024 and is how thin a part may be
+//! to be left out. Where the sign has changed, bisection finds the crossing.
 //!
-//! Source: Hart, "Sphere Tracing", The Visual Computer 12, 1996; Kalra, Barr, "Guaranteed Ray Intersections with
-//! Implicit Surfaces", SIGGRAPH 1989.
+//! Source: Hart, "Sphere Tracing", The Visual Computer 12, 1996; Kalra, Barr, "Guaranteed Ray Intersections
+//! with Implicit Surfaces", SIGGRAPH 1989.
 
 use core::num::NonZeroU32;
 use core::ops::ControlFlow;
@@ -77,8 +77,8 @@ impl<F: Function> Implicit<F> {
     /// The surface inside a box, which cuts it: outside the box nothing is inside. `steepness` is `L`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a steepness below 1/256; for a box that leaves ±2, or whose ends are the wrong way
-    /// round, with the index of the axis.
+    /// [`Error::OutOfRange`] for a steepness below 1/256; for a box that leaves ±2, or whose ends are the
+    /// wrong way round, with the index of the axis.
     pub fn new(function: F, bounds: [Vec3<Near>; 2], steepness: Real) -> Result<Self, Error> {
         let least = Real::ONE >> 8;
         if steepness < least {
@@ -134,8 +134,8 @@ impl<F: Function> Shape for Implicit<F> {
         Near::DELTA * 32
     }
 
-    /// What is thinner along the ray than a 1024th of its way through the box may be left out. Cost: 1024 values
-    /// at most, and 24 a crossing.
+    /// What is thinner along the ray than a 1024th of its way through the box may be left out. Cost: 1024
+    /// values at most, and 24 a crossing.
     fn cross(&self, ray: &NearRay, from: Near, found: &mut impl FnMut(NearCrossing) -> ControlFlow<()>) {
         let (origin, direction) = (words(ray.origin), words(ray.direction));
         let Some([start, end]) = self.span(origin, direction) else { return };
@@ -215,8 +215,8 @@ impl<F: Function> Shape for Implicit<F> {
         Vec3::new(x, y, z)
     }
 
-    /// Longitude and latitude, as on a sphere: `u` is the angle round the z axis from the x axis in turns, `v`
-    /// the height of the angle from the south (0) to the north (1).
+    /// Longitude and latitude, as on a sphere: `u` is the angle round the z axis from the x axis in turns,
+    /// `v` the height of the angle from the south (0) to the north (1).
     fn chart(&self, place: Vec3<Real>, _: u8) -> Chart {
         let [x, y, z] = [place.x, place.y, place.z].map(Real::to_bits);
         let across = square([x, y, 0]);

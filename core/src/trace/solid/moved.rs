@@ -1,7 +1,7 @@
 //! Any surface under an affine map: a height field that stands upright, lies on its side, or is larger.
 //!
-//! As a shape does, a surface has a box of its own; in units in which that box is within ±2, rays go to it as to
-//! a shape. They begin where they come into the box.
+//! As a shape does, a surface has a box of its own; in units in which that box is within ±2, rays go to it as
+//! to a shape. They begin where they come into the box.
 
 use core::ops::ControlFlow;
 

@@ -45,8 +45,8 @@ impl<S: Shape> Placed<S> {
     ///
     /// # Errors
     /// [`Error::Degenerate`] for a map without an inverse; [`Error::OutOfRange`] for one that makes the shape
-    /// 128 times as large or more, or as small as one 256th or less, or that puts its middle more than 64 from
-    /// the origin along an axis.
+    /// 128 times as large or more, or as small as one 256th or less, or that puts its middle more than 64
+    /// from the origin along an axis.
     pub fn new(shape: S, map: &Affine3) -> Result<Self, Error> {
         let site = Site::new(shape.bounds(), shape.radius(), map)?;
         let error = site.error(shape.error());
@@ -58,14 +58,15 @@ impl<S: Shape> Placed<S> {
         &self.shape
     }
 
-    /// A line through a place near the shape in the shape's coordinates, as every ray takes it that comes near.
+    /// A line through a place near the shape in the shape's coordinates, as every ray takes it that comes
+    /// near.
     ///
-    /// Domain: `way` leads from the place to the middle of the shape's box, in units of a power of two in which all
-    /// of the shape is within 8 of it. Where a map scales so unevenly that the place is farther than 4 from the
-    /// shape in its own coordinates, or a direction is a sixteenth there, the result wraps.
+    /// Domain: `way` leads from the place to the middle of the shape's box, in units of a power of two in
+    /// which all of the shape is within 8 of it. Where a map scales so unevenly that the place is farther
+    /// than 4 from the shape in its own coordinates, or a direction is a sixteenth there, the result wraps.
     ///
-    /// Error: `2^-25` of the direction's length and of the place's (`a_line_is_mapped_to_within_two_to_the_minus_25`).
-    /// Cost: kernel `affine map of a ray`.
+    /// Error: `2^-25` of the direction's length and of the place's
+    /// (`a_line_is_mapped_to_within_two_to_the_minus_25`). Cost: kernel `affine map of a ray`.
     #[inline]
     pub fn line(&self, way: Vec3<Near>, direction: Vec3<Unit>) -> NearRay {
         let way = [way.x, way.y, way.z].map(Near::to_bits);

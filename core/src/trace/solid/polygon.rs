@@ -59,7 +59,8 @@ impl<const N: usize> Polygon<N> {
     /// # Errors
     /// [`Error::TooFew`] below 3 corners, [`Error::Capacity`] above `N`; [`Error::OutOfRange`] for a corner
     /// outside ±2, or `2^-16` or more from the plane of the others; [`Error::Degenerate`] for two corners in
-    /// one place, or all on a line; [`Error::Unsupported`] for corners that do not go round convexly and once.
+    /// one place, or all on a line; [`Error::Unsupported`] for corners that do not go round convexly and
+    /// once.
     pub fn new(corners: &[Vec3]) -> Result<Self, Error> {
         let given = corners.len();
         let what = "corners of a polygon";

@@ -1,8 +1,8 @@
 //! Convex polyhedra as intersections of half-spaces: `F = max(n_k p - d_k)`.
 //!
-//! That there is something inside, and that it has an end on all sides, is found out from the corners: wherever
-//! three planes meet, exactly, in whole numbers, the place is a corner if it is outside of none. Planes at ±2
-//! are among them; a polyhedron that has corners there reaches beyond.
+//! That there is something inside, and that it has an end on all sides, is found out from the corners:
+//! wherever three planes meet, exactly, in whole numbers, the place is a corner if it is outside of none.
+//! Planes at ±2 are among them; a polyhedron that has corners there reaches beyond.
 
 use core::ops::ControlFlow;
 
@@ -14,8 +14,8 @@ use crate::Error;
 use crate::num::formats::Q28;
 use crate::num::{Near, Real, Unit, Vec3, Wide, quotient};
 
-/// The generic convex polyhedron: what is inside all of up to 32 half-spaces, within ±2. Faces are the planes,
-/// in their order.
+/// The generic convex polyhedron: what is inside all of up to 32 half-spaces, within ±2. Faces are the
+/// planes, in their order.
 ///
 /// Texture coordinates of a face are distances in its plane: `u = P p`, `v = Q p` with `P` the horizontal
 /// direction (`x` for a horizontal face) and `Q = n x P`.
@@ -63,7 +63,8 @@ impl<'a> Polyhedron<'a> {
     ///
     /// # Errors
     /// [`Error::TooFew`] below 4 planes, [`Error::Capacity`] above 32; [`Error::Degenerate`] where nothing is
-    /// inside, or nothing thicker than `2^-20`; [`Error::OutOfRange`] for what reaches beyond ±2 or has no end.
+    /// inside, or nothing thicker than `2^-20`; [`Error::OutOfRange`] for what reaches beyond ±2 or has no
+    /// end.
     pub fn new(planes: &'a [HalfSpace]) -> Result<Self, Error> {
         let (given, count) = (planes.len(), planes.len() + 6);
         if given < 4 {

@@ -51,14 +51,14 @@ pub trait Shape {
     /// without limits: the half-space `z <= 0`.
     fn bounds(&self) -> Option<[Vec3<Near>; 2]>;
 
-    /// The radius of a ball round the middle of the bounds that holds the shape, if it is less than that of the
-    /// ball round the bounds.
+    /// The radius of a ball round the middle of the bounds that holds the shape, if it is less than that of
+    /// the ball round the bounds.
     fn radius(&self) -> Option<Near> {
         None
     }
 
-    /// Whether it is the sphere of radius 1 round the origin: as long as a map keeps it round, rays need not be
-    /// brought to it.
+    /// Whether it is the sphere of radius 1 round the origin: as long as a map keeps it round, rays need not
+    /// be brought to it.
     fn is_round(&self) -> bool {
         false
     }

@@ -3,14 +3,15 @@
 //!
 //! `t` is the same on both sides: the direction is not normalised. A ray is moved along itself to where it is
 //! closest to the middle of the thing's box, `t = t_0 + s 2^-k`: if it is not inside the ball round the box
-//! there, it passes by. `t_0` has so few bits that the place there, `o + t_0 d - c`, is exact to `2^-46` at any
-//! distance, and what is left of it is small. Normals come back by the inverse transpose, tangents by the map
-//! itself.
+//! there, it passes by. `t_0` has so few bits that the place there, `o + t_0 d - c`, is exact to `2^-46` at
+//! any distance, and what is left of it is small. Normals come back by the inverse transpose, tangents by the
+//! map itself.
 //!
 //! What is closest in the world is not closest in generic coordinates where the map scales by very different
 //! factors; there the ray is moved once more, in those.
 //!
-//! Source: the course unit V, section 5.7; Glassner (ed.), "An Introduction to Ray Tracing", 1989, section 2.7.
+//! Source: the course unit V, section 5.7; Glassner (ed.), "An Introduction to Ray Tracing", 1989, section
+//! 2.7.
 
 use core::num::NonZeroU32;
 
@@ -40,12 +41,13 @@ pub(super) struct Site {
     pub(super) up: u32,
     /// Such a place times `inverse` has 28 in the upper word after a shift to the left by so many places.
     left: u32,
-    /// Whether every place in the ball is near the shape in generic coordinates as well, and whether a direction
-    /// may be short there.
+    /// Whether every place in the ball is near the shape in generic coordinates as well, and whether a
+    /// direction may be short there.
     is_even: bool,
     is_steep: bool,
     pub(super) limited: bool,
-    /// The square of what the map makes of a radius of 1, below 4 and the same in all directions; 0 otherwise.
+    /// The square of what the map makes of a radius of 1, below 4 and the same in all directions; 0
+    /// otherwise.
     round: UQ56,
     linear: [Vec3; 3],
     /// The norm of the map, 16 fractional bits.
@@ -192,8 +194,8 @@ const fn corners(rows: &[[i64; 3]; 3], half: [i64; 3], slack: i64) -> i64 {
     farthest
 }
 
-/// The square of what a map makes of every radius of 1, below 4, 56 fractional bits; 0 where it makes something else
-/// of some than of others, by more than `2^-23`.
+/// The square of what a map makes of every radius of 1, below 4, 56 fractional bits; 0 where it makes
+/// something else of some than of others, by more than `2^-23`.
 const fn round(rows: &[[i64; 3]; 3], most: i64) -> UQ56 {
     if most >= 4 << 24 {
         return 0;
@@ -221,8 +223,8 @@ const fn round(rows: &[[i64; 3]; 3], most: i64) -> UQ56 {
     (square as u64) << 8
 }
 
-/// How long a radius becomes, its square: by the map's norm at most, whose square is that of a row of the columns'
-/// products. 16 fractional bits.
+/// How long a radius becomes, its square: by the map's norm at most, whose square is that of a row of the
+/// columns' products. 16 fractional bits.
 const fn longest(rows: &[[i64; 3]; 3], radius: Near) -> i64 {
     let (mut columns, mut norm, mut k) = ([[0; 3]; 3], 0, 0);
     while k < 9 {
@@ -244,8 +246,8 @@ const fn longest(rows: &[[i64; 3]; 3], radius: Near) -> i64 {
 }
 
 impl Site {
-    /// The site of a box of generic coordinates, or of a half-space without one, under a map. All of the shape
-    /// may be known to be within a radius of the box's middle.
+    /// The site of a box of generic coordinates, or of a half-space without one, under a map. All of the
+    /// shape may be known to be within a radius of the box's middle.
     pub(super) const fn new(
         bounds: Option<[Vec3<Near>; 2]>,
         radius: Option<Near>,
@@ -310,8 +312,8 @@ impl Site {
         let ball = if farthest >= u32::MAX as i64 { u32::MAX } else { farthest as u32 + 1 };
         let length = (17 - ball.leading_zeros() as i32).div_euclid(2);
         let fractional = if 31 - length < 30 + exponent { 31 - length } else { 30 + exponent };
-        // squares of norms: of the inverse with 28, of the map with 32 fractional bits; what the map makes longest
-        // has the shortest image, and rows whose sum reaches 2 may make one longer than a word
+        // squares of norms: of the inverse with 28, of the map with 32 fractional bits; what the map makes
+        // longest has the shortest image, and rows whose sum reaches 2 may make one longer than a word
         let (mut norm, mut length, mut is_steep, mut k) = (0_u64, 0_u64, false, 0);
         while k < 3 {
             let (mut sum, mut j) = (0_u64, 0);
@@ -392,10 +394,11 @@ impl Site {
         self.round > 0
     }
 
-    /// Where a ray goes into the image of the sphere of radius 1 and out of it, wherever these are on its line, 24
-    /// fractional bits; none if it does not, and the whole of it none where nobody can tell.
+    /// Where a ray goes into the image of the sphere of radius 1 and out of it, wherever these are on its
+    /// line, 24 fractional bits; none if it does not, and the whole of it none where nobody can tell.
     ///
-    /// With `p` the way from the closest place to the centre, these are `t_0 + (p . d -+ |d| sqrt(r^2 - p^2)) / |d|^2`.
+    /// With `p` the way from the closest place to the centre, these are
+    /// `t_0 + (p . d -+ |d| sqrt(r^2 - p^2)) / |d|^2`.
     #[inline(always)]
     pub(super) fn round_crossings(&self, ray: &Ray) -> Option<Option<[Q24; 2]>> {
         if ray.pace == 0 {
@@ -451,9 +454,9 @@ impl Site {
         !self.is_steep && far >> (29_u32.wrapping_sub(self.left) & 31) == 0
     }
 
-    /// A line through a place in the ball, from which `way` leads to the middle with `14 + up` fractional bits, in
-    /// generic coordinates; and the
-    /// logarithm of its direction's unit. The upper words of the products are all that is looked at.
+    /// A line through a place in the ball, from which `way` leads to the middle with `14 + up` fractional
+    /// bits, in generic coordinates; and the logarithm of its direction's unit. The upper words of the
+    /// products are all that is looked at.
     #[inline(always)]
     pub(super) fn line(&self, way: [i32; 3], d: [Q30; 3]) -> (NearRay, i32) {
         // row by row: each is loaded once
@@ -587,8 +590,8 @@ fn upright(height: Q28, up: Q28) -> NearRay {
 
 /// How many steps of `2^-(3 + exponent)` it is to the closest place, to nearest, at most `most`.
 ///
-/// `towards` has 22 + 28 fractional bits, `over` 28, and the direction's unit is `2^(shift - 30)`, all without
-/// the inverse's `2^exponent`: `t = towards 2^(8 - shift) / over`.
+/// `towards` has 22 + 28 fractional bits, `over` 28, and the direction's unit is `2^(shift - 30)`, all
+/// without the inverse's `2^exponent`: `t = towards 2^(8 - shift) / over`.
 #[inline(always)]
 fn steps(towards: i64, over: u32, shift: i32, exponent: i32, most: u32) -> u32 {
     let Some(over) = NonZeroU32::new(over) else { return most };

@@ -1,11 +1,11 @@
 //! The sphere of radius 1 round the origin: `F = x^2 + y^2 + z^2 - 1`.
 //!
 //! A ray `o + s d` is closest to the centre at `s_0 = -o.d / |d|^2`, in `p = o + s_0 d`; its crossings are
-//! `s = s_0 -+ sqrt((1 - |p|^2) / |d|^2)`. The quadratic equation of `o` itself has two large terms that would
-//! cancel out.
+//! `s = s_0 -+ sqrt((1 - |p|^2) / |d|^2)`. The quadratic equation of `o` itself has two large terms that
+//! would cancel out.
 //!
-//! Texture coordinates: `u` is the longitude, `atan2(y, x) / 2 pi`, `v` the latitude from the lower pole to the
-//! upper, `1/2 + asin(z) / pi`. `P_u = 2 pi (-y, x, 0)`, `P_v = pi (-x z / r, -y z / r, r)` with `r` the
+//! Texture coordinates: `u` is the longitude, `atan2(y, x) / 2 pi`, `v` the latitude from the lower pole to
+//! the upper, `1/2 + asin(z) / pi`. `P_u = 2 pi (-y, x, 0)`, `P_v = pi (-x z / r, -y z / r, r)` with `r` the
 //! distance from the axis; at the poles `x / r` counts as 1 and `y / r` as 0.
 
 use core::num::NonZeroU32;

@@ -2,10 +2,10 @@
 //! cylinder, `S` = 0 the cone.
 //!
 //! A ray is cut to `0 <= z <= 1` first: there is no other nappe then. What is left of it is inside where
-//! `a s^2 + 2 b s + c < 0`, `s` from where `x^2 + y^2 + (1 + (S - 1) z)^2` is least. Where `a` is below 0, that is outside the
-//! roots, and the slab leaves one of the two sides. A ray nearly along the axis has an `a` and a `b` close to
-//! 0, one close to the tip a `b` and a `c`: where they are that small, all powers of two go out of them before 25
-//! fractional bits are kept.
+//! `a s^2 + 2 b s + c < 0`, `s` from where `x^2 + y^2 + (1 + (S - 1) z)^2` is least. Where `a` is below 0,
+//! that is outside the roots, and the slab leaves one of the two sides. A ray nearly along the axis has an
+//! `a` and a `b` close to 0, one close to the tip a `b` and a `c`: where they are that small, all powers of
+//! two go out of them before 25 fractional bits are kept.
 //!
 //! Faces: 0 is the side, 1 the base at `z = 0`, 2 the cap at `z = 1`. Texture coordinates: on the side
 //! `u = atan2(y, x) / 2 pi`, `v = z`; on the cap `u = (1 + x) / 2`, on the base `u = (1 - x) / 2`, on both
@@ -196,8 +196,8 @@ impl Shape for TaperedCylinder {
         Self::ERROR
     }
 
-    /// Error: on the surface within `2^-23` (`rays_meet_the_tapered_cylinder_where_they_should`). Cost: kernel
-    /// `tapered cylinder`.
+    /// Error: on the surface within `2^-23` (`rays_meet_the_tapered_cylinder_where_they_should`). Cost:
+    /// kernel `tapered cylinder`.
     #[inline]
     fn cross(&self, ray: &NearRay, from: Near, found: &mut impl FnMut(NearCrossing) -> ControlFlow<()>) {
         let o = [ray.origin.x, ray.origin.y, ray.origin.z].map(Near::to_bits);

@@ -1,21 +1,22 @@
 //! The torus: a tube round a ring of radius 1 about the z axis,
 //! `F = (sqrt(x^2 + y^2) - 1)^2 + z^2 - tube^2`.
 //!
-//! Along a ray, let `s` be the length from the point nearest to the centre, `m` the distance of that point, `p`
-//! its height, and `u` how fast the ray rises. With `h = (s^2 + m^2 - 1 - tube^2) / 2` and `z = p + u s` the ray
-//! is inside where
+//! Along a ray, let `s` be the length from the point nearest to the centre, `m` the distance of that point,
+//! `p` its height, and `u` how fast the ray rises. With `h = (s^2 + m^2 - 1 - tube^2) / 2` and `z = p + u s`
+//! the ray is inside where
 //!
 //! `g(s) = h^2 + z^2 - tube^2 < 0`:
 //!
-//! a quartic without a cubic term. Words are enough for `h` and `z`, which on the torus are no larger than the
-//! tube. Its derivative `2 (h s + z u) = s^3 + P s + Q`, `P = m^2 - 1 - tube^2 + 2 u^2`, `Q = 2 p u`, vanishes at
-//! one or three places. The ray is turned round where `Q > 0`, so that the outermost of them is the last;
-//! Newton's method finds it, a quadratic equation the other two. A minimum below 0 has a crossing on each side:
-//! Newton's method again, from where the parabola at the minimum has it, bracketed by the neighbours.
+//! a quartic without a cubic term. Words are enough for `h` and `z`, which on the torus are no larger than
+//! the tube. Its derivative `2 (h s + z u) = s^3 + P s + Q`, `P = m^2 - 1 - tube^2 + 2 u^2`, `Q = 2 p u`,
+//! vanishes at one or three places. The ray is turned round where `Q > 0`, so that the outermost of them is
+//! the last; Newton's method finds it, a quadratic equation the other two. A minimum below 0 has a crossing
+//! on each side: Newton's method again, from where the parabola at the minimum has it, bracketed by the
+//! neighbours.
 //!
-//! Source: Cychosz, "Intersecting a Ray with an Elliptical Torus", Graphics Gems II, 1991. Only the height and
-//! the distance count, a ray that is turned about the axis being the same: whatever rounding does to them, `g`
-//! is that of some ray `2^-29` away.
+//! Source: Cychosz, "Intersecting a Ray with an Elliptical Torus", Graphics Gems II, 1991. Only the height
+//! and the distance count, a ray that is turned about the axis being the same: whatever rounding does to
+//! them, `g` is that of some ray `2^-29` away.
 //!
 //! Formats: `s`, `p`, `u` 30 fractional bits, `h` and `z` 29, `g` 58.
 
@@ -43,8 +44,8 @@ impl Torus {
     /// The torus whose tube has this radius.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for less than `2^-7` or more than `1 - 2^-10`: a tube without width, and one as wide
-    /// as its ring, are no tori.
+    /// [`Error::OutOfRange`] for less than `2^-7` or more than `1 - 2^-10`: a tube without width, and one as
+    /// wide as its ring, are no tori.
     pub fn new(tube: Near) -> Result<Self, Error> {
         const MIN: Near = Near::lit("0.0078125");
         const MAX: Near = Near::lit("0.9990234375");
@@ -436,8 +437,8 @@ mod tests {
         Vec3::new(x, y, z)
     }
 
-    /// Rays of a world that touch or nearly touch, from up to 60 away and from inside the tube, with components
-    /// of 0, moved near.
+    /// Rays of a world that touch or nearly touch, from up to 60 away and from inside the tube, with
+    /// components of 0, moved near.
     fn hard_rays(seed: u64) -> impl Iterator<Item = (Torus, NearRay)> {
         let mut rng = Xoshiro128PlusPlus::seed_from_u64(seed);
         (0_u32..).filter_map(move |i| {

@@ -1,7 +1,7 @@
 //! Terrain by bounds alone: a surface by subdivision, however fine, without any memory but the stack.
 //!
-//! A ray halves the cells that it comes near. What bounds the heights of a cell are its corners and how far all
-//! further displacements can reach ([`Law::reach`](crate::terrain::Law::reach)). A cell is a leaf at the
+//! A ray halves the cells that it comes near. What bounds the heights of a cell are its corners and how far
+//! all further displacements can reach ([`Law::reach`](crate::terrain::Law::reach)). A cell is a leaf at the
 //! lattice's finest level, or, where the ray has a width, as soon as it is no wider than that: the resolution
 //! follows the magnification. Leaves are bilinear.
 //!

@@ -1,7 +1,7 @@
 //! The min-max pyramid of a terrain, in lent memory: bounds of the heights of each square of `2^k` cells.
 //!
-//! The bounds of a cell are those of its patch, the hull of its Bezier points, which is rigorous; the bounds of
-//! a node are the hull of its parts'. Levels stand one behind the other, cells first.
+//! The bounds of a cell are those of its patch, the hull of its Bezier points, which is rigorous; the bounds
+//! of a node are the hull of its parts'. Levels stand one behind the other, cells first.
 //!
 //! Format: 16 bits a bound, 9 of them fractional, rounded outwards.
 

@@ -1,9 +1,9 @@
 //! A checker: cubes in space, or squares of texture coordinates, of two textures in turn.
 //!
 //! Which one a place has tells the parity of `floor(f_x x + o) + floor(f_y y + o) + floor(f_z z + o)`. The
-//! offset `o` is about `2^-11.7`: without it a plane that lies exactly between two layers of cubes, as `z = 0`
-//! does, would have points a rounding error above and a rounding error below it, and be speckled. Seams that
-//! are wanted are at round numbers, and no round number lies at `-o`.
+//! offset `o` is about `2^-11.7`: without it a plane that lies exactly between two layers of cubes, as
+//! `z = 0` does, would have points a rounding error above and a rounding error below it, and be speckled.
+//! Seams that are wanted are at round numbers, and no round number lies at `-o`.
 //!
 //! Source: the course unit V, section 5.8.4.
 //!

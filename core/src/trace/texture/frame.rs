@@ -1,10 +1,10 @@
 //! Frame mapping: a material whose grain is turned.
 //!
-//! The frame of a point is its normal `N`, a tangent `T` along the grain and the binormal `B = T x N` (here, with
-//! `B' = N x T`, its opposite). The grain of a surface is the direction of `P_u`: anisotropic highlights look
-//! there. [`Framed`] turns it in the tangent plane by an angle that is looked up, and hands the point on: wood
-//! grain, the crossing threads of cloth, streaks in marble. With [`Bumpy`](super::Bumpy) round it, the whole frame
-//! is perturbed.
+//! The frame of a point is its normal `N`, a tangent `T` along the grain and the binormal `B = T x N` (here,
+//! with `B' = N x T`, its opposite). The grain of a surface is the direction of `P_u`: anisotropic highlights
+//! look there. [`Framed`] turns it in the tangent plane by an angle that is looked up, and hands the point
+//! on: wood grain, the crossing threads of cloth, streaks in marble. With [`Bumpy`](super::Bumpy) round it,
+//! the whole frame is perturbed.
 //!
 //! Source: the course unit V, section 5.8.3; J. Kajiya, "Anisotropic reflection models", 1985.
 //!

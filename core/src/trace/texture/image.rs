@@ -6,8 +6,9 @@
 //! - nearest: the texel at the place;
 //! - bilinear: the mean over a box as large as a texel, which is bilinear interpolation;
 //! - by area: the mean over a box as large as the ray's footprint, its cone's width over `|P_u|` and `|P_v|`.
-//!   An image that has coarser levels behind it, each half as large as the one before, is looked up in the level
-//!   where the box is less than two texels wide: at most 4 times 4 of them, however far away the surface is.
+//!   An image that has coarser levels behind it, each half as large as the one before, is looked up in the
+//!   level where the box is less than two texels wide: at most 4 times 4 of them, however far away the
+//!   surface is.
 //!
 //! Source: the course unit V, section 5.8.1; L. Williams, "Pyramidal parametrics", 1983, for the levels.
 //!
@@ -74,8 +75,8 @@ impl<'a> Image<'a> {
     /// behind it as there are bytes: see [`Image::length`]. It is looked at by area and repeated.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a side of 0 or above [`Image::MAX_SIDE`], [`Error::LengthMismatch`] for a length
-    /// that is not that of any number of levels.
+    /// [`Error::OutOfRange`] for a side of 0 or above [`Image::MAX_SIDE`], [`Error::LengthMismatch`] for a
+    /// length that is not that of any number of levels.
     pub fn new(texels: Texels, columns: u32, rows: u32, bytes: &'a [u8]) -> Result<Self, Error> {
         for (what, side) in [("columns of the image", columns), ("rows of the image", rows)] {
             if side == 0 || side > Self::MAX_SIDE {
@@ -155,8 +156,8 @@ impl<'a> Image<'a> {
 
     /// The mean over a box round `(u, v)` that is `across` wide and `up` high, all in parts of the image.
     ///
-    /// Domain: all; a box is at most as large as the image, and without coarser levels at most two texels wide.
-    /// Error: below `2^-14` where the box is 1 to 2 texels wide and high
+    /// Domain: all; a box is at most as large as the image, and without coarser levels at most two texels
+    /// wide. Error: below `2^-14` where the box is 1 to 2 texels wide and high
     /// (`the_mean_over_a_box_is_the_exact_one`); coarser levels have been rounded to bytes. Cost: at most 16
     /// texels.
     pub fn mean(&self, u: Real, v: Real, across: Real, up: Real) -> Rgb {

@@ -1,9 +1,9 @@
 //! The ground of a landscape: sand on the shore, grass, rock where it is steep, snow where it is high.
 //!
-//! With the height `z`, raised by turbulence so that no line is a level curve, and the steepness, the vertical
-//! part `n_z` of the unit normal: sand passes into grass where `z` passes the shore, grass into snow where it
-//! passes the snow line, and either into rock where `n_z` falls below a limit. Each passage is linear and as
-//! wide as is asked.
+//! With the height `z`, raised by turbulence so that no line is a level curve, and the steepness, the
+//! vertical part `n_z` of the unit normal: sand passes into grass where `z` passes the shore, grass into snow
+//! where it passes the snow line, and either into rock where `n_z` falls below a limit. Each passage is
+//! linear and as wide as is asked.
 //!
 //! Source: F. K. Musgrave, in D. S. Ebert et al., "Texturing and Modeling", 1994, chapter 16 (ecosystems by
 //! altitude and slope).

@@ -133,8 +133,8 @@ mod tests {
         assert!(Mapped::new(Rgb::WHITE, singular).is_err() && Mapped::repeated(Rgb::WHITE, 0, 3).is_err());
     }
 
-    /// Texture scanning goes from texels to the surface and paints what each covers, inverse scanning from places
-    /// of the surface to texels: both make one picture.
+    /// Texture scanning goes from texels to the surface and paints what each covers, inverse scanning from
+    /// places of the surface to texels: both make one picture.
     #[test]
     fn texture_scanning_and_inverse_scanning_agree() {
         const SIDE: usize = 64;

@@ -1,13 +1,13 @@
 //! Gradient noise in space: smooth, without direction, 0 at every point with whole coordinates.
 //!
-//! Each lattice point has a gradient `g`, one of the 12 directions from the middle of a cube to the middles of
-//! its edges, chosen by a permutation `p` of 0 to 255: `p(p(p(i) + j) + k) mod 16`. A point of a cell is
+//! Each lattice point has a gradient `g`, one of the 12 directions from the middle of a cube to the middles
+//! of its edges, chosen by a permutation `p` of 0 to 255: `p(p(p(i) + j) + k) mod 16`. A point of a cell is
 //! promised `g . d` by each of its eight corners, `d` the way from the corner; the promises are mixed along
-//! `z`, `y` and `x` with the weight `6 t^5 - 15 t^4 + 10 t^3`, whose first and second derivatives are 0 at both
-//! ends, so that the noise has two continuous derivatives.
+//! `z`, `y` and `x` with the weight `6 t^5 - 15 t^4 + 10 t^3`, whose first and second derivatives are 0 at
+//! both ends, so that the noise has two continuous derivatives.
 //!
-//! Source: K. Perlin, "Improving Noise", 2002, and his reference implementation, whose permutation this is; the
-//! course unit V, section 5.8.6.
+//! Source: K. Perlin, "Improving Noise", 2002, and his reference implementation, whose permutation this is;
+//! the course unit V, section 5.8.6.
 //!
 //! Format: coordinates 16 fractional bits, modulo `2^16`, of which the period 256 is a divisor, so that the
 //! format wraps without a seam; inside 29.
@@ -41,8 +41,8 @@ struct Entry {
     next: u8,
 }
 
-/// The permutation and what it chooses, twice and one more: a sum of two numbers below 256 needs no reduction,
-/// nor does the number that follows it. 2 KB of flash.
+/// The permutation and what it chooses, twice and one more: a sum of two numbers below 256 needs no
+/// reduction, nor does the number that follows it. 2 KB of flash.
 static TABLE: [Entry; 513] = {
     let mut table = [Entry { gradient: [0; 3], next: 0 }; 513];
     let mut i = 0;
@@ -147,8 +147,8 @@ fn promise(entry: &Entry, [x, y, z]: [i32; 3]) -> i32 {
     a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
 }
 
-/// `6 t^5 - 15 t^4 + 10 t^3 - 1/2 = s (15/16 - s^2 (5/8 - 3/16 s^2))` with 32 fractional bits, of `s = 2 t - 1`
-/// with 31: exactly -1/2 for `t` = 0, below 1/2, and within `2^-28` in between.
+/// `6 t^5 - 15 t^4 + 10 t^3 - 1/2 = s (15/16 - s^2 (5/8 - 3/16 s^2))` with 32 fractional bits, of
+/// `s = 2 t - 1` with 31: exactly -1/2 for `t` = 0, below 1/2, and within `2^-28` in between.
 #[inline(always)]
 fn weight(s: i32) -> i32 {
     let square = high(s, s); // 30

@@ -23,8 +23,8 @@ impl<'a, P, D> Pasted<'a, P, D> {
     /// With `detail` inside the convex polygon of these corners `(u, v)`, counter-clockwise.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than three corners, [`Error::Unsupported`] where the polygon turns to the right
-    /// or not at all at a corner, or goes round more than once.
+    /// [`Error::TooFew`] for fewer than three corners, [`Error::Unsupported`] where the polygon turns to the
+    /// right or not at all at a corner, or goes round more than once.
     pub fn new(parent: P, corners: &'a [[Real; 2]], detail: D) -> Result<Self, Error> {
         let given = corners.len();
         if given < 3 {

@@ -1,9 +1,9 @@
 //! Colours by a number: a smooth curve through given colours.
 //!
 //! A monotone piecewise cubic for each of red, green and blue: between two knots no part leaves the range of
-//! their values, so that light never becomes negative. Where the values of a part turn round it is level, as at
-//! both ends; elsewhere its slope is the harmonic mean of the secants on both sides, weighted with `h0 + 2 h1`
-//! and `2 h0 + h1`, `h0` and `h1` the widths on both sides.
+//! their values, so that light never becomes negative. Where the values of a part turn round it is level, as
+//! at both ends; elsewhere its slope is the harmonic mean of the secants on both sides, weighted with
+//! `h0 + 2 h1` and `2 h0 + h1`, `h0` and `h1` the widths on both sides.
 //!
 //! Source: Fritsch, Carlson, "Monotone piecewise cubic interpolation", 1980; Fritsch, Butland, "A method for
 //! constructing local monotone piecewise cubic interpolants", 1984. It is the spline `undulate` of the course
@@ -45,8 +45,8 @@ impl<const N: usize> Spline<N> {
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than two knots, [`Error::Capacity`] for more than `N` or 255,
-    /// [`Error::NotIncreasing`] where a knot is not to the right of the one before, [`Error::OutOfRange`] for a
-    /// knot outside -1 to 1 or a part of a colour above 64.
+    /// [`Error::NotIncreasing`] where a knot is not to the right of the one before, [`Error::OutOfRange`] for
+    /// a knot outside -1 to 1 or a part of a colour above 64.
     pub fn new(knots: &[Knot]) -> Result<Self, Error> {
         if knots.len() < 2 {
             return Err(Error::TooFew { what: "knots of the spline", given: knots.len(), at_least: 2 });

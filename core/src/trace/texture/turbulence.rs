@@ -41,8 +41,9 @@ impl Turbulence {
 
     /// The turbulence at a place.
     ///
-    /// Domain: all. Result: in `-1.04 .. 1.04`. Error: below `2^-25` where no octave's place needs more than 16
-    /// fractional bits (row `Turbulence::at`); a place that does is rounded down, and noise has a slope below
+    /// Domain: all. Result: in `-1.04 .. 1.04`. Error: below `2^-25` where no octave's place needs more than
+    /// 16 fractional bits (row `Turbulence::at`); a place that does is rounded down, and noise has a slope
+    /// below
     /// 3. Cost: a noise and 15 instructions an octave at most (kernel row `turbulence`).
     #[inline]
     pub fn at(&self, place: Vec3) -> Unit {

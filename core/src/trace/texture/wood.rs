@@ -1,10 +1,11 @@
 //! Wood: rings of two colours round an axis, like the years of a log.
 //!
-//! `rings(r) = int(r) mod 2` with the radius in rings. An ideal log has `r = f sqrt(x^2 + y^2)`; a real one is
+//! `rings(r) = int(r) mod 2` with the radius in rings. An ideal log has `r = f sqrt(x^2 + y^2)`; a real one
+//! is
 //! - tilted: its axis goes `tilt` along `x` and `y` with each unit of `z`, so that a cut shows ovals;
-//! - wobbly: `K sin(m theta + 2 pi B z)` is added to the radius, with a whole number of waves `m` in a turn, so
-//!   that there is no seam at `theta` = 0, and `B` turns of them along `z`; inside the first ring times the
-//!   radius, so that the pith is no star;
+//! - wobbly: `K sin(m theta + 2 pi B z)` is added to the radius, with a whole number of waves `m` in a turn,
+//!   so that there is no seam at `theta` = 0, and `B` turns of them along `z`; inside the first ring times
+//!   the radius, so that the pith is no star;
 //! - rough: turbulence is added.
 //!
 //! The colours change at once, as the text has it, or over the first part of each ring.
@@ -43,9 +44,9 @@ pub struct Wood {
 impl Wood {
     /// How many rings a place is away from the axis, 24 fractional bits.
     ///
-    /// Domain: all. Error: below `2^-19` for `rings` up to 8, a wobble up to 1 with 5 lobes, and places 1/4 from
-    /// the axis and farther, where nothing is rough (row `Wood::radius`). Cost: 40 multiplications, a root, an
-    /// angle.
+    /// Domain: all. Error: below `2^-19` for `rings` up to 8, a wobble up to 1 with 5 lobes, and places 1/4
+    /// from the axis and farther, where nothing is rough (row `Wood::radius`). Cost: 40 multiplications, a
+    /// root, an angle.
     pub fn radius(&self, place: Vec3) -> i64 {
         let across = |c: Real, tilt: Real| {
             let shifted = i64::from(c.to_bits()) - (product(tilt.to_bits(), place.z.to_bits()) >> 24);

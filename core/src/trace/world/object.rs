@@ -2,9 +2,10 @@
 //!
 //! The bowl `(S1 - S2) - C` of the text, as data: `S1 S2 - C -`, reverse Polish. Whether a point is inside is
 //! found from one bit for each shape, in a pass over the program with a stack of bits in a word; up to five
-//! shapes have a table of all answers. A ray crosses no shape of a part that it misses: the box of every union
-//! and intersection is stored beside its step and tried first, an intersection's is what both parts have in
-//! common; and of an intersection or a difference the right part is tried only by a ray that meets the left.
+//! shapes have a table of all answers. A ray crosses no shape of a part that it misses: the box of every
+//! union and intersection is stored beside its step and tried first, an intersection's is what both parts
+//! have in common; and of an intersection or a difference the right part is tried only by a ray that meets
+//! the left.
 //!
 //! Source: the course unit V, section 5.10.
 
@@ -38,8 +39,8 @@ pub struct Object<'a> {
     /// A ball that holds it, and the leaves of which nothing is known where a ray passes it by.
     pub(super) ball: Ball,
     pub(super) others: u64,
-    /// Its leaf, where it has only one; and whether a ray that leaves that has left it for good, to the outside
-    /// and to the inside.
+    /// Its leaf, where it has only one; and whether a ray that leaves that has left it for good, to the
+    /// outside and to the inside.
     only: Option<u8>,
     is_left: [bool; 2],
     /// A bit for each step: whether the leaf there begins the right part of an intersection or a difference.
@@ -67,9 +68,9 @@ impl<'a> Object<'a> {
     /// `memory`.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for an empty program or a step without operands, [`Error::Capacity`] for more than 64
-    /// leaves, [`Error::LengthMismatch`] if more than one thing is left at the end, [`Error::OutOfRange`] for
-    /// a leaf that is not there, [`Error::Unsupported`] for an open surface in a compound,
+    /// [`Error::TooFew`] for an empty program or a step without operands, [`Error::Capacity`] for more than
+    /// 64 leaves, [`Error::LengthMismatch`] if more than one thing is left at the end, [`Error::OutOfRange`]
+    /// for a leaf that is not there, [`Error::Unsupported`] for an open surface in a compound,
     /// [`Error::BufferLength`] for too little memory.
     pub fn new<'s, L: Surface + 's>(
         ops: &'a [Op],
@@ -237,7 +238,8 @@ impl<'a> Object<'a> {
         self.only
     }
 
-    /// Whether a ray that starts from a leaf, outside or inside, cannot meet the object: it is that leaf alone.
+    /// Whether a ray that starts from a leaf, outside or inside, cannot meet the object: it is that leaf
+    /// alone.
     #[inline]
     pub(super) fn is_left_by(&self, departed: Option<u8>, inside: u64) -> bool {
         match departed {
@@ -246,8 +248,8 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// The first leaf, and how many are taken away from it one by one, in the order of their numbers; none for an
-    /// object that is made otherwise.
+    /// The first leaf, and how many are taken away from it one by one, in the order of their numbers; none
+    /// for an object that is made otherwise.
     #[inline]
     pub(super) fn carved(&self) -> Option<(u8, core::ops::Range<u8>)> {
         let next = self.first.saturating_add(1);
@@ -301,8 +303,8 @@ impl<'a> Object<'a> {
         stack & 1 > 0
     }
 
-    /// Has the leaves crossed that a ray may have to cross: `cross` answers whether any part of the ray is inside
-    /// the leaf. Answers which were not crossed, a bit each.
+    /// Has the leaves crossed that a ray may have to cross: `cross` answers whether any part of the ray is
+    /// inside the leaf. Answers which were not crossed, a bit each.
     #[inline]
     pub(super) fn tried(&self, ray: &Ray, mut cross: impl FnMut(u8) -> bool) -> u64 {
         let met = if self.is_boxed { self.met(ray) } else { u64::MAX };
@@ -471,8 +473,8 @@ mod tests {
         }
     }
 
-    /// Against a recursive tree, for random trees and states; also a tree that leans to the right, which takes
-    /// the deepest stack.
+    /// Against a recursive tree, for random trees and states; also a tree that leans to the right, which
+    /// takes the deepest stack.
     #[test]
     fn a_program_is_the_boolean_function_of_its_tree() {
         let mut word = words();

@@ -21,7 +21,8 @@ pub struct Leaf<'a, L> {
 /// Leaves, objects, materials and lamps.
 ///
 /// All memory is lent; a world is small and can be copied. At most 64 leaves; what lies farther than 64 from
-/// the origin along an axis is not seen. A world whose type says that it has no `COMPOUNDS` takes no code for them.
+/// the origin along an axis is not seen. A world whose type says that it has no `COMPOUNDS` takes no code for
+/// them.
 #[derive(Debug, Clone, Copy)]
 pub struct World<'a, L, M, const COMPOUNDS: bool = true> {
     leaves: &'a [Leaf<'a, L>],
@@ -235,8 +236,8 @@ impl<'a, L: Surface, M: Material, const COMPOUNDS: bool> World<'a, L, M, COMPOUN
         self.media() != 0 && has(self.media, object)
     }
 
-    /// States of a place that are all known where there are media, as these depend on all. Others are looked up
-    /// when a ray needs them.
+    /// States of a place that are all known where there are media, as these depend on all. Others are looked
+    /// up when a ray needs them.
     #[inline]
     pub(super) fn states_at(&self, inside: u64, unknown: u64, place: Vec3) -> States {
         let states = States { inside, unknown };

@@ -2,9 +2,9 @@
 //!
 //! The crossings of a ray with the leaves of an object stand in a list, sorted; a bit for each leaf tells
 //! whether the ray is inside it, and the first event at which the function of the object changes is its hit.
-//! What is opaque is looked at one object after the other, and none needs what is farther than the hit so far;
-//! the transparent ones share a list, as what is seen of one depends on the media of all. No interval lists, no
-//! recursion. What the bits are behind the hit tells which media a refracted ray is in.
+//! What is opaque is looked at one object after the other, and none needs what is farther than the hit so
+//! far; the transparent ones share a list, as what is seen of one depends on the media of all. No interval
+//! lists, no recursion. What the bits are behind the hit tells which media a refracted ray is in.
 
 use core::ops::ControlFlow;
 

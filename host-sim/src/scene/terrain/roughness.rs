@@ -1,10 +1,10 @@
 //! How rough given heights are, in the numbers of the law of displacement.
 //!
 //! The law displaces the middle of an edge of length `2 s` by `o (2 s)^H R`. So the mean square of
-//! `h(x) - (h(x - s) + h(x + s)) / 2` over all places and both axes is `(o (2 s)^H)^2`: a straight line through
-//! its logarithms for `s` = 1, 2, 4 and 8 knots has the slope `2 H` and passes `o^2` at an edge of one knot.
-//! Source: R. F. Voss, in M. F. Barnsley et al., "The Science of Fractal Images", 1988, section 1.4 (scaling of
-//! increments).
+//! `h(x) - (h(x - s) + h(x + s)) / 2` over all places and both axes is `(o (2 s)^H)^2`: a straight line
+//! through its logarithms for `s` = 1, 2, 4 and 8 knots has the slope `2 H` and passes `o^2` at an edge of
+//! one knot. Source: R. F. Voss, in M. F. Barnsley et al., "The Science of Fractal Images", 1988, section 1.4
+//! (scaling of increments).
 
 /// Offset and similarity exponent of heights row by row; none where they are too few or too flat to say.
 pub(super) fn estimate(columns: usize, rows: usize, heights: &[f64]) -> Option<(f64, f64)> {
@@ -44,8 +44,8 @@ mod tests {
     use super::*;
     use std::f64::consts::{PI, TAU};
 
-    /// Sums of waves in all directions whose amplitudes fall as their frequency's power `-H`: the exponent and
-    /// the displacement of an edge of one knot, which such a sum has in closed form, are found again.
+    /// Sums of waves in all directions whose amplitudes fall as their frequency's power `-H`: the exponent
+    /// and the displacement of an edge of one knot, which such a sum has in closed form, are found again.
     #[test]
     fn the_roughness_of_a_sum_of_waves_is_found_again() {
         const SIDE: usize = 97;

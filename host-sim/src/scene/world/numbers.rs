@@ -43,8 +43,8 @@ fn ray([ox, oy, oz, dx, dy, dz]: [Real; 6]) -> Ray {
     Ray::new(Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz))
 }
 
-/// Whether a program is inside, from whether each leaf is; and its value from those of the leaves: the least of
-/// a union, the greatest of an intersection.
+/// Whether a program is inside, from whether each leaf is; and its value from those of the leaves: the least
+/// of a union, the greatest of an intersection.
 fn value<T: Copy>(ops: &[Op], leaf: impl Fn(usize) -> T, join: impl Fn(Op, T, T) -> T) -> Option<T> {
     let mut stack = Vec::new();
     for op in ops {
@@ -149,8 +149,8 @@ fn listed(
     Ok(())
 }
 
-/// The reference's crossing of the same face in the same direction that is nearest to one of core's, if it has
-/// any.
+/// The reference's crossing of the same face in the same direction that is nearest to one of core's, if it
+/// has any.
 fn nearest(shape: &Exact, given: &[Real; 6], crossing: &Crossing) -> Option<f64> {
     let [ox, oy, oz, dx, dy, dz] = given.map(Real::to_num::<f64>);
     let t = crossing.t.to_num::<f64>();
@@ -161,8 +161,8 @@ fn nearest(shape: &Exact, given: &[Real; 6], crossing: &Crossing) -> Option<f64>
     same.map(|(reference, ..)| reference).min_by(|a, b| (a - t).abs().total_cmp(&(b - t).abs()))
 }
 
-/// The inside-outside function of every object at places of a ray, from before the first thing with a limit to
-/// behind the last.
+/// The inside-outside function of every object at places of a ray, from before the first thing with a limit
+/// to behind the last.
 fn along(scene: &WorldScene, text: &str, points: u32, out: &mut dyn Write) -> Result<(), Fail> {
     let rays = Lines::given("--along", RAY).parse(text, check)?;
     let [given] = rays.as_slice() else {

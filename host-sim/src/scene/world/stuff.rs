@@ -1,4 +1,5 @@
-//! Of what the things of a world are made, as core has it: pigments, bumps, grains and media chosen at run time.
+//! Of what the things of a world are made, as core has it: pigments, bumps, grains and media chosen at run
+//! time.
 
 use attractor::num::{Angle, Real, Rgb, Unit};
 use attractor::trace::SurfacePoint;

@@ -1,5 +1,5 @@
-//! What surrounds a world, as its file has it: one colour, a sky, squares overhead and underfoot, or a picture
-//! all round.
+//! What surrounds a world, as its file has it: one colour, a sky, squares overhead and underfoot, or a
+//! picture all round.
 
 use attractor::num::{Real, Rgb, Unit, Vec3, Wide};
 use attractor::trace::{Panorama, Sky, Surroundings, Tiles};

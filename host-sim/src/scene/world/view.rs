@@ -121,8 +121,8 @@ impl WorldScene {
         })
     }
 
-    /// Builds the world once, and refuses transparent things of equal priority that some of the rays of a small
-    /// picture find in one place, where the file does not allow it.
+    /// Builds the world once, and refuses transparent things of equal priority that some of the rays of a
+    /// small picture find in one place, where the file does not allow it.
     fn check(&self) -> Result<(), Fail> {
         let priorities = self.world.materials.iter().filter_map(|matter| matter.medium);
         if self.world.policy == Policy::Priority || priorities.count() == 0 {

@@ -1,8 +1,8 @@
 //! Bumps, as slopes `(b_u, b_v)` of a height over the texture coordinates, and grains, as angles by which the
 //! frame is turned.
 //!
-//! Source: CONTRIBUTING.md, "The picture of a world, defined", Bumps and grains; course unit V, sections 5.8.2
-//! and 5.8.3; A. Appleby's MurmurHash3 for the facets.
+//! Source: CONTRIBUTING.md, "The picture of a world, defined", Bumps and grains; course unit V, sections
+//! 5.8.2 and 5.8.3; A. Appleby's MurmurHash3 for the facets.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -22,8 +22,8 @@ fn length(v: Vector) -> f64 {
 }
 
 impl Pattern<[f64; 2]> {
-    /// Turbulence of the place in the world as height, by differences over the ray's width to both sides of the
-    /// point along `P_u` and `P_v`; the width counts as `2^-10` at least and as 1 at most.
+    /// Turbulence of the place in the world as height, by differences over the ray's width to both sides of
+    /// the point along `P_u` and `P_v`; the width counts as `2^-10` at least and as 1 at most.
     pub fn rough(turbulence: Turbulence, height: f64) -> Self {
         Self(Box::new(move |p| {
             let step = p.width.clamp(1.0 / 1024.0, 1.0);

@@ -517,8 +517,8 @@ fn a_bump_sends_no_light_through_a_mirror_and_none_back_from_clear_glass() {
     assert_close(direction(mirroring(-0.08).seen([-1.0, 0.0, 0.1], d)), [m[0], 0.0, -m[2]], 1e-14);
     // One that falls away further is seen from behind: the plane itself mirrors.
     assert_close(direction(mirroring(-0.2).seen([-1.0, 0.0, 0.1], d)), [d[0], 0.0, -d[2]], 1e-14);
-    // A slope that stands against the ray, before an index of 1/2: bent there the ray would go up again, and at
-    // the plane it is reflected totally.
+    // A slope that stands against the ray, before an index of 1/2: bent there the ray would go up again, and
+    // at the plane it is reflected totally.
     let mut world = empty(compass());
     let glass = Material { fresnel: false, bump: bump(20.0), ..Material::glass(0.5) };
     world.one(Plane, Placing::IDENTITY, glass);

@@ -60,7 +60,8 @@ fn mixed(a: Colour, b: Colour, s: f64) -> Colour {
 }
 
 impl Surroundings {
-    /// The colour in direction `e`, a unit vector, that a ray sees which grows by `growth` a unit of its length.
+    /// The colour in direction `e`, a unit vector, that a ray sees which grows by `growth` a unit of its
+    /// length.
     pub fn colour(&self, e: Vector, growth: f64) -> Colour {
         let height = e[2].abs();
         match self {
