@@ -32,7 +32,7 @@ use crate::plane::{Field, checked_size};
 /// are computed once if they lie outside. It pays where an inner pixel costs `Num` iterations, as in
 /// [`DeepMandelbrot`](crate::escape::DeepMandelbrot). Cost of a pixel of 64 x 64 at 1000 iterations, plain
 /// and filled: a copy of the set in 64 bits 13947 Cortex-M4 instructions (kernel `plain copy 64`) and 5955
-/// (kernel `filled copy 64`); one at 1e-101 by perturbation 30172 (kernel `plain copy 1e-101`) and 9740
+/// (kernel `filled copy 64`); one at 1e-101 by perturbation 28537 (kernel `plain copy 1e-101`) and 9247
 /// (kernel `filled copy 1e-101`). It does not pay where cycles end the loop and the two largest parts are
 /// known: the whole set takes 241 (kernel `plain home`) and 372 (kernel `filled home`), a filled Julia set
 /// 233 (kernel `plain rabbit`) and 333 (kernel `filled rabbit`), a view between seahorses 2730 (kernel

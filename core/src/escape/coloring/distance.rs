@@ -52,7 +52,7 @@ impl<P: EscapeTime> Distance<P> {
     /// Domain: all. Result: saturated at the end of [`Real`], none where the orbit does not escape. Error:
     /// one unit and below `2^-24 (10 + dwell)` of the estimate, beside that of the orbit, which is the
     /// dwell's (`the_orbit_is_that_of_the_dwell`, `the_estimate_agrees_with_float`). Cost: the dwell, in
-    /// words the same number of steps once more, each with a derivative, two logarithms: 1894 Cortex-M4
+    /// words the same number of steps once more, each with a derivative, two logarithms: 1807 Cortex-M4
     /// instructions (kernel `distance estimate`) a pixel of the home view at 100 iterations, the dwell alone
     /// 189 (kernel `dwell of a pixel`).
     pub fn value_at(&self, point: P::Point) -> Option<Real> {

@@ -8,9 +8,9 @@ use crate::num::Wide;
 ///
 /// Cost of an iteration: 10 Cortex-M4 instructions (kernel `dwell coarse`) in `Word26`, 13 (kernel
 /// `dwell fine`) in `Word29`, 58.3 (kernel `dwell 64`) in `Word64`, 259 (kernel `dwell 128`) in `Word128`. By
-/// perturbation a step takes 197.5 (kernel `perturbed`), in 62 bits 864 (kernel `perturbed long`), and a
-/// point of the reference orbit in 12 limbs 8621 (kernel `reference orbit`); but most iterations of a deep
-/// view are jumped over: at a width of 1e-100 a dwell costs 11.7 (kernel `perturbed jumping`) an iteration.
+/// perturbation a step takes 202.3 (kernel `perturbed`), in 62 bits 815 (kernel `perturbed long`), and a
+/// point of the reference orbit in 12 limbs 8584 (kernel `reference orbit`); but most iterations of a deep
+/// view are jumped over: at a width of 1e-100 a dwell costs 11.3 (kernel `perturbed jumping`) an iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
