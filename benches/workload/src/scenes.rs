@@ -3,9 +3,9 @@
 //! To add one: write a function that builds its objects, [claims](crate::sink::Stage::claim) their RAM and
 //! [shows](crate::sink::Stage::show) them, and add a line to `own::ROWS`. The function takes the size from
 //! the stage, so that one function serves several lines. A built-in scene of the command is a line of
-//! `built_in::PAIRS`.
+//! `built_in::PAIRS`, or of `built_in::IN_MONO`.
 
-use crate::built_in::PAIRS;
+use crate::built_in::{IN_MONO, PAIRS};
 use crate::machine::SMALL;
 use crate::own::{self, ROWS};
 
@@ -14,7 +14,7 @@ pub use crate::scene::Scene;
 /// The table: the target's own scenes, and the built-in scenes of the command; in an image for Armv6-M those
 /// that it can draw.
 pub static ALL: &[Scene] = &{
-    let mut all = [ROWS[0]; count(ROWS.len() + BUILT_IN.len())];
+    let mut all = [ROWS[0]; count(ROWS.len() + BUILT_IN.len() + IN_MONO.len())];
     let (mut i, mut kept) = (0, 0);
     while kept < all.len() {
         if fits(i) {
@@ -32,7 +32,14 @@ pub static TOO_LARGE: Scene = own::TOO_LARGE;
 const BUILT_IN: &[Scene] = PAIRS.as_flattened();
 
 const fn row(i: usize) -> Scene {
-    if i < ROWS.len() { ROWS[i] } else { BUILT_IN[i - ROWS.len()] }
+    let (own, built_in) = (ROWS.len(), ROWS.len() + BUILT_IN.len());
+    if i < own {
+        ROWS[i]
+    } else if i < built_in {
+        BUILT_IN[i - own]
+    } else {
+        IN_MONO[i - built_in]
+    }
 }
 
 const fn fits(i: usize) -> bool {

@@ -27,11 +27,14 @@ const MISSING: &[(&str, &str)] = &[
     ("flight", LATTICE),
     ("jacksboro", LATTICE),
     ("patch-joinings", FLASH),
+    ("patch-rock rgb565", LONG),
+    ("patch-diagonal rgb565", LONG),
+    ("patch-mountain rgb565", LONG),
 ];
 /// Each kind of surface is a ray caster of its own.
 const FLASH: &str =
     "a third caster of surfaces by control points takes more flash than the image of scenes has";
-/// Up to 16 rays a pixel, and as many again as there are bounces.
+/// Up to 16 rays a pixel, and as many again as there are bounces; or surfaces by control points, point by point.
 const LONG: &str = "the emulator would take minutes for it";
 
 /// A display with pixels.

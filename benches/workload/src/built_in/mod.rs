@@ -84,9 +84,6 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(patch_curve!("patch-bezier", patch_bezier)),
     both_roomy(patch_curve!("patch-takagi", patch_takagi)),
     both_roomy(patch_curve!("patch-spirals", patch_spirals)),
-    both_roomy(patch_surface!("patch-rock", patch_rock)),
-    both_roomy(patch_surface!("patch-diagonal", patch_diagonal)),
-    both_roomy(patch_surface!("patch-mountain", patch_mountain)),
     l_system!("cantor", cantor),
     l_system!("plant", plant),
     l_system!("dragon-curve", dragon_curve),
@@ -108,4 +105,11 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(terrain!("mountain-bilinear", mountain_bilinear)),
     both_roomy(terrain!("mountain-ferguson", mountain_ferguson)),
     both_roomy(terrain!("mountain-b-spline", mountain_b_spline)),
+];
+
+/// Scenes of which the emulator would take a minute for the picture in colour: that in black and white alone.
+pub(crate) const IN_MONO: &[Scene] = &[
+    both_roomy(patch_surface!("patch-rock", patch_rock))[1],
+    both_roomy(patch_surface!("patch-diagonal", patch_diagonal))[1],
+    both_roomy(patch_surface!("patch-mountain", patch_mountain))[1],
 ];
