@@ -1,6 +1,6 @@
 //! Where each decision's models begin among all of a stream.
 
-/// Models that a number takes: [`number`](super::number).
+/// Models that a number takes: `number` of the models.
 pub const NUMBER: usize = 20;
 
 /// By plane, size and how many of two neighbours are smaller.
