@@ -194,6 +194,41 @@ fn a_surface_is_watertight_however_steep_it_is() {
     assert!(met > 8000 && most >= 5, "{met} {most}");
 }
 
+/// From below the plain a ray comes out where land and plain end, not at the plain under the land; sides alternate.
+#[test]
+fn a_ray_from_below_comes_out_of_the_higher_of_land_and_plain() {
+    with_landscape(|heights, _| {
+        let exactly = grid(&heights);
+        let mut memory = [HeightRange::default(); Terrain::ranges(33, 33)];
+        let level = 0.05;
+        for (inner, exact) in INNER {
+            let stored = Terrain::new(heights, inner, OVER, &mut memory).unwrap().with_plain(real(level));
+            let mut uniform = Uniform(16);
+            let mut faces = [0; 2];
+            for _ in 0..400 {
+                let mut place = |size: f64| (uniform.next() * 2.0 - 1.0) * size;
+                let ray = Ray::new(vector([place(0.8), place(0.8), -1.5]), vector([0.0, 0.0, 1.0]));
+                let all = crossings(&stored, &ray, Unit::ZERO);
+                assert!(
+                    all.windows(2).all(|pair| pair[0].enters != pair[1].enters && pair[0].t <= pair[1].t)
+                );
+                let [x, y] = [ray.origin().x, ray.origin().y].map(|c| c.to_num::<f64>());
+                let land = reference::spanned(&exactly, exact, 16.0 * (x + 1.0), 16.0 * (y + 1.0))[0];
+                let height = -1.5 + all[0].t.to_num::<f64>();
+                assert!(
+                    !all[0].enters && (height - land.max(level)).abs() < 1e-5,
+                    "{inner:?} {land} {height}"
+                );
+                if (land - level).abs() > 1e-4 {
+                    assert_eq!((all.len(), all[0].face), (1, u8::from(land < level)), "{inner:?} {land}");
+                    faces[usize::from(all[0].face)] += 1;
+                }
+            }
+            assert!(faces.iter().all(|count| *count > 60), "{faces:?}");
+        }
+    });
+}
+
 /// Land on a plain is the higher of both: the first crossing, on which face it is, and the normal there,
 /// against a walk along the ray in f64.
 #[test]
