@@ -13,6 +13,7 @@ use super::super::surface::{Crossing, Surface, SurfacePoint};
 use super::super::surroundings::Surroundings;
 use super::scene::{Interpenetration, Leaf, World};
 use super::search::{Met, Start};
+use super::states::States;
 use crate::num::{Lumen, Real, Rgb, Unit, Vec3, product, reciprocal};
 
 /// Below this weight a ray is not cast: `1/256`.
@@ -21,13 +22,16 @@ const FAINT: Lumen = Lumen::from_bits(1 << 8);
 /// A ray that waits for its turn.
 #[derive(Debug, Clone, Copy)]
 struct Waiting {
-    ray: Ray,
-    start: Start,
+    origin: Vec3,
+    direction: Vec3<Unit>,
+    states: States,
+    /// The leaf from which it starts.
+    departed: u8,
+    level: u8,
     /// How much of what it brings is seen.
     weight: Rgb,
     /// How wide its cone is where it starts, 24 fractional bits.
     width: i32,
-    level: u8,
 }
 
 /// How far rays are followed.
@@ -63,24 +67,25 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     ) -> Rgb {
         let mut waiting = Vec::<Waiting, R>::new();
         let mut light = Rgb::BLACK;
-        let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, width: 0, level: 0 };
+        let (mut ray, mut start) = (ray, *start);
+        let (mut weight, mut width, mut level) = (Rgb::WHITE, 0, 0);
         loop {
-            let direction = now.ray.unit_direction();
-            let weighted = |light: Rgb| if now.level == 0 { light } else { now.weight.through(light) };
-            let is_cast = now.level <= depth.0 && now.weight.brightest() >= FAINT;
-            let met = if is_cast { self.met::<E>(&now.ray, &now.start) } else { None };
+            let direction = ray.unit_direction();
+            let weighted = |light: Rgb| if level == 0 { light } else { weight.through(light) };
+            let is_cast = level <= depth.0 && weight.brightest() >= FAINT;
+            let met = if is_cast { self.met::<E>(&ray, &start) } else { None };
             let is_seen = met.as_ref().is_some_and(|met| {
                 let Some((leaf, material, crossing)) = self.hit(met) else { return false };
-                let mut point = leaf.surface.point(&now.ray, now.start.cone, crossing, material.is_charted());
+                let mut point = leaf.surface.point(&ray, start.cone, crossing, material.is_charted());
                 if !lies_in_the_world(point.position) {
                     return false;
                 }
                 if point.normal.dot(direction) > 0 {
                     (point.normal, point.inward) = (negated(point.normal), true);
                 }
-                let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
+                let grown = (i64::from(crossing.t.to_bits()) * i64::from(start.cone.to_bits())) >> 30;
                 point.width =
-                    Real::from_bits(i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX));
+                    Real::from_bits(i32::try_from(grown + i64::from(width)).unwrap_or(i32::MAX));
                 let point = &point;
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
@@ -88,7 +93,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                 if let (true, (Some((other, _)), Some(one))) = (M::MAY_BE_CLEAR, self.within(behind.inside)) {
                     shared(Interpenetration { objects: [one, other], place: point.position });
                 }
-                let stay = Start { states: before, departed: Some(met.event.leaf), ..now.start };
+                let stay = Start { cone: start.cone, states: before, departed: Some(met.event.leaf) };
                 let response = self.response::<E>(point, material, direction, &stay);
                 light = light.plus(weighted(response.light));
                 if response.reflected != Rgb::BLACK || response.refracted != Rgb::BLACK {
@@ -96,23 +101,27 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                     let parts = self.bounced(point, material, direction, &response, states_inside);
                     for (part, states) in parts.into_iter().zip(states) {
                         let Some((direction, part)) = part else { continue };
-                        let weight = now.weight.through(part);
+                        let weight = weight.through(part);
                         if weight != Rgb::BLACK {
-                            let (ray, start) =
-                                (Ray::unit(point.position, direction), Start { states, ..stay });
-                            let (width, level) = (point.width.to_bits(), now.level.saturating_add(1));
+                            let (origin, departed) = (point.position, met.event.leaf);
+                            let (width, level) = (point.width.to_bits(), level.saturating_add(1));
                             // there is room: `WorldCaster::with_depth` sees to it
-                            let _ = waiting.push(Waiting { ray, start, weight, width, level });
+                            let _ = waiting
+                                .push(Waiting { origin, direction, states, departed, level, weight, width });
                         }
                     }
                 }
                 true
             });
             if !is_seen {
-                light = light.plus(weighted(surroundings.light(direction, now.start.cone)));
+                light = light.plus(weighted(surroundings.light(direction, start.cone)));
             }
             match waiting.pop() {
-                Some(next) => now = next,
+                Some(next) => {
+                    ray = Ray::unit(next.origin, next.direction);
+                    (start.states, start.departed) = (next.states, Some(next.departed));
+                    (weight, width, level) = (next.weight, next.width, next.level);
+                }
                 None => return light,
             }
         }

@@ -4,7 +4,7 @@ use super::super::material::{Material, Medium};
 use super::super::surface::Surface;
 use super::lamp::Lamp;
 use super::object::{LEAVES, Object};
-use super::states::{States, bit, has};
+use super::states::{States, bit};
 use crate::Error;
 use crate::num::{Vec3, Wide};
 
@@ -196,13 +196,21 @@ impl<'a, L: Surface, M: Material, const COMPOUNDS: bool> World<'a, L, M, COMPOUN
         states
     }
 
+    /// Whether a place with these states is inside any leaf of a transparent object: elsewhere is no medium.
+    #[inline(always)]
+    pub(super) fn is_clear(&self, states: u64) -> bool {
+        M::MAY_BE_CLEAR && states & self.clear != 0
+    }
+
     /// The medium at a place with these states, and whether another object of the same priority shares it.
+    #[inline(always)]
     pub(super) fn within(&self, states: u64) -> (Within, Option<u8>) {
+        if self.is_clear(states) { self.medium_of(states) } else { (None, None) }
+    }
+
+    #[inline(never)]
+    fn medium_of(&self, states: u64) -> (Within, Option<u8>) {
         let (mut within, mut shared): (Within, _) = (None, None);
-        // who is in no leaf is in no object
-        if !M::MAY_BE_CLEAR || states & self.clear == 0 {
-            return (within, shared);
-        }
         let mut rest = self.media();
         while rest != 0 {
             let number = rest.trailing_zeros() as u8;
@@ -228,12 +236,6 @@ impl<'a, L: Surface, M: Material, const COMPOUNDS: bool> World<'a, L, M, COMPOUN
     #[inline(always)]
     pub(super) fn media(&self) -> u64 {
         if M::MAY_BE_CLEAR { self.media } else { 0 }
-    }
-
-    /// Whether light passes through an object.
-    #[inline]
-    pub(super) fn is_transparent(&self, object: u8) -> bool {
-        self.media() != 0 && has(self.media, object)
     }
 
     /// States of a place that are all known where there are media, as these depend on all. Others are looked

@@ -176,27 +176,56 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         search.states = States { inside, unknown: unknown & !bit };
     }
 
-    /// Crosses all leaves of a transparent object. Answers whether there is anything new.
-    #[inline]
-    fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8) -> bool {
-        let Some(object) = self.objects.get(usize::from(number)) else { return false };
-        if object.ball.is_passed_by(search.ray) {
-            search.untried |= object.others;
-            return false;
+    /// Whether a ray cannot meet an object: it leaves it for good, or certainly passes it by. Of the leaves
+    /// of the latter nothing is known.
+    #[inline(always)]
+    fn is_missed(&self, object: &Object<'_>, ray: &Ray, start: &Start, untried: &mut u64) -> bool {
+        if object.is_left_by(start.departed, start.states.inside) {
+            return true;
         }
-        let count = search.events.len();
-        self.cross_near(search, number, object);
-        search.events.len() > count
+        let is_passed_by = object.ball.is_passed_by(ray);
+        if COMPOUNDS && is_passed_by {
+            *untried |= object.others;
+        }
+        is_passed_by
     }
 
+    /// The objects that a ray may meet, a bit each.
     #[inline(never)]
-    fn cross_near<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) {
+    fn near(&self, ray: &Ray, start: &Start, untried: &mut u64) -> u64 {
+        // the last one first: a shift by one place takes no time
+        self.objects.iter().rev().fold(0, |near, object| {
+            near << 1 | u64::from(!self.is_missed(object, ray, start, untried))
+        })
+    }
+
+    /// The objects of a set, with their numbers.
+    #[inline(always)]
+    fn among(&self, set: u64) -> impl Iterator<Item = (u8, &Object<'_>)> {
+        let mut rest = set;
+        core::iter::from_fn(move || {
+            let number = rest.trailing_zeros() as u8;
+            rest &= rest.wrapping_sub(1);
+            Some((number, self.objects.get(usize::from(number))?))
+        })
+    }
+
+    /// Crosses all leaves of a transparent object. Answers whether there is anything new.
+    #[inline(never)]
+    fn cross_all<const E: usize>(
+        &self,
+        search: &mut Search<'_, E>,
+        number: u8,
+        object: &Object<'_>,
+    ) -> bool {
+        let count = search.events.len();
         (search.object, search.is_alone) = (number, false);
         if let Some(leaf) = object.only() {
             self.cross(search, leaf);
         } else if COMPOUNDS {
             search.untried |= object.tried(search.ray, |leaf| self.cross(search, leaf));
         }
+        search.events.len() > count
     }
 
     /// Looks for the first change of an opaque object.
@@ -254,17 +283,6 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         }
     }
 
-    /// The numbers of the transparent objects.
-    #[inline]
-    fn transparent(&self) -> impl Iterator<Item = u8> {
-        let mut rest = self.media();
-        core::iter::from_fn(move || {
-            let number = rest.trailing_zeros() as u8;
-            rest &= rest.wrapping_sub(1);
-            (number < 64).then_some(number)
-        })
-    }
-
     /// The first seen change of a transparent object, from the event at `start` with these states on, and the
     /// event from which to go on.
     ///
@@ -298,6 +316,10 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
 
     /// Whether the medium changes at a hit.
     fn is_seen(&self, met: &Met) -> bool {
+        // what comes from no medium, or leads to none
+        if !self.is_clear(met.before) || !self.is_clear(met.behind) {
+            return true;
+        }
         let object = |states| self.within(states).0.map(|(object, _)| object);
         object(met.before) != object(met.behind)
     }
@@ -306,26 +328,25 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     #[inline(never)]
     pub(super) fn met<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Met> {
         let mut search = Search::<E>::new(ray, start, i32::MAX);
-        if self.media() != 0 {
-            for number in self.transparent() {
-                if !self.cross_all(&mut search, number) {
-                    continue;
-                }
-                search.found = None;
-                if let Some((met, _)) = self.change(&search.events, 0, search.states.inside) {
-                    search.keep(met);
-                    search.events.cut(search.limit);
+        if M::MAY_BE_CLEAR {
+            let near = self.near(ray, start, &mut search.untried);
+            for (number, object) in self.among(near & self.media()) {
+                if self.cross_all(&mut search, number, object) {
+                    search.found = None;
+                    if let Some((met, _)) = self.change(&search.events, 0, search.states.inside) {
+                        search.keep(met);
+                        search.events.cut(search.limit);
+                    }
                 }
             }
-        }
-        for (number, object) in (0..).zip(self.objects) {
-            if self.is_transparent(number) || object.is_left_by(start.departed, start.states.inside) {
-                continue;
-            }
-            if object.ball.is_passed_by(ray) {
-                search.untried |= object.others;
-            } else {
+            for (number, object) in self.among(near & !self.media()) {
                 self.first(&mut search, number, object);
+            }
+        } else {
+            for (number, object) in (0..).zip(self.objects) {
+                if !self.is_missed(object, ray, start, &mut search.untried) {
+                    self.first(&mut search, number, object);
+                }
             }
         }
         let mut met = search.found?;
@@ -342,8 +363,9 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     /// whether anything opaque stands before it or not.
     pub(super) fn overlap<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Interpenetration> {
         let mut search = Search::<E>::new(ray, start, i32::MAX);
-        for number in self.transparent() {
-            self.cross_all(&mut search, number);
+        let near = self.near(ray, start, &mut search.untried);
+        for (number, object) in self.among(near & self.media()) {
+            self.cross_all(&mut search, number, object);
         }
         let (mut states, mut at) = (search.states.inside, 0);
         loop {
@@ -360,16 +382,26 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
 
     /// How much light comes along a ray from beyond `limit`: what the things on the way let pass.
     pub(super) fn passed<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32) -> Rgb {
-        // what is opaque needs no more than to be met
-        for (number, object) in (0..).zip(self.objects) {
-            let is_missed = self.is_transparent(number)
-                || object.is_left_by(start.departed, start.states.inside)
-                || object.ball.is_passed_by(ray);
-            if !is_missed && self.is_met::<E>(ray, start, limit, number, object) {
-                return Rgb::BLACK;
+        let mut untried = 0;
+        if M::MAY_BE_CLEAR {
+            let near = self.near(ray, start, &mut untried);
+            // what is opaque needs no more than to be met
+            for (number, object) in self.among(near & !self.media()) {
+                if self.is_met::<E>(ray, start, limit, number, object) {
+                    return Rgb::BLACK;
+                }
             }
+            let clear = near & self.media();
+            if clear == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit, clear) }
+        } else {
+            for (number, object) in (0..).zip(self.objects) {
+                let is_missed = self.is_missed(object, ray, start, &mut untried);
+                if !is_missed && self.is_met::<E>(ray, start, limit, number, object) {
+                    return Rgb::BLACK;
+                }
+            }
+            Rgb::WHITE
         }
-        if self.media() == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit) }
     }
 
     /// Whether a ray meets an opaque object up to `limit`.
@@ -387,12 +419,12 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         search.found.is_some()
     }
 
-    /// How much light the transparent objects let pass.
+    /// How much light these transparent objects let pass.
     #[inline(never)]
-    fn let_through<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32) -> Rgb {
+    fn let_through<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32, clear: u64) -> Rgb {
         let mut search = Search::<E>::new(ray, start, limit);
-        for number in self.transparent() {
-            self.cross_all(&mut search, number);
+        for (number, object) in self.among(clear) {
+            self.cross_all(&mut search, number, object);
         }
         let (mut light, mut at, mut states) = (Rgb::WHITE, 0, search.states.inside);
         while let Some((met, next)) = self.change(&search.events, at, states) {
