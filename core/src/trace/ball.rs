@@ -70,10 +70,10 @@ impl Ball {
             // 24 fractional bits, below 222
             let along = along << ((4 + ray.steep) & 31);
             // what is rounded of it is 2^-17.6 at most, and counts twice in the square
-            let closer = high_u(along, along).wrapping_add(along >> 24);
+            let closer = high_u(along, along) + (along >> 24) + 4;
             let far = (square(way) >> 32) as u32;
-            // without a pace nobody can tell
-            ray.pace != 0 && far.saturating_sub(closer) > self.square.saturating_add(2)
+            // halves, below 2^31; without a pace nobody can tell
+            ray.pace != 0 && (far >> 1) as i32 - (closer >> 1) as i32 > (self.square >> 1) as i32
         } else {
             // what is this far away and met before 128 rises by more than is rounded
             let [below, rise] = [way, ray.direction].map(|v| high_dot(v, self.up));

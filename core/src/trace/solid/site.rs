@@ -552,13 +552,28 @@ impl Site {
     pub(super) fn place(&self, at: Vec3) -> Vec3 {
         let at = [at.x, at.y, at.z].map(Real::to_bits);
         let w = [0, 1, 2].map(|k: usize| at[k].saturating_sub(self.ball.centre[k]));
+        // 54 fractional bits, then 25
+        let up = (3 + self.exponent) as u32;
         let [x, y, z] = [0, 1, 2].map(|k: usize| {
-            // 54 fractional bits, then 24
-            let v = (dot(self.inverse[k], w) >> (29 - self.exponent)) + 1;
-            let v = (v >> 1) + i64::from(self.middle[k] >> 4);
-            Real::from_bits(i32::try_from(v).unwrap_or(if v < 0 { i32::MIN } else { i32::MAX }))
+            let way = dot(self.inverse[k], w);
+            let high = (way >> 32) as i32;
+            let middle = self.middle[k] >> 4;
+            // what the shift leaves within 30 bits is far from the ends
+            let c = if (1..=10).contains(&up) && (high ^ (high >> 31)) >> (29 - up) == 0 {
+                ((narrowed(way, up) + 1) >> 1) + middle
+            } else {
+                self.far_coordinate(way, middle)
+            };
+            Real::from_bits(c)
         });
         Vec3::new(x, y, z)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn far_coordinate(&self, way: Q54, middle: Q24) -> Q24 {
+        let c = (((way >> (29 - self.exponent)) + 1) >> 1) + i64::from(middle);
+        i32::try_from(c).unwrap_or(if c < 0 { i32::MIN } else { i32::MAX })
     }
 
     /// A direction in generic coordinates, brought to the world by the map.

@@ -25,8 +25,8 @@ struct Waiting {
     origin: Vec3,
     direction: Vec3<Unit>,
     states: States,
-    /// The leaf from which it starts.
-    departed: u8,
+    /// The leaf from which it starts, and its object.
+    left: [u8; 2],
     level: u8,
     /// How much of what it brings is seen.
     weight: Rgb,
@@ -93,7 +93,8 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                 if let (true, (Some((other, _)), Some(one))) = (M::MAY_BE_CLEAR, self.within(behind.inside)) {
                     shared(Interpenetration { objects: [one, other], place: point.position });
                 }
-                let stay = Start { cone: start.cone, states: before, departed: Some(met.event.leaf) };
+                let left = [met.event.leaf, met.event.object];
+                let stay = self.departure(left, before, start.cone);
                 let response = self.response::<E>(point, material, direction, &stay);
                 light = light.plus(weighted(response.light));
                 if response.reflected != Rgb::BLACK || response.refracted != Rgb::BLACK {
@@ -103,11 +104,11 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                         let Some((direction, part)) = part else { continue };
                         let weight = weight.through(part);
                         if weight != Rgb::BLACK {
-                            let (origin, departed) = (point.position, met.event.leaf);
-                            let (width, level) = (point.width.to_bits(), level.saturating_add(1));
+                            let (origin, width) = (point.position, point.width.to_bits());
+                            let level = level.saturating_add(1);
                             // there is room: `WorldCaster::with_depth` sees to it
-                            let _ = waiting
-                                .push(Waiting { origin, direction, states, departed, level, weight, width });
+                            let _ =
+                                waiting.push(Waiting { origin, direction, states, left, level, weight, width });
                         }
                     }
                 }
@@ -119,7 +120,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             match waiting.pop() {
                 Some(next) => {
                     ray = Ray::unit(next.origin, next.direction);
-                    (start.states, start.departed) = (next.states, Some(next.departed));
+                    start = self.departure(next.left, next.states, start.cone);
                     (weight, width, level) = (next.weight, next.width, next.level);
                 }
                 None => return light,

@@ -15,7 +15,7 @@ use super::super::surface::Surface;
 use super::super::surroundings::Surroundings;
 use super::bounce::Depth;
 use super::scene::{Interpenetration, World};
-use super::search::Start;
+use super::search::{NONE, Start};
 use crate::Error;
 use crate::num::{Lumen, Rgb, Unit, Wide};
 use crate::plane::{Field, LinearRgb, along, checked_size};
@@ -84,7 +84,8 @@ impl<
         }
         let size = checked_size(size)?;
         let screen = Screen::new(&camera, size, 0)?;
-        let start = Start { cone: screen.footprint, states: world.states(camera.eye), departed: None };
+        let states = world.states(camera.eye);
+        let start = Start { cone: screen.footprint, states, departed: None, left: NONE };
         let depth = Depth(RAYS.saturating_sub(2).min(255) as u8);
         Ok(Self { world, surroundings, camera, size, screen, pattern: Pattern::CENTRE, depth, start })
     }

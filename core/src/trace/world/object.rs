@@ -238,14 +238,11 @@ impl<'a> Object<'a> {
         self.only
     }
 
-    /// Whether a ray that starts from a leaf, outside or inside, cannot meet the object: it is that leaf
-    /// alone.
+    /// Whether a ray that starts from one of its leaves, outside or inside, cannot meet the object again: it
+    /// is that leaf alone.
     #[inline]
-    pub(super) fn is_left_by(&self, departed: Option<u8>, inside: u64) -> bool {
-        match departed {
-            Some(leaf) if self.only == departed => self.is_left[usize::from(has(inside, leaf))],
-            _ => false,
-        }
+    pub(super) fn is_left_by(&self, departed: u8, inside: u64) -> bool {
+        self.only == Some(departed) && self.is_left[usize::from(has(inside, departed))]
     }
 
     /// The first leaf, and how many are taken away from it one by one, in the order of their numbers; none

@@ -24,7 +24,12 @@ pub(super) struct Start {
     pub(super) states: States,
     /// The leaf from which it starts, if any.
     pub(super) departed: Option<u8>,
+    /// The object that is that leaf alone, where the ray leaves it for good, or [`NONE`].
+    pub(super) left: u32,
 }
+
+/// The number of no object.
+pub(super) const NONE: u32 = u32::MAX;
 
 /// What a ray meets first.
 #[derive(Debug, Clone, Copy)]
@@ -176,11 +181,26 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         search.states = States { inside, unknown: unknown & !bit };
     }
 
+    /// A start from a leaf, of an object, with these states.
+    #[inline]
+    pub(super) fn departure(&self, [leaf, object]: [u8; 2], states: States, cone: Unit) -> Start {
+        let whole = self.objects.get(usize::from(object));
+        let is_left = whole.is_some_and(|whole| whole.is_left_by(leaf, states.inside));
+        Start { cone, states, departed: Some(leaf), left: if is_left { object.into() } else { NONE } }
+    }
+
     /// Whether a ray cannot meet an object: it leaves it for good, or certainly passes it by. Of the leaves
     /// of the latter nothing is known.
     #[inline(always)]
-    fn is_missed(&self, object: &Object<'_>, ray: &Ray, start: &Start, untried: &mut u64) -> bool {
-        if object.is_left_by(start.departed, start.states.inside) {
+    fn is_missed(
+        &self,
+        number: u32,
+        object: &Object<'_>,
+        ray: &Ray,
+        start: &Start,
+        untried: &mut u64,
+    ) -> bool {
+        if start.left == number {
             return true;
         }
         let is_passed_by = object.ball.is_passed_by(ray);
@@ -193,10 +213,13 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     /// The objects that a ray may meet, a bit each.
     #[inline(never)]
     fn near(&self, ray: &Ray, start: &Start, untried: &mut u64) -> u64 {
-        // the last one first: a shift by one place takes no time
-        self.objects.iter().rev().fold(0, |near, object| {
-            near << 1 | u64::from(!self.is_missed(object, ray, start, untried))
-        })
+        let mut near = 0;
+        for (number, object) in (0..).zip(self.objects) {
+            if !self.is_missed(number, object, ray, start, untried) {
+                near |= bit(number as u8);
+            }
+        }
+        near
     }
 
     /// The objects of a set, with their numbers.
@@ -293,6 +316,19 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         let (mut at, mut before) = (start, states);
         loop {
             let group = events.together(at);
+            if let [event] = group {
+                // mostly one alone
+                let behind = event.behind(before);
+                let object = self.objects.get(usize::from(event.object))?;
+                if object.is_inside(before) != object.is_inside(behind) {
+                    let met = Met { event: *event, before, behind, unknown: 0 };
+                    if self.is_seen(&met) {
+                        return Some((met, at));
+                    }
+                }
+                (before, at) = (behind, at + 1);
+                continue;
+            }
             if group.is_empty() {
                 return None;
             }
@@ -344,8 +380,8 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             }
         } else {
             for (number, object) in (0..).zip(self.objects) {
-                if !self.is_missed(object, ray, start, &mut search.untried) {
-                    self.first(&mut search, number, object);
+                if !self.is_missed(number, object, ray, start, &mut search.untried) {
+                    self.first(&mut search, number as u8, object);
                 }
             }
         }
@@ -395,8 +431,8 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             if clear == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit, clear) }
         } else {
             for (number, object) in (0..).zip(self.objects) {
-                let is_missed = self.is_missed(object, ray, start, &mut untried);
-                if !is_missed && self.is_met::<E>(ray, start, limit, number, object) {
+                let is_missed = self.is_missed(number, object, ray, start, &mut untried);
+                if !is_missed && self.is_met::<E>(ray, start, limit, number as u8, object) {
                     return Rgb::BLACK;
                 }
             }
