@@ -14,7 +14,6 @@ use attractor::fif::{Cell, Pyramid};
 use attractor::ifs::catalogue::BARNSLEY_FERN;
 use attractor::num::{Real, Unit, Wide};
 use attractor::plane::{Field, PathElement};
-use attractor::trace::world::World;
 use attractor::trace::{Extent, HeightField};
 use embedded_graphics::image::Image;
 use embedded_graphics::pixelcolor::{BinaryColor, Gray8, Rgb565, Rgb888};
@@ -148,7 +147,7 @@ fn a_world_that_borrows_is_the_picture_of_the_command() {
     let mut boxes = [Extent::NOTHING; corner::BOXES];
     let objects = corner::objects(&leaves, &mut boxes).unwrap();
     let (materials, lamps) = (corner::materials().unwrap(), corner::lamps().unwrap());
-    let world = World::new(&leaves, &objects, &materials).unwrap().with_lamps(&lamps);
+    let world = corner::world(&leaves, &objects, &materials, &lamps).unwrap();
     let pixels = drawn::<Rgb565, _, _>(&corner::caster(world, size, 1).unwrap(), Srgb);
     let colours: BTreeSet<_> = pixels.iter().map(|p| (p.r(), p.g(), p.b())).collect();
     assert!(colours.len() > 30, "{}", colours.len());

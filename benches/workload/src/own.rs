@@ -11,7 +11,6 @@ use attractor::ifs::catalogue::BARNSLEY_FERN;
 use attractor::num::Complex;
 use attractor::num::{Angle, Real, Wide, sin_cos};
 use attractor::plane::{Bounds2, Field, Point2, Symmetric, Window, along};
-use attractor::trace::world::World;
 use attractor::trace::{Extent, Filter, RayCaster, Sampling};
 use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
@@ -31,7 +30,7 @@ macro_rules! once {
         let (leaves, materials, lamps) = ($of::leaves()?, $of::materials()?, $of::lamps()?);
         let mut boxes = [Extent::NOTHING; $of::BOXES];
         let objects = $of::objects(&leaves, &mut boxes)?;
-        let world = World::new(&leaves, &objects, &materials)?.with_lamps(&lamps);
+        let world = $of::world(&leaves, &objects, &materials, &lamps)?;
         let caster = $of::caster(world, $stage.size(), 1)?.with_sampling(Sampling::Centre, Filter::Box)?;
         let lent = size_of_val(&leaves)
             + size_of_val(&materials)

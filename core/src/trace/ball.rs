@@ -56,11 +56,12 @@ impl Ball {
         }
     }
 
-    /// Whether a ray certainly never comes into the ball: none that does passes it by, and of the others those
-    /// do that miss it by more than `2^-8` in squares at 200 from the centre, `2^-14` near it.
+    /// Whether a ray certainly never comes into the ball: no ray that does passes it by, and those that miss
+    /// it by more than `(1 + b) 2^-14` in squares do, `b` along the ray
+    /// (`a_ray_that_grazes_a_ball_does_not_pass_it_by`).
     ///
     /// With `w` the way to the centre and `b` how far along the ray it is closest, or 0 for what is behind its
-    /// begin, that is where `w^2 - b^2` is above the square of the radius.
+    /// begin, a ray passes by where `w^2 - b^2` is above the square of the radius.
     #[inline(always)]
     pub(super) fn is_passed_by(&self, ray: &Ray) -> bool {
         let way = self.from(ray);
@@ -149,6 +150,65 @@ mod tests {
 
     fn floats(v: Vec3) -> [f64; 3] {
         [v.x, v.y, v.z].map(|c| c.to_num())
+    }
+
+    /// Rays that are within a ten thousandth of tangency, at any distance, of any length: against squares of
+    /// distances in double precision.
+    #[test]
+    fn a_ray_that_grazes_a_ball_does_not_pass_it_by() {
+        let mut word = words(29);
+        let mut random = move || (word() >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0;
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (mut grazed, mut missed, mut kept, mut nearest) = (0, 0, 0, f64::MAX);
+        for k in 0..60_000 {
+            let far = [63.0, 20.0, 3.0][k % 3];
+            let origin = [random(), random(), random()].map(|c| c * far);
+            let centre = [random(), random(), random()].map(|c| c * far);
+            let square = (0.02 * 2000_f64.powf(random().abs())).powi(2).min(4000.0);
+            let ball = Ball {
+                centre: centre.map(|c| (c * f64::from(1 << 24)) as i32),
+                square: (square * 65536.0) as u32,
+                up: [0; 3],
+            };
+            let [centre, origin] = [ball.centre, origin.map(|c| (c * f64::from(1 << 24)) as i32)];
+            let way: [f64; 3] = core::array::from_fn(|k| f64::from(centre[k] - origin[k]) / f64::from(1 << 24));
+            let square = f64::from(ball.square) / 65536.0;
+            let excess = dot(way, way) - square;
+            if excess <= 0.0 {
+                continue;
+            }
+            // a direction at right angles to the way, then the tangent, then a little off
+            let other = [random(), random(), random()];
+            let part = dot(other, way) / dot(way, way);
+            let across: [f64; 3] = core::array::from_fn(|k| other[k] - part * way[k]);
+            let length = dot(across, across).sqrt();
+            let tangent = (square / excess).sqrt() * dot(way, way).sqrt() / length;
+            let tangent = tangent * (1.0 + random() * 1e-4);
+            let d: [f64; 3] = core::array::from_fn(|k| way[k] + tangent * across[k]);
+            let scale = [1.0, 0.8, 1.5, 2.4, 3.9][k % 5] / dot(d, d).sqrt();
+            let d = d.map(|c| (c * scale * f64::from(1 << 28)) as i32);
+            let ray = Ray::from_bits(origin, d).paced();
+            assert_ne!(ray.pace, 0, "{d:?}");
+            let d = d.map(|c| f64::from(c) / f64::from(1 << 28));
+            let along = (dot(way, d) / dot(d, d).sqrt()).max(0.0);
+            let distance = dot(way, way) - along * along;
+            let is_passed_by = ball.is_passed_by(&ray);
+            let off = (distance - square) * 16384.0 / (1.0 + along);
+            if distance <= square {
+                assert!(!is_passed_by, "{ball:?} {ray:?} {off}");
+                grazed += 1;
+            } else if off > 1.0 {
+                assert!(is_passed_by, "{ball:?} {ray:?} {off}");
+                missed += 1;
+            } else {
+                kept += u32::from(!is_passed_by);
+                if is_passed_by {
+                    nearest = f64::min(nearest, off);
+                }
+            }
+        }
+        assert!(grazed > 20_000 && missed > 3_000 && kept > 3_000, "{grazed} {missed} {kept}");
+        assert!(nearest > 0.05 && nearest < 0.5, "{nearest}");
     }
 
     /// Against distances in double precision: no ray that comes into the ball passes it by, and few that miss

@@ -400,15 +400,25 @@ fn around(around: &Around) -> (&'static str, String) {
     }
 }
 
-/// The caster, and what it asks for.
+/// The world of these parts, the caster, and what it asks for.
 fn picture(scene: &WorldScene, life: &str, module: &mut Module) {
     let world = &scene.world;
+    // what has no compounds takes no code for them
+    let has_compounds = world.programs.objects.iter().any(|object| object.ops.len() > 1);
+    let (made_by, compounds) = if has_compounds { ("new", "") } else { ("of_leaves", ", false") };
+    module.item("The world.", &format!("pub type Whole<'a> = World<'a, Thing{life}, Stuff{compounds}>;\n"));
+    module.item(
+        "The world of these parts.\n\n# Errors\nNone: the command has built it.",
+        &format!(
+            "pub fn world<'a>(\n    leaves: &'a [Leaf<'a, Thing{life}>],\n    objects: &'a [Object<'a>],\n    materials: &'a [Stuff],\n    lamps: &'a [Lamp],\n) -> Result<Whole<'a>, Error> {{\n    Ok(World::{made_by}(leaves, objects, materials)?.with_lamps(lamps))\n}}\n"
+        ),
+    );
     let crossings = scene.most_crossings();
     let rays = usize::from(world.depth) + 2;
     module.item(
         "The picture of the world.",
         &format!(
-            "pub type Caster<'a> = WorldCaster<'a, Thing{life}, Stuff, {}, {crossings}, {rays}>;\n",
+            "pub type Caster<'a> = WorldCaster<'a, Thing{life}, Stuff, {}, {crossings}, {rays}{compounds}>;\n",
             around(&world.around).0
         ),
     );
@@ -435,7 +445,7 @@ fn picture(scene: &WorldScene, life: &str, module: &mut Module) {
     module.item(
         "The picture of the world; the command's seed is 1.\n\n# Errors\nThose of [`WorldCaster::new`].",
         &format!(
-            "#[rustfmt::skip]\npub fn caster<'a>(world: World<'a, Thing{life}, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {{\n{body}}}\n"
+            "#[rustfmt::skip]\npub fn caster<'a>(world: Whole<'a>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {{\n{body}}}\n"
         ),
     );
 }

@@ -239,7 +239,7 @@ macro_rules! cast {
         let (materials, lamps) = (of::$scene::materials()?, of::$scene::lamps()?);
         let mut boxes = [attractor::trace::Extent::NOTHING; of::$scene::BOXES];
         let objects = of::$scene::objects(leaves, &mut boxes)?;
-        let world = attractor::trace::world::World::new(leaves, &objects, &materials)?.with_lamps(&lamps);
+        let world = of::$scene::world(leaves, &objects, &materials, &lamps)?;
         let caster = of::$scene::caster(world, $stage.size(), SEED as u32)?;
         let bytes = $lent
             + size_of_val(leaves)
