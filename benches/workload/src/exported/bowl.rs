@@ -137,6 +137,22 @@ pub fn camera() -> Result<Camera, Error> {
     Camera::new(EYE, LOOK_AT, UP, FIELD_OF_VIEW)
 }
 
+/// The world.
+pub type Whole<'a> = World<'a, Thing, Stuff>;
+
+/// The world of these parts.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn world<'a>(
+    leaves: &'a [Leaf<'a, Thing>],
+    objects: &'a [Object<'a>],
+    materials: &'a [Stuff],
+    lamps: &'a [Lamp],
+) -> Result<Whole<'a>, Error> {
+    Ok(World::new(leaves, objects, materials)?.with_lamps(lamps))
+}
+
 /// The picture of the world.
 pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 9, 7>;
 
@@ -145,7 +161,7 @@ pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 9, 7>;
 /// # Errors
 /// Those of [`WorldCaster::new`].
 #[rustfmt::skip]
-pub fn caster<'a>(world: World<'a, Thing, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
+pub fn caster<'a>(world: Whole<'a>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
     let caster = Caster::new(world, Sky { zenith: const { Rgb::new(Lumen::lit("0.08865"), Lumen::lit("0.11697"), Lumen::lit("0.15593")) }, horizon: const { Rgb::new(Lumen::lit("0.7454"), Lumen::lit("0.7157"), Lumen::lit("0.65837")) }, nadir: const { Rgb::new(Lumen::lit("0.01445"), Lumen::lit("0.01445"), Lumen::lit("0.01445")) } }, camera()?, size)?;
     caster.with_sampling(Sampling::Jittered { n: 2, seed }, Filter::Box)
 }

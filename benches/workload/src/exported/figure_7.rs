@@ -200,15 +200,31 @@ pub fn camera() -> Result<Camera, Error> {
     Camera::new(EYE, LOOK_AT, UP, FIELD_OF_VIEW)
 }
 
+/// The world.
+pub type Whole<'a> = World<'a, Thing<'a>, Stuff, false>;
+
+/// The world of these parts.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn world<'a>(
+    leaves: &'a [Leaf<'a, Thing<'a>>],
+    objects: &'a [Object<'a>],
+    materials: &'a [Stuff],
+    lamps: &'a [Lamp],
+) -> Result<Whole<'a>, Error> {
+    Ok(World::of_leaves(leaves, objects, materials)?.with_lamps(lamps))
+}
+
 /// The picture of the world.
-pub type Caster<'a> = WorldCaster<'a, Thing<'a>, Stuff, Rgb, 17, 6>;
+pub type Caster<'a> = WorldCaster<'a, Thing<'a>, Stuff, Rgb, 17, 6, false>;
 
 /// The picture of the world; the command's seed is 1.
 ///
 /// # Errors
 /// Those of [`WorldCaster::new`].
 #[rustfmt::skip]
-pub fn caster<'a>(world: World<'a, Thing<'a>, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
+pub fn caster<'a>(world: Whole<'a>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
     let _ = seed;
     let caster = Caster::new(world, const { Rgb::new(Lumen::lit("0.05"), Lumen::lit("0.06"), Lumen::lit("0.08")) }, camera()?, size)?;
     caster.with_sampling(Sampling::Centre, Filter::Box)

@@ -184,6 +184,22 @@ pub fn camera() -> Result<Camera, Error> {
     Camera::new(EYE, LOOK_AT, UP, FIELD_OF_VIEW)
 }
 
+/// The world.
+pub type Whole<'a> = World<'a, Thing, Stuff>;
+
+/// The world of these parts.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn world<'a>(
+    leaves: &'a [Leaf<'a, Thing>],
+    objects: &'a [Object<'a>],
+    materials: &'a [Stuff],
+    lamps: &'a [Lamp],
+) -> Result<Whole<'a>, Error> {
+    Ok(World::new(leaves, objects, materials)?.with_lamps(lamps))
+}
+
 /// The picture of the world.
 pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 30, 9>;
 
@@ -192,7 +208,7 @@ pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 30, 9>;
 /// # Errors
 /// Those of [`WorldCaster::new`].
 #[rustfmt::skip]
-pub fn caster<'a>(world: World<'a, Thing, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
+pub fn caster<'a>(world: Whole<'a>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
     let caster = Caster::new(world, Sky { zenith: const { Rgb::new(Lumen::lit("0.0648"), Lumen::lit("0.14996"), Lumen::lit("0.314")) }, horizon: const { Rgb::new(Lumen::lit("0.7157"), Lumen::lit("0.77582"), Lumen::lit("0.7913")) }, nadir: const { Rgb::new(Lumen::lit("0.02956"), Lumen::lit("0.02122"), Lumen::lit("0.01161")) } }, camera()?, size)?;
     caster.with_sampling(Sampling::Jittered { n: 2, seed }, Filter::Box)
 }
