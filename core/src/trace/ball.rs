@@ -171,7 +171,8 @@ mod tests {
                 up: [0; 3],
             };
             let [centre, origin] = [ball.centre, origin.map(|c| (c * f64::from(1 << 24)) as i32)];
-            let way: [f64; 3] = core::array::from_fn(|k| f64::from(centre[k] - origin[k]) / f64::from(1 << 24));
+            let way: [f64; 3] =
+                core::array::from_fn(|k| f64::from(centre[k] - origin[k]) / f64::from(1 << 24));
             let square = f64::from(ball.square) / 65536.0;
             let excess = dot(way, way) - square;
             if excess <= 0.0 {

@@ -84,8 +84,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                     (point.normal, point.inward) = (negated(point.normal), true);
                 }
                 let grown = (i64::from(crossing.t.to_bits()) * i64::from(start.cone.to_bits())) >> 30;
-                point.width =
-                    Real::from_bits(i32::try_from(grown + i64::from(width)).unwrap_or(i32::MAX));
+                point.width = Real::from_bits(i32::try_from(grown + i64::from(width)).unwrap_or(i32::MAX));
                 let point = &point;
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
@@ -107,8 +106,15 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                             let (origin, width) = (point.position, point.width.to_bits());
                             let level = level.saturating_add(1);
                             // there is room: `WorldCaster::with_depth` sees to it
-                            let _ =
-                                waiting.push(Waiting { origin, direction, states, left, level, weight, width });
+                            let _ = waiting.push(Waiting {
+                                origin,
+                                direction,
+                                states,
+                                left,
+                                level,
+                                weight,
+                                width,
+                            });
                         }
                     }
                 }

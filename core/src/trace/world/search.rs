@@ -235,12 +235,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
 
     /// Crosses all leaves of a transparent object. Answers whether there is anything new.
     #[inline(never)]
-    fn cross_all<const E: usize>(
-        &self,
-        search: &mut Search<'_, E>,
-        number: u8,
-        object: &Object<'_>,
-    ) -> bool {
+    fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) -> bool {
         let count = search.events.len();
         (search.object, search.is_alone) = (number, false);
         if let Some(leaf) = object.only() {
