@@ -77,8 +77,9 @@ struct Search<'r, const E: usize> {
     begin: usize,
     leaf: u8,
     object: u8,
-    /// Whether the first change of the leaf is all that counts.
+    /// Whether the first change of the leaf is all that counts, and that change.
     is_alone: bool,
+    first: Option<Crossing>,
     /// Whether the ray starts inside the leaf, and whether the first crossing is to tell.
     is_inside: bool,
     is_undecided: bool,
@@ -102,6 +103,7 @@ impl<'r, const E: usize> Search<'r, E> {
             leaf: 0,
             object: 0,
             is_alone: false,
+            first: None,
             is_inside: false,
             is_undecided: false,
             own: Real::ZERO,
@@ -132,9 +134,13 @@ impl<'r, const E: usize> Search<'r, E> {
         if crossing.t <= self.own || (self.is_alone && crossing.enters == self.is_inside) {
             return ControlFlow::Continue(());
         }
+        if self.is_alone {
+            // nothing is seen through it
+            self.first = Some(crossing);
+            return ControlFlow::Break(());
+        }
         self.events.insert(self.begin, Event { crossing, leaf: self.leaf, object: self.object });
-        // nothing is seen through what is alone
-        if self.is_alone { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        ControlFlow::Continue(())
     }
 }
 
@@ -249,13 +255,11 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     /// Looks for the first change of an opaque object.
     #[inline(never)]
     fn first<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) {
-        search.begin = search.events.len();
-        search.object = number;
         if let Some(leaf) = object.only() {
-            search.is_alone = true;
+            (search.is_alone, search.first) = (true, None);
             self.cross(search, leaf);
-            if let Some(event) = search.events.all().get(search.begin) {
-                let (event, before) = (*event, search.states.inside);
+            if let Some(crossing) = search.first {
+                let (event, before) = (Event { crossing, leaf, object: number }, search.states.inside);
                 search.keep(Met { event, before, behind: event.behind(before), unknown: 0 });
             }
             return;
@@ -264,6 +268,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         if !COMPOUNDS {
             return;
         }
+        (search.begin, search.object) = (search.events.len(), number);
         search.is_alone = false;
         if let Some((leaf, others)) = object.carved() {
             if !self.cross(search, leaf) {
