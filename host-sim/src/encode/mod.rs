@@ -29,7 +29,7 @@ use crate::still::Still;
 impl Effort {
     /// How hard to look.
     pub(crate) const FAST: Self = Self { isometries: 1, candidates: 2, far: false };
-    pub(crate) const BEST: Self = Self { isometries: 8, candidates: 4, far: true };
+    pub(crate) const BEST: Self = Self { isometries: 8, candidates: 8, far: true };
 }
 
 impl Plan {

@@ -39,7 +39,7 @@ pub(super) struct Candidates {
 }
 
 /// What is asked of the index at a time.
-const NEAREST: usize = 3;
+const NEAREST: usize = 8;
 /// Low frequencies `(v, u)` that it knows.
 const KNOWN: [usize; 8] = [0x01, 0x10, 0x11, 0x02, 0x20, 0x12, 0x21, 0x22];
 
