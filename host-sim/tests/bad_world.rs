@@ -134,6 +134,8 @@ fn lights_cameras_and_samples_outside_their_ranges_are_refused() {
     said.change(WORLD, "towards = [-2, -3, 5]", "at = [1, 2, 3]\ntowards = [1, 2, 3]");
     said.change(WORLD, "towards = [-2, -3, 5]\n", "");
     said.change(WORLD, "color = \"#ffffff\"", "color = [65, 0, 0]");
+    let light = "[[light]]\ntowards = [-2, -3, 5]\ncolor = \"#ffffff\"\n";
+    said.change(WORLD, light, &light.repeat(65));
     said.change(WORLD, "samples = 1", "samples = 9");
     said.change(WORLD, "samples = 1", "filter = \"tent\"");
     said.change(WORLD, "samples = 1", "deviation = 0.5");

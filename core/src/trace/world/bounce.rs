@@ -25,8 +25,6 @@ struct Waiting {
     start: Start,
     /// How much of what it brings is seen.
     weight: Rgb,
-    /// How wide its cone is where it starts, 24 fractional bits.
-    width: i32,
     level: u8,
 }
 
@@ -63,7 +61,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     ) -> Rgb {
         let mut waiting = Vec::<Waiting, R>::new();
         let mut light = Rgb::BLACK;
-        let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, width: 0, level: 0 };
+        let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, level: 0 };
         loop {
             let direction = now.ray.unit_direction();
             let weighted = |light: Rgb| if now.level == 0 { light } else { now.weight.through(light) };
@@ -78,9 +76,6 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                 if point.normal.dot(direction) > 0 {
                     (point.normal, point.inward) = (negated(point.normal), true);
                 }
-                let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
-                point.width =
-                    Real::from_bits(i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX));
                 let point = &point;
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
@@ -98,11 +93,10 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                         let Some((direction, part)) = part else { continue };
                         let weight = now.weight.through(part);
                         if weight != Rgb::BLACK {
-                            let (ray, start) =
-                                (Ray::unit(point.position, direction), Start { states, ..stay });
-                            let (width, level) = (point.width.to_bits(), now.level.saturating_add(1));
+                            let ray = Ray::unit(point.position, direction).with_width(point.width);
+                            let (start, level) = (Start { states, ..stay }, now.level.saturating_add(1));
                             // there is room: `WorldCaster::with_depth` sees to it
-                            let _ = waiting.push(Waiting { ray, start, weight, width, level });
+                            let _ = waiting.push(Waiting { ray, start, weight, level });
                         }
                     }
                 }
@@ -139,7 +133,8 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             if point.normal.dot(towards) <= 0 || normal.dot(towards) <= 0 {
                 return None;
             }
-            let passed = self.passed::<E>(&Ray::unit(point.position, towards), stay, distance);
+            let ray = Ray::unit(point.position, towards).with_width(point.width);
+            let passed = self.passed::<E>(&ray, stay, distance);
             if passed == Rgb::BLACK {
                 None
             } else if passed == Rgb::WHITE {
