@@ -38,7 +38,7 @@ pub const ALL: [Sweep; 9] = [
     Sweep {
         name: "atan2",
         inputs: "every y with x = 2^31 - 1 and with x = -2^30 - 1, in turns",
-        bound: 1.0 / (1_u64 << 30) as f64,
+        bound: 5.0 / (1_u64 << 32) as f64,
         error: atan2,
     },
     Sweep { name: "log2", inputs: "every h", bound: 1.0 / (1_u64 << 24) as f64, error: log2_low },

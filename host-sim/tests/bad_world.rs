@@ -134,8 +134,6 @@ fn lights_cameras_and_samples_outside_their_ranges_are_refused() {
     said.change(WORLD, "towards = [-2, -3, 5]", "at = [1, 2, 3]\ntowards = [1, 2, 3]");
     said.change(WORLD, "towards = [-2, -3, 5]\n", "");
     said.change(WORLD, "color = \"#ffffff\"", "color = [65, 0, 0]");
-    let light = "[[light]]\ntowards = [-2, -3, 5]\ncolor = \"#ffffff\"\n";
-    said.change(WORLD, light, &light.repeat(65));
     said.change(WORLD, "samples = 1", "samples = 9");
     said.change(WORLD, "samples = 1", "filter = \"tent\"");
     said.change(WORLD, "samples = 1", "deviation = 0.5");
@@ -151,6 +149,26 @@ fn lights_cameras_and_samples_outside_their_ranges_are_refused() {
     said.change(WORLD, "[[light]]", "[environment]\nkind = \"image\"\n[[light]]");
     said.scene(b"kind = \"world\"\n[camera]\neye = [0, -6, 2]\nlook_at = [0, 0, 1]\n");
     assert_snapshot!(said);
+}
+
+#[test]
+fn lights_that_are_too_many_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let light = "[[light]]\ntowards = [-2, -3, 5]\ncolor = [0.01, 0.01, 0.01]\n";
+    let dump = ["dump", "scene.toml", "-o", "out.png", "--size", "4x4"];
+    fs::write(
+        directory.path().join("scene.toml"),
+        WORLD.replace("[[light]]", &format!("{}[[light]]", light.repeat(63))),
+    )
+    .unwrap();
+    good(directory.path(), &dump);
+    fs::write(
+        directory.path().join("scene.toml"),
+        WORLD.replace("[[light]]", &format!("{}[[light]]", light.repeat(64))),
+    )
+    .unwrap();
+    let said = bad(directory.path(), &dump);
+    assert_eq!(said, "attractor: scene.toml: light: 65 lights; there is room for 64\n");
 }
 
 #[test]
