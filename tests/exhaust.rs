@@ -4,6 +4,9 @@
 //! A function of 64 bits is asked for three families of `2^32` inputs: the word `h` as such, `h 2^32`, and
 //! `h 2^32 + 2^32 - 1`. The kernels use the upper 32 significant bits at most, so the latter two hold, for
 //! each that a kernel can see, the least and the greatest number behind them.
+//!
+//! The angle of a vector hangs on the quotient of its components alone, and on their signs: it is asked for
+//! every `y` beside an `x` with as many bits as there are and beside one whose reciprocal is rounded most.
 
 use attractor::num::{self, Angle, Real};
 use attractor_reference::Elementary;
@@ -24,7 +27,7 @@ pub struct Sweep {
 }
 
 /// All of them.
-pub const ALL: [Sweep; 8] = [
+pub const ALL: [Sweep; 9] = [
     Sweep {
         name: "sin_cos",
         inputs: "every angle, the worse of sine and cosine",
@@ -32,6 +35,12 @@ pub const ALL: [Sweep; 8] = [
         error: sin_cos,
     },
     Sweep { name: "exp_minus", inputs: "every Real", bound: 1.0 / (1_u64 << 29) as f64, error: exp_minus },
+    Sweep {
+        name: "atan2",
+        inputs: "every y with x = 2^31 - 1 and with x = -2^30 - 1, in turns",
+        bound: 5.0 / (1_u64 << 32) as f64,
+        error: atan2,
+    },
     Sweep { name: "log2", inputs: "every h", bound: 1.0 / (1_u64 << 24) as f64, error: log2_low },
     Sweep {
         name: "log2 of 64 bits",
@@ -80,6 +89,13 @@ fn exp_minus(truth: &Elementary, word: u32) -> f64 {
     let x = Real::from_bits(word as i32);
     // less than 0 counts as 0
     truth.above_exp_minus(num::exp_minus(x).to_num(), x.to_bits().max(0).unsigned_abs()).abs()
+}
+
+/// In turns.
+fn atan2(truth: &Elementary, word: u32) -> f64 {
+    let y = word as i32;
+    let off = |x: i32| truth.above_turn(num::atan2(y, x).to_num(), y, x).abs();
+    off(i32::MAX).max(off(-(1 << 30) - 1))
 }
 
 fn log2(truth: &Elementary, v: u64) -> f64 {

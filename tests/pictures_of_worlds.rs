@@ -3,15 +3,16 @@
 //! A world is described once, in numbers, and built for both. Both implement the page "The picture of a
 //! world, defined" in CONTRIBUTING.md; what is compared are the colours of a display.
 
-use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Unit, Vec3, Wide};
+use attractor::fif::{Cell, Fif, Knot, Pyramid};
+use attractor::num::{Affine3, Angle, Lumen, Near, Real, Rgb, Scaling, Unit, Vec3, Wide};
 use attractor::plane::Field;
 use attractor::surfaces;
 use attractor::trace::material::{Anisotropic, Clear, Highlight, Medium, Mixture, Phong, TorranceSparrow};
 use attractor::trace::solid::{
-    Cube, HalfSpace, Placed, Plane, Polygon, Polyhedron, Sphere, Square, TaperedCylinder, Torus,
+    Cube, HalfSpace, Moved, Placed, Plane, Polygon, Polyhedron, Sphere, Square, TaperedCylinder, Torus,
 };
 use attractor::trace::world::{Lamp, Leaf, Object, Op, World, WorldCaster};
-use attractor::trace::{Camera, Extent, Sky};
+use attractor::trace::{Camera, Extent, HeightField, Sky};
 use attractor_reference as reference;
 use attractor_reference::world as exact;
 use embedded_graphics::geometry::Size;
@@ -29,6 +30,7 @@ surfaces! {
         Torus(Placed<Torus>),
         Polyhedron(Placed<Polyhedron<'a>>),
         Polygon(Placed<Polygon>),
+        Field(Moved<HeightField<'a>>),
     }
 }
 
@@ -46,6 +48,8 @@ enum Kind {
     Torus(f64),
     Polyhedron(&'static [(Vector, f64)]),
     Polygon(&'static [Vector]),
+    /// The rough surface of the paper.
+    Field,
 }
 
 /// One map after the other.
@@ -179,7 +183,20 @@ fn half_spaces(kind: Kind) -> Vec<HalfSpace> {
     planes.iter().map(|&(n, d)| HalfSpace::new(wide(n), Wide::from_num(d)).unwrap()).collect()
 }
 
-fn solid<'a>(part: &Part, planes: &'a [HalfSpace]) -> Solid<'a> {
+const FIELD: [(f64, f64); 3] = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
+/// How deep its pyramids are: as fine as a pixel at 240 a side.
+const DEPTH: usize = 8;
+
+fn with_field<R>(work: impl FnOnce(&HeightField<'_>) -> R) -> R {
+    let knots = FIELD.map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
+    let scalings = [0.85, -0.85].map(Scaling::from_num);
+    let f = Fif::<2, 2>::interpolating(&knots, &scalings).unwrap().integral::<2>(Wide::ZERO).unwrap();
+    let mut memory = vec![Cell::ZERO; Pyramid::cells(2, DEPTH as u32)];
+    let pyramid = Pyramid::new(&f, DEPTH as u32, &mut memory).unwrap();
+    work(&HeightField::new(&pyramid, &pyramid).unwrap())
+}
+
+fn solid<'a>(part: &Part, planes: &'a [HalfSpace], field: &HeightField<'a>) -> Solid<'a> {
     let map = &map(part.1);
     match part.0 {
         Kind::Sphere => Solid::Sphere(Placed::new(Sphere, map).unwrap()),
@@ -197,6 +214,7 @@ fn solid<'a>(part: &Part, planes: &'a [HalfSpace]) -> Solid<'a> {
             let corners: Vec<Vec3> = corners.iter().copied().map(vector).collect();
             Solid::Polygon(Placed::new(Polygon::new(&corners).unwrap(), map).unwrap())
         }
+        Kind::Field => Solid::Field(Moved::new(*field, map).unwrap()),
     }
 }
 
@@ -210,6 +228,10 @@ fn shape(kind: Kind) -> Box<dyn exact::Shape> {
         Kind::Torus(tube) => Box::new(exact::Torus { tube }),
         Kind::Polyhedron(planes) => Box::new(exact::Polyhedron { half_spaces: planes.to_vec() }),
         Kind::Polygon(corners) => Box::new(exact::Polygon { corners: corners.to_vec() }),
+        Kind::Field => {
+            let f = reference::Fif::interpolating(&FIELD, &[0.85, -0.85]).integral(0.0);
+            Box::new(exact::HeightField::new(f.clone(), f, DEPTH))
+        }
     }
 }
 
@@ -303,12 +325,16 @@ impl Scene {
 
     /// The linear light of each pixel.
     fn core(&self, side: u32) -> Vec<Vector> {
+        with_field(|field| self.core_with(side, field))
+    }
+
+    fn core_with(&self, side: u32, field: &HeightField<'_>) -> Vec<Vector> {
         let planes: Vec<Vec<HalfSpace>> = self.parts.iter().map(|part| half_spaces(part.0)).collect();
         let leaves: Vec<Leaf<'_, Solid<'_>>> = self
             .parts
             .iter()
             .zip(&planes)
-            .map(|(part, planes)| Leaf { surface: solid(part, planes), materials: part.2 })
+            .map(|(part, planes)| Leaf { surface: solid(part, planes, field), materials: part.2 })
             .collect();
         let mut memory: Vec<Vec<Extent>> =
             self.programs.iter().map(|ops| vec![Extent::NOTHING; Object::extents(ops.len())]).collect();
@@ -845,4 +871,111 @@ fn a_ring_that_is_cut_and_mirrors() {
         },
         OPAQUE,
     );
+}
+
+/// A ray that passes a compound by does not follow its parts, which it may come to be inside of or outside:
+/// where it meets something else they are looked up before a medium is named.
+#[test]
+fn parts_that_a_ray_did_not_follow_are_looked_up_where_it_ends() {
+    use Op::{Difference, Intersection, Leaf};
+    let clear = |index, priority| Material {
+        glass: Some(Glass { index, transmit: [0.95, 1.0, 0.9], priority, fresnel: false }),
+        ..mirror([0.0; 3])
+    };
+    let scene = Scene {
+        name: "parts that are passed by",
+        parts: vec![
+            Part(
+                Kind::Torus(0.4),
+                &[Scale([0.79; 3]), Turn([0.95, -0.12, 0.87], -105.0), Move([-0.25, -0.05, 0.78])],
+                &[0],
+            ),
+            Part(Kind::Sphere, &[Scale([0.84; 3]), Move([-1.51, 0.2, 0.92])], &[1]),
+            Part(
+                Kind::Cube,
+                &[Scale([0.73; 3]), Turn([-0.47, 0.87, 0.74], -10.0), Move([-0.28, -0.11, -0.22])],
+                &[1],
+            ),
+            Part(
+                Kind::Cube,
+                &[Scale([0.85; 3]), Turn([0.41, -0.54, -0.02], 164.0), Move([-0.75, -0.07, 0.62])],
+                &[1],
+            ),
+        ],
+        programs: vec![vec![Leaf(0)], vec![Leaf(1), Leaf(2), Leaf(3), Intersection, Difference]],
+        materials: vec![clear(1.4, 0), clear(1.44, 2)],
+        lights: vec![sun(0.8)],
+        eye: [-0.09, -0.27, -0.06],
+        look_at: [0.0, 0.1, 0.0],
+        degrees: 50.0,
+        seen: vec![],
+    };
+    let (psnr, near, _) = compared(&scene, 60);
+    assert!(psnr >= CLEAR.0 && near >= CLEAR.1, "{psnr} {near}");
+}
+
+/// A fractal surface that mirrors its corner of a room and itself, under a map that scales it by another
+/// factor along each axis: pixels show leaves of every size.
+#[test]
+fn a_rough_surface_that_mirrors_a_corner() {
+    const WALL: &[Vector] = &[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 1.0], [0.0, 0.0, 1.0]];
+    const OTHER: &[Vector] = &[[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
+    let turned = Turn([0.0, 0.0, 1.0], 180.0);
+    for (name, scale) in [("rough", [1.2, 1.2, 1.7]), ("rough, of uneven scales", [1.1, 0.9, 2.2])] {
+        let steps = vec![Scale(scale), turned, Move([2.4, 2.4, 0.02])];
+        assert_same(
+            &Scene {
+                name,
+                parts: vec![
+                    Part(Kind::Plane, &[], &[0]),
+                    Part(Kind::Polygon(WALL), &[Scale([1.0, 8.0, 4.0])], &[1]),
+                    Part(Kind::Polygon(OTHER), &[Scale([8.0, 1.0, 4.0])], &[2]),
+                    Part(Kind::Field, steps.leak(), &[3]),
+                    Part(Kind::Sphere, &[Scale([0.42; 3]), Move([0.85, 2.9, 0.42])], &[4]),
+                ],
+                programs: single(0..5),
+                materials: vec![
+                    matt(SAND),
+                    matt(RED),
+                    matt(BLUE),
+                    Material { reflect: [0.7; 3], ..shiny([0.5; 3], [0.25; 3], Shine::Phong(40)) },
+                    matt(GREEN),
+                ],
+                lights: vec![
+                    Light::Point([2.6, 3.4, 3.7], [0.75; 3]),
+                    Light::Point([4.5, 1.0, 3.0], [0.25; 3]),
+                ],
+                eye: [5.6, 6.2, 3.6],
+                look_at: [0.9, 1.0, 0.85],
+                degrees: 36.0,
+                seen: vec![5000, 5000, 5000, 10_000, 1000],
+            },
+            OPAQUE,
+        );
+    }
+}
+
+/// The same surface of glass: what lies below it is bent, and seen through it from below as well.
+#[test]
+fn a_rough_surface_of_glass() {
+    for (name, eye) in [("rough glass", [3.0, 3.5, 2.5]), ("rough glass from below", [3.0, 3.5, -1.5])] {
+        assert_same(
+            &Scene {
+                name,
+                parts: vec![
+                    Part(Kind::Field, &[Scale([1.0, 1.0, 0.7]), Move([-1.0, -1.0, 0.0])], &[0]),
+                    Part(Kind::Sphere, &[Scale([0.4; 3]), Move([0.3, 0.0, -0.4])], &[1]),
+                    Part(Kind::Sphere, &[Scale([0.3; 3]), Move([-0.5, 0.2, 1.2])], &[2]),
+                ],
+                programs: single(0..3),
+                materials: vec![glass(1.33, 0), matt(RED), matt(GREEN)],
+                lights: vec![sun(0.75)],
+                eye,
+                look_at: [0.0, 0.0, 0.2],
+                degrees: 34.0,
+                seen: vec![1000, 0, 300],
+            },
+            CLEAR,
+        );
+    }
 }

@@ -152,6 +152,26 @@ fn lights_cameras_and_samples_outside_their_ranges_are_refused() {
 }
 
 #[test]
+fn lights_that_are_too_many_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let light = "[[light]]\ntowards = [-2, -3, 5]\ncolor = [0.01, 0.01, 0.01]\n";
+    let dump = ["dump", "scene.toml", "-o", "out.png", "--size", "4x4"];
+    fs::write(
+        directory.path().join("scene.toml"),
+        WORLD.replace("[[light]]", &format!("{}[[light]]", light.repeat(63))),
+    )
+    .unwrap();
+    good(directory.path(), &dump);
+    fs::write(
+        directory.path().join("scene.toml"),
+        WORLD.replace("[[light]]", &format!("{}[[light]]", light.repeat(64))),
+    )
+    .unwrap();
+    let said = bad(directory.path(), &dump);
+    assert_eq!(said, "attractor: scene.toml: light: 65 lights; there is room for 64\n");
+}
+
+#[test]
 fn glass_that_shares_a_place_is_refused_unless_it_is_allowed() {
     let mut said = Said::default();
     let shared =

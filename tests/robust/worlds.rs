@@ -373,9 +373,11 @@ fn any_shape(shape: impl Shape + Copy, map: &Affine3, ray: &Ray, cone: Unit, pla
     let _ = (placed.value(place), placed.error(), placed.extent(), placed.shape().bounds());
     let _ = (placed.ball().centre(), placed.is_clear_of(place), shape.radius(), shape.is_clear_of(place));
     let _ = Ball::round(place, ray.origin());
+    let wide = ray.with_width(place.x);
+    let _ = (wide.width_at(place.y, cone), wide.width_at(Real::MAX, Unit::MAX));
     if let Ok(moved) = Moved::new(placed, map) {
-        moved.cross(ray, cone, &mut |crossing| {
-            let _ = moved.point(ray, cone, &crossing, true);
+        moved.cross(&wide, cone, &mut |crossing| {
+            let _ = moved.point(&wide, cone, &crossing, true);
             std::ops::ControlFlow::Continue(())
         });
         let _ = (moved.value(place), moved.error(), moved.extent(), moved.most_crossings());

@@ -33,8 +33,8 @@ const COEFFICIENTS: [i32; 11] = [
 
 /// The angle of `(x, y)`, words of one format, from the `x` axis towards the `y` axis; 0 for `(0, 0)`.
 ///
-/// Domain: all. Error: below `2^-30` of a turn (`the_angle_of_a_vector_is_within_two_to_the_minus_30`), none
-/// on the axes. Cost: 18 multiplications, the table of the reciprocal.
+/// Domain: all. Error: below `5 2^-32` of a turn (`the_angle_of_a_vector_is_within_five_units`; row `atan2` of
+/// tests/exhaust.toml), none on the axes. Cost: 18 multiplications, the table of the reciprocal.
 ///
 /// ```
 /// use attractor::num::{Angle, Near, atan2};
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn the_angle_of_a_vector_is_within_two_to_the_minus_30() {
+    fn the_angle_of_a_vector_is_within_five_units() {
         // `error` is that of `atan2` in units
         let (mut worst, mut tried) = (0.0_f64, 0);
         for i in 0..300_000_u64 {
@@ -89,7 +89,9 @@ mod tests {
             worst = worst.max(error(y, x));
             tried += 1;
         }
-        assert!(tried > 300_000 && worst > 1.0 && worst < 4.0, "{worst}");
+        // what the sweep has found to be the worst of all y beside an x
+        worst = worst.max(error(0xbfd9_c000_u32 as i32, -(1 << 30) - 1));
+        assert!(tried > 300_000 && worst > 4.0 && worst < 5.0, "{worst}");
     }
 
     #[test]

@@ -30,6 +30,7 @@ pub type Wide = fixed::types::I16F48;
 pub(crate) type Q16 = i32;
 pub(crate) type Q17 = i32;
 pub(crate) type Q18 = i32;
+pub(crate) type Q22 = i32;
 pub(crate) type Q24 = i32;
 pub(crate) type Q25 = i32;
 pub(crate) type Q26 = i32;

@@ -276,7 +276,7 @@ impl<S: Scheme<J>, const J: usize> Surface for PatchSurface<'_, S, J> {
 
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
         let (mut left, mut last) = (CROSSINGS, None);
-        self.walk(ray, Footprint::new(cone), &mut |leaf| {
+        self.walk(ray, Footprint::new(cone).with_width(ray.width), &mut |leaf| {
             let joined = last.is_some_and(|out: i32| leaf.span.0.saturating_sub(out) <= GAP);
             last = Some(leaf.span.1);
             // right behind the leaf before, it is the same crossing
@@ -329,7 +329,7 @@ impl<S: Scheme<J>, const J: usize> Surface for PatchSurface<'_, S, J> {
             chart,
             face: 0,
             inward: false,
-            width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),
+            width: ray.width_at(crossing.t, cone),
         }
     }
 }

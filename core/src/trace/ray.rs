@@ -74,19 +74,37 @@ impl Axis {
     }
 }
 
-/// How wide a sample's cone is: `width = t * per_t`.
+/// How wide a sample's cone is: `width = (begin + t) * per_t`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Footprint {
     per_t: Unit,
     /// `1 / per_t` as a mantissa and a shift.
     reciprocal: (u32, u32),
+    /// How far its tip is behind the ray's start, 24 fractional bits.
+    begin: i64,
 }
 
 impl Footprint {
     /// A cone that is `per_t` wide at `t` = 1; 0 and less count as `2^-30`.
     pub(crate) fn new(per_t: Unit) -> Self {
         let per_t = per_t.max(Unit::DELTA);
-        Self { per_t, reciprocal: reciprocal(per_t.to_bits().unsigned_abs()) }
+        Self { per_t, reciprocal: reciprocal(per_t.to_bits().unsigned_abs()), begin: 0 }
+    }
+
+    /// As wide as this where the ray starts, 24 fractional bits.
+    pub(super) fn with_width(self, width: i32) -> Self {
+        let tip = Self { begin: 0, ..self };
+        Self { begin: tip.reaches(width.max(0)), ..self }
+    }
+
+    /// The same cone for a ray that starts at `t`.
+    pub(super) fn after(self, t: i32) -> Self {
+        Self { begin: self.begin.saturating_add(t.into()), ..self }
+    }
+
+    /// How far its tip is behind the ray's start.
+    pub(super) fn begin(self) -> i64 {
+        self.begin
     }
 
     /// Its width at `t` = 1.
@@ -95,7 +113,7 @@ impl Footprint {
         self.per_t
     }
 
-    /// Its width at `t` (24 fractional bits), saturated.
+    /// The width at `t` (24 fractional bits) of one that begins at a point, saturated.
     pub(super) fn width(self, t: i32) -> i32 {
         (product(self.per_t.to_bits(), t) >> 30).clamp(0, i64::from(i32::MAX)) as i32
     }
@@ -105,11 +123,12 @@ impl Footprint {
         Self::new(Unit::from_bits(self.per_t.to_bits().checked_div(n as i32).unwrap_or(0)))
     }
 
-    /// From where on the cone is at least `width` wide (both 24 fractional bits).
+    /// From where on the cone is at least `width` wide (both 24 fractional bits); below 0 where it is so from
+    /// the start.
     pub(crate) fn reaches(self, width: i32) -> i64 {
         let (mantissa, shift) = self.reciprocal;
         // per_t has 30 fractional bits
-        (i64::from(width) * i64::from(mantissa)) >> ((shift - 30) & 63)
+        ((i64::from(width) * i64::from(mantissa)) >> ((shift - 30) & 63)).saturating_sub(self.begin)
     }
 }
 
@@ -127,6 +146,8 @@ pub struct Ray {
     pub(super) steep: i32,
     /// `1 / |d|` where there is a pace.
     pub(super) slowness: Q30,
+    /// How wide its cone is where it starts.
+    pub(super) width: Q24,
 }
 
 impl Ray {
@@ -153,7 +174,22 @@ impl Ray {
             fine,
             steep: 0,
             slowness: 1 << 30,
+            width: 0,
         }
+    }
+
+    /// The same ray, as wide as this where it starts; below 0 counts as 0.
+    #[inline]
+    #[must_use]
+    pub fn with_width(self, width: Real) -> Self {
+        Self { width: width.to_bits().max(0), ..self }
+    }
+
+    /// How wide its cone is at a parameter, if it grows by `cone` for each 1 of `t`; saturated.
+    #[inline]
+    pub fn width_at(&self, t: Real, cone: Unit) -> Real {
+        let grown = product(cone.to_bits(), t.to_bits()) >> 30;
+        Real::from_bits((i64::from(self.width) + grown).clamp(0, i64::from(i32::MAX)) as i32)
     }
 
     /// The same ray for things that are placed.
@@ -218,7 +254,7 @@ impl Ray {
     /// Origin with 24, direction with 28 fractional bits.
     #[inline(always)]
     pub(crate) fn from_bits(origin: [Q24; 3], direction: [Q28; 3]) -> Self {
-        Self { origin, direction, pace: 0, fine: [0; 3], steep: 0, slowness: 0 }
+        Self { origin, direction, pace: 0, fine: [0; 3], steep: 0, slowness: 0, width: 0 }
     }
 
     /// Its coordinates along x, y and z, ready for many planes.
@@ -295,6 +331,32 @@ mod tests {
         }
         assert_eq!(Footprint::new(Unit::ZERO), Footprint::new(Unit::DELTA));
         assert_eq!(Footprint::new(Unit::ONE).part(4).per_t(), Unit::ONE / 4);
+    }
+
+    /// One that is wide already has a width earlier, by as much as its tip is behind.
+    #[test]
+    fn a_cone_that_is_wide_where_it_starts_reaches_a_width_earlier() {
+        let mut early = 0;
+        for per_t in [1 << 10, 123_457, 1 << 28, 1 << 30] {
+            for begin in [0, 1, 54_321, 5 << 24, i32::MAX] {
+                for t in [0, 777, 3 << 24] {
+                    for width in [1, 1 << 20, i32::MAX] {
+                        let footprint = Footprint::new(Unit::from_bits(per_t)).with_width(begin).after(t);
+                        let exact = ((i128::from(width) - i128::from(begin)) << 30) / i128::from(per_t);
+                        let got = i128::from(footprint.reaches(width)) + i128::from(t);
+                        let slack =
+                            2 + ((i128::from(width) + i128::from(begin)) << 30) / i128::from(per_t >> 28 | 1);
+                        assert!((got - exact).abs() <= 2 + (slack >> 28), "{per_t} {begin} {t} {width}");
+                        early += u32::from(got < 0);
+                    }
+                }
+            }
+        }
+        assert!(early > 40, "{early}");
+        let ray = Ray::new(Vec3::X, Vec3::Z).with_width(Real::ONE * 3);
+        assert_eq!(ray.width_at(Real::ONE * 8, Unit::ONE / 4), 5);
+        assert_eq!(ray.width_at(Real::MAX, Unit::ONE), Real::MAX);
+        assert_eq!(Ray::new(Vec3::X, Vec3::Z).with_width(-Real::ONE).width_at(Real::ZERO, Unit::ONE), 0);
     }
 
     #[test]

@@ -155,15 +155,14 @@ pub trait Surface {
         1
     }
 
-    /// How wrong the parameter of a crossing is at most, for a direction of length 1: crossings as near to
-    /// the point that a ray leaves as this may be that point itself.
+    /// How wrong the parameter of a crossing is at most, for a direction of length 1.
     fn error(&self) -> Real;
 
-    /// Hands over the crossings with `t >= 0` in the order of `t`, until `found` breaks off. `cone` is how
-    /// wide the ray is at `t` = 1: details that are smaller need not be told apart. Where a ray starts on one
-    /// surface that touches another, rounding may put the other's crossing behind it: what is less than
-    /// `2^-19` behind should be handed over, with a `t` of 0. A crossing into what a ray is in already does
-    /// nothing.
+    /// Hands over the crossings with `t >= 0` in the order of `t`, until `found` breaks off. The ray is
+    /// [`Ray::width_at`] wide, and grows by `cone` for each 1 of `t`: details along x and y that are smaller
+    /// need not be told apart. Where a ray starts on one surface that touches another, rounding may put the
+    /// other's crossing behind it: what is less than `2^-19` behind, give or take [`Surface::error`], should
+    /// be handed over, with a `t` of 0. A crossing into what a ray is in already does nothing.
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>);
 
     /// The inside-outside function at a place of the world: above 0 outside, 0 on the surface, below 0

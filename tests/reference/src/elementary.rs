@@ -1,5 +1,5 @@
-//! Sine, cosine, exponential and logarithm of every input of a 32-bit kernel, within `2^-60`: the truth of
-//! `cargo xtask exhaust`.
+//! Sine, cosine, exponential and logarithm of every input of a 32-bit kernel, within `2^-60`, and the
+//! arctangent within `2^-54`: the truth of `cargo xtask exhaust`.
 //!
 //! The argument is split in two. What belongs to its upper part stands in a table of double-doubles, made by
 //! one recurrence; the lower part is so small that its share, computed in `f64`, is below `2^-8` with an
@@ -94,6 +94,12 @@ impl Elementary {
         above(near, power, power.value() * libm::expm1(-b))
     }
 
+    /// How far `near`, in turns, lies above the angle of `(x, y)`, the shorter way round.
+    pub fn above_turn(&self, near: f64, y: i32, x: i32) -> f64 {
+        let off = near - libm::atan2(y.into(), x.into()) / (2.0 * PI);
+        off - libm::round(off)
+    }
+
     /// How far `near` lies above `log2(v)`, for `v > 0`.
     pub fn above_log2(&self, near: f64, v: u64) -> f64 {
         let zeros = v.leading_zeros();
@@ -166,7 +172,10 @@ mod tests {
             let p = e.above_exp_minus(libm::exp(-f64::from(x) / 16_777_216.0), x);
             let v = (u64::from(w) << 32 | 0x9abc_def1) >> (i % 50);
             let l = e.above_log2(libm::log2(v as f64), v);
-            for (off, most) in [(s, 2e-15), (c, 2e-15), (p, 3e-16), (l, 2e-14)] {
+            let (y, x) = (w as i32, w.wrapping_mul(0x85eb_ca6b) as i32);
+            let turns = std::f64::consts::FRAC_1_PI / 2.0 * libm::atan(f64::from(y) / f64::from(x));
+            let turn = e.above_turn(if x < 0 { turns - 0.5 } else { turns }, y, x);
+            for (off, most) in [(s, 2e-15), (c, 2e-15), (p, 3e-16), (l, 2e-14), (turn, 3e-16)] {
                 assert!(off.abs() < most, "{off:e} at {i}");
             }
         }

@@ -134,9 +134,9 @@ pub fn leaves<'a>(fields: &[HeightField<'a>; 1]) -> Result<[Leaf<'a, Thing<'a>>;
 pub fn lamps() -> Result<[Lamp; 2], Error> {
     Ok([
         // light 0
-        Lamp::point(const { Vec3::lit("2.6", "3.4", "3.7") }, const { Rgb::new(Lumen::lit("0.85"), Lumen::lit("0.82"), Lumen::lit("0.75")) }),
+        Lamp::point(const { Vec3::lit("2.6", "3.4", "3.7") }, const { Rgb::new(Lumen::lit("1.25"), Lumen::lit("1.2"), Lumen::lit("1.1")) }),
         // light 1
-        Lamp::point(const { Vec3::lit("4.5", "1", "3") }, const { Rgb::new(Lumen::lit("0.2"), Lumen::lit("0.22"), Lumen::lit("0.28")) }),
+        Lamp::point(const { Vec3::lit("4.5", "1", "3") }, const { Rgb::new(Lumen::lit("0.3"), Lumen::lit("0.32"), Lumen::lit("0.4")) }),
     ])
 }
 

@@ -83,7 +83,7 @@ pub fn leaves() -> Result<[Leaf<'static, Thing>; 5], Error> {
 pub fn lamps() -> Result<[Lamp; 1], Error> {
     Ok([
         // light 0
-        Lamp::distant(const { Vec3::lit("-4", "-4", "6") }, const { Rgb::new(Lumen::lit("0.95"), Lumen::lit("0.92"), Lumen::lit("0.86")) })?,
+        Lamp::distant(const { Vec3::lit("-4", "-4", "6") }, const { Rgb::new(Lumen::lit("1.3"), Lumen::lit("1.25"), Lumen::lit("1.2")) })?,
     ])
 }
 

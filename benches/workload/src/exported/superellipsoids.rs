@@ -104,7 +104,7 @@ pub fn leaves() -> Result<[Leaf<'static, Thing>; 17], Error> {
 pub fn lamps() -> Result<[Lamp; 1], Error> {
     Ok([
         // light 0
-        Lamp::distant(const { Vec3::lit("-2", "-4", "6") }, const { Rgb::new(Lumen::lit("0.9"), Lumen::lit("0.88"), Lumen::lit("0.84")) })?,
+        Lamp::distant(const { Vec3::lit("-2", "-4", "6") }, const { Rgb::new(Lumen::lit("1.25"), Lumen::lit("1.2"), Lumen::lit("1.15")) })?,
     ])
 }
 

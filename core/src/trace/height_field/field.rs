@@ -105,7 +105,7 @@ impl<'a> HeightField<'a> {
     }
 
     /// The rays with this footprint that leave `origin` (24 fractional bits), ready for walks.
-    pub(crate) fn pencil(&self, origin: [i32; 3], footprint: Footprint) -> Pencil {
+    pub(crate) fn pencil<const WIDE: bool>(&self, origin: [i32; 3], footprint: Footprint) -> Pencil<WIDE> {
         self.hierarchy.pencil(origin, footprint)
     }
 
@@ -124,7 +124,12 @@ impl<'a> HeightField<'a> {
 
     /// The leaf alone: all that shading needs.
     #[inline(always)]
-    pub(crate) fn leaf(&self, pencil: &Pencil, direction: &[i32; 3], count: &mut impl Count) -> Option<Leaf> {
+    pub(crate) fn leaf<const WIDE: bool>(
+        &self,
+        pencil: &Pencil<WIDE>,
+        direction: &[i32; 3],
+        count: &mut impl Count,
+    ) -> Option<Leaf> {
         if self.halved {
             self.hierarchy.walk_halves(pencil, direction, count)
         } else {
@@ -167,18 +172,18 @@ impl<'a> HeightField<'a> {
         self.cells(leaf).map_or([0, 0, 1 << 24], |(f, g)| normal(f, g))
     }
 
-    /// Bounds of the heights over a leaf, 24 fractional bits.
-    pub(crate) fn leaf_heights(&self, leaf: &Leaf) -> Option<[i32; 2]> {
-        self.cells(leaf).map(|(f, g)| range(f, g).into())
-    }
-
-    fn hit(&self, ray: &Ray, leaf: &Leaf) -> Option<Hit> {
+    /// The middle of a ray's part inside a leaf's box, 24 fractional bits.
+    pub(super) fn middle(&self, ray: &Ray, leaf: &Leaf) -> Option<i32> {
         let (f, g) = self.cells(leaf)?;
         let (low, high) = range(f, g);
         let [_, _, z] = ray.axes();
         let (t_in, t_out) = z.clip(low, high, leaf.span);
         // a ray that only touches the box may round to an empty part
-        let t = if t_in <= t_out { t_in + (t_out - t_in) / 2 } else { leaf.span.0 };
+        Some(if t_in <= t_out { t_in + (t_out - t_in) / 2 } else { leaf.span.0 })
+    }
+
+    fn hit(&self, ray: &Ray, leaf: &Leaf) -> Option<Hit> {
+        let ((f, g), t) = (self.cells(leaf)?, self.middle(ray, leaf)?);
         let Hierarchy { x, y, .. } = &self.hierarchy;
         let ((level, i), (_, j)) = (x.level_and_index(leaf.nodes.0), y.level_and_index(leaf.nodes.1));
         Some(Hit { level, index: (i, j), t: Real::from_bits(t), cells: (*f, *g) })

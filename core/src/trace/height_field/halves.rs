@@ -167,9 +167,10 @@ impl Middle {
     }
 }
 
-/// What all rays of one footprint that leave one point share, made ready for walks through one surface.
+/// What all rays of one footprint that leave one point share, made ready for walks through one surface. `WIDE`
+/// where their cones have a width at that point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pencil {
+pub(crate) struct Pencil<const WIDE: bool = false> {
     /// 24 fractional bits.
     pub(crate) origin: [i32; 3],
     pub(crate) footprint: Footprint,
@@ -178,7 +179,7 @@ pub(crate) struct Pencil {
     y: Middle,
 }
 
-impl Pencil {
+impl<const WIDE: bool> Pencil<WIDE> {
     /// The ray in this direction, 28 fractional bits.
     #[inline(always)]
     pub(crate) fn ray(&self, direction: &[i32; 3]) -> Ray {
@@ -192,22 +193,26 @@ struct LevelOfDetail {
     /// From where on the whole surface is small: twice that parameter less its last `shift` bits.
     small: u32,
     shift: u32,
+    /// How far the cone's tip is behind the ray's start, without these bits.
+    begin: u32,
 }
 
 impl LevelOfDetail {
     /// Whether a node, `2^shift` wide where the whole surface is `2^31`, is no wider than the footprint at
     /// `t`.
     #[inline(always)]
-    fn is_reached(&self, shift: u32, t: i32) -> bool {
+    fn is_reached<const WIDE: bool>(&self, shift: u32, t: i32) -> bool {
         // halved first, once for all nodes
         let small = (self.small >> 1) >> ((shift & 31) ^ 31);
-        t >> (self.shift & 31) >= small as i32
+        let t = (t >> (self.shift & 31)) as u32;
+        // both below 2^31
+        if WIDE { t.wrapping_add(self.begin) >= small } else { t >= small }
     }
 }
 
 impl Hierarchy<'_> {
     /// The rays with this footprint that leave `origin` (24 fractional bits).
-    pub(crate) fn pencil(&self, origin: [i32; 3], footprint: Footprint) -> Pencil {
+    pub(crate) fn pencil<const WIDE: bool>(&self, origin: [i32; 3], footprint: Footprint) -> Pencil<WIDE> {
         let [x, y, _] = origin;
         Pencil {
             origin,
@@ -219,17 +224,19 @@ impl Hierarchy<'_> {
     }
 
     fn level_of_detail(&self, footprint: Footprint) -> LevelOfDetail {
-        let small = footprint.reaches(self.x.width.max(self.y.width)).max(0);
+        let begin = footprint.begin();
+        let small = footprint.reaches(self.x.width.max(self.y.width)).saturating_add(begin).max(0);
         // at most 31: a width has 31 bits, the reciprocal of a footprint 32
         let shift = 33_u32.saturating_sub(small.leading_zeros());
-        LevelOfDetail { small: ((small >> shift) << 1) as u32, shift }
+        let begin = (begin >> shift).min(i64::from(i32::MAX)) as u32;
+        LevelOfDetail { small: ((small >> shift) << 1) as u32, shift, begin }
     }
 
     /// The first leaf that the ray in this direction (28 fractional bits) meets.
     #[inline(never)]
-    pub(crate) fn walk_halves(
+    pub(crate) fn walk_halves<const WIDE: bool>(
         &self,
-        pencil: &Pencil,
+        pencil: &Pencil<WIDE>,
         direction: &[i32; 3],
         count: &mut impl Count,
     ) -> Option<Leaf> {
@@ -270,7 +277,7 @@ impl Hierarchy<'_> {
         let (cells_x, cells_y) = (self.x.cells, self.y.cells);
         // a node is 2^shift wide, a leaf `2^last` or small
         let last = 31_u32.wrapping_sub(self.depth) & 31;
-        let is_leaf = |shift: u32, t: i32| shift <= last || pencil.detail.is_reached(shift, t);
+        let is_leaf = |shift: u32, t: i32| shift <= last || pencil.detail.is_reached::<WIDE>(shift, t);
         if is_leaf(31, t) {
             return Some(Leaf { nodes: (0, 0), span: (t, end) });
         }
@@ -326,7 +333,7 @@ mod tests {
 
     /// Down to the deepest level.
     fn walk_down(hierarchy: &Hierarchy<'_>, ray: &Ray) -> Option<Leaf> {
-        let pencil = hierarchy.pencil(ray.origin, Footprint::new(Unit::DELTA));
+        let pencil: Pencil = hierarchy.pencil(ray.origin, Footprint::new(Unit::DELTA));
         hierarchy.walk_halves(&pencil, &ray.direction, &mut Statistics::default())
     }
 
@@ -371,7 +378,7 @@ mod tests {
                     every.statistics.box_tests - truth.statistics.box_tests.min(every.statistics.box_tests);
                 tested += every.statistics.box_tests;
                 let mut statistics = Statistics::default();
-                let pencil = hierarchy.pencil(ray.origin, Footprint::new(Unit::from_bits(per_t)));
+                let pencil: Pencil = hierarchy.pencil(ray.origin, Footprint::new(Unit::from_bits(per_t)));
                 let leaf = hierarchy.walk_halves(&pencil, &ray.direction, &mut statistics);
                 assert_eq!(leaf.as_ref().map(|leaf| leaf.nodes), truth.nodes, "{ray:?} {truth:?}");
                 let stack = if clipped { truth.unfinished } else { truth.statistics.stack };
@@ -512,7 +519,7 @@ mod tests {
                     let (mut low, mut high) = (0_i64, 1 << 31);
                     while low < high {
                         let t = (low + high) / 2;
-                        if detail.is_reached(31 - level, t as i32) { high = t } else { low = t + 1 }
+                        if detail.is_reached::<false>(31 - level, t as i32) { high = t } else { low = t + 1 }
                     }
                     let early = exact - i128::from(low) * under;
                     if low == 1 << 31 {
@@ -527,6 +534,38 @@ mod tests {
             }
         }
         assert!(tried > 300 && (0.5..1.0).contains(&worst), "{worst} of {tried}");
+    }
+
+    /// The same for a cone that is wide where the ray starts: as if it had started at its tip.
+    #[test]
+    fn a_node_is_small_earlier_where_the_cone_is_wide_already() {
+        let (mut tried, mut reached) = (0, 0);
+        for width in [1 << 24, 9_999_999, 3 << 25, 77_777] {
+            for per_t in [1 << 10, 123_457, 1 << 26, 777_777_777] {
+                for begin in [0, 5_000, 1 << 20, 3 << 24] {
+                    let profile = Profile { cells: &[], starts: &HALVES, origin: 0, width };
+                    let hierarchy =
+                        Hierarchy { x: profile, y: profile, depth: 16, leaves: 0, heights: (0, 0) };
+                    let footprint = Footprint::new(Unit::from_bits(per_t)).with_width(begin);
+                    let detail = hierarchy.level_of_detail(footprint);
+                    for level in 0..=16 {
+                        for t in [0, 999, 1 << 22, 7 << 24, i32::MAX] {
+                            let exact = (i128::from(begin) << 30) + i128::from(t) * i128::from(per_t);
+                            let side = i128::from(width) << (30 - level);
+                            // as far from equal as parameters keep bits
+                            if (exact - side).abs() < (exact + side) >> 12 {
+                                continue;
+                            }
+                            tried += 1;
+                            reached += u32::from(exact >= side);
+                            let got = detail.is_reached::<true>(31 - level, t);
+                            assert_eq!(got, exact >= side, "{width} {per_t} {begin} {level} {t}");
+                        }
+                    }
+                }
+            }
+        }
+        assert!(tried > 5_000 && (1_000..tried - 1_000).contains(&reached), "{tried} {reached}");
     }
 
     /// A ray that starts within a unit of an outer plane and goes out touches the last part; planes come up

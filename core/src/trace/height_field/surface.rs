@@ -1,8 +1,8 @@
 //! A height field as a surface of a world: open, its upper side outward.
 //!
-//! A crossing is where a ray comes into the box of the first leaf that it meets: the ray is still on the side
-//! from which it came, no farther from the surface than the leaf is high. Leaves met one right behind the
-//! other are one crossing.
+//! A crossing is the middle of a ray's part inside the box of the first leaf that it meets. Leaves met one
+//! right behind the other are one crossing, the first: a ray that leaves the surface is not held up by the
+//! boxes through which it gets away from it.
 
 use core::ops::ControlFlow;
 
@@ -14,9 +14,8 @@ use super::statistics::Uncounted;
 use crate::fif::Cell;
 use crate::num::{Real, Unit, Vec3, Wide, product, quotient, unit};
 
-/// How many crossings of a ray are looked for, and how many leaves at most.
+/// How many crossings of a ray are looked for.
 const CROSSINGS: u32 = 8;
-const LEAVES: u32 = 64;
 
 /// A gap of fewer units of `t` between two leaves is none.
 const GAP: i32 = 16;
@@ -57,14 +56,10 @@ fn finest<'a>(profile: &Profile<'a>, depth: u32, c: Real) -> Option<&'a Cell> {
 impl HeightField<'_> {
     /// A leaf as a crossing: `from` is where the ray of its span begins.
     fn crossing(&self, ray: &Ray, leaf: &Leaf, from: i32) -> Option<Crossing> {
-        let normal = self.normal(leaf);
-        let [low, high] = self.leaf_heights(leaf)?;
-        let [_, _, z] = ray.axes();
-        // the entry into the box, where rounding leaves one
-        let t_in = z.clip(low, high, leaf.span).0.clamp(leaf.span.0, leaf.span.1.max(leaf.span.0));
+        let (normal, t) = (self.normal(leaf), self.middle(ray, leaf)?);
         let against = (0..3_usize).map(|k| product(normal[k], ray.direction[k]) >> 2).sum::<i64>() < 0;
         Some(Crossing {
-            t: Real::from_bits(from.checked_add(t_in)?),
+            t: Real::from_bits(from.checked_add(t)?),
             enters: against,
             face: 0,
             memo: [leaf.nodes.0, leaf.nodes.1],
@@ -93,11 +88,13 @@ impl Surface for HeightField<'_> {
     }
 
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
-        let footprint = Footprint::new(cone);
-        // the ray begins anew behind each leaf: `from` is where
+        let footprint = Footprint::new(cone).with_width(ray.width);
+        // the ray begins anew behind each leaf: `from` is where; a line crosses as many columns and rows
         let (mut rest, mut from, mut left) = (*ray, 0_i32, CROSSINGS);
-        for k in 0..LEAVES {
-            let rays = self.pencil(rest.origin, footprint);
+        let Hierarchy { x, y, depth, .. } = &self.hierarchy;
+        let leaves = |profile: &Profile<'_>| (profile.starts.len() as u32).saturating_pow(*depth);
+        for k in 0..leaves(x).saturating_add(leaves(y)) {
+            let rays = self.pencil::<true>(rest.origin, footprint.after(from));
             let Some(leaf) = self.leaf(&rays, &rest.direction, &mut Uncounted) else { return };
             // right behind the leaf before, it is the same crossing
             if k == 0 || leaf.span.0 > GAP {
@@ -161,7 +158,7 @@ impl Surface for HeightField<'_> {
             inward: false,
             chart,
             face: 0,
-            width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),
+            width: ray.width_at(crossing.t, cone),
         }
     }
 }
@@ -196,10 +193,10 @@ mod tests {
         (1.0 - (x - 1.0).abs()).max(0.0) * (1.0 - (y - 1.0).abs()).max(0.0)
     }
 
-    /// The first crossing is that of the leaf that the walk finds, on the side from which the ray comes, and
-    /// no farther from the surface than a leaf is high.
+    /// The first crossing is that of the leaf that the walk finds, no farther from the surface than a leaf is
+    /// high.
     #[test]
-    fn a_crossing_is_where_the_ray_comes_into_the_leaf() {
+    fn a_crossing_is_in_the_middle_of_the_leaf() {
         let mut word = words(43);
         let mut number = |scale: i32| Real::from_bits((word() >> 32) as i32 >> 7) * scale;
         with_field(6, |field| {
@@ -214,7 +211,7 @@ mod tests {
                 assert_eq!(all.is_empty(), hit.is_none());
                 let (Some(first), Some(hit)) = (all.first(), hit) else { continue };
                 met += 1;
-                assert!(first.t <= hit.t + Real::DELTA && all.len() <= 8, "{all:?}");
+                assert!(first.t == hit.t && all.len() <= 8, "{all:?}");
                 assert!(all.windows(2).all(|pair| pair[0].t < pair[1].t), "{all:?}");
                 let point = field.point(&ray, Unit::ONE / 4, first, true);
                 let normal = hit.normal().normalised().unwrap();
@@ -234,6 +231,43 @@ mod tests {
             }
             assert!(met > 1_500 && below > 300, "{met} {below}");
             assert!(most > 0.01 && most < 0.07, "{most}");
+        });
+    }
+
+    /// A ray is as wide behind a leaf as before it, and one that starts on another's way with the width that
+    /// it has there meets the same leaves, of every level.
+    #[test]
+    fn a_ray_that_starts_on_its_way_meets_the_same_leaves() {
+        let mut word = words(53);
+        let mut number = |scale: i32| Real::from_bits((word() >> 32) as i32 >> 7) * scale;
+        with_field(6, |field| {
+            let (mut same, mut other, mut levels) = ([0; 2], [0; 2], [0; 7]);
+            for k in 0..3_000 {
+                let eye = Vec3::new(number(6), number(6), number(2));
+                let to = Vec3::new(number(1) + Real::ONE, number(1) + Real::ONE, number(1) / 4);
+                let d = to.minus(eye);
+                let ray = Ray::new(eye, Vec3::new(d.x / 8, d.y / 8, d.z / 8));
+                let cone = Unit::from_bits(1 << (20 + k % 8));
+                for (n, crossing) in crossings(field, &ray, cone).into_iter().take(2).enumerate() {
+                    // a quarter of a leaf's side before it
+                    let level = field.hierarchy.x.level_and_index(crossing.memo[0]).0;
+                    let t = crossing.t - Real::ONE / 8;
+                    if t < 0 {
+                        continue;
+                    }
+                    let later = Ray::new(ray.at(t), Vec3::new(d.x / 8, d.y / 8, d.z / 8));
+                    let later = later.with_width(ray.width_at(t, cone));
+                    match crossings(field, &later, cone).first() {
+                        Some(again) if again.memo == crossing.memo => same[n] += 1,
+                        _ => other[n] += 1,
+                    }
+                    levels[level as usize] += 1;
+                }
+            }
+            // some start inside the leaf before it
+            assert!(same[0] > 1_000 && same[1] > 100, "{same:?} {other:?}");
+            assert!(other[0] < same[0] / 8 && other[1] < same[1] / 4, "{same:?} {other:?}");
+            assert!(levels.iter().filter(|count| **count > 50).count() > 4, "{levels:?}");
         });
     }
 

@@ -11,13 +11,13 @@ use super::super::surface::{Chart, Crossing, Extent, Surface, SurfacePoint};
 use super::site::{Approach, Site, shifted};
 use super::slab::{Part, over, slowness};
 use crate::Error;
-use crate::num::formats::Q28;
+use crate::num::formats::{Q22, Q28};
 use crate::num::{Affine3, Near, Real, Unit, Vec3, Wide, product, quotient, sqrt, square};
 
 /// A surface under an affine map. Its box has to be within ±32.
 ///
-/// The cone of a ray is narrower than it could be by what it was wide at the box: details are told apart that
-/// need not be.
+/// The cone of a ray is as wide as in the world, in units of what the map makes of 1 along the surface's x
+/// axis or along its y axis, whichever is longer.
 #[derive(Debug, Clone, Copy)]
 pub struct Moved<S> {
     surface: S,
@@ -25,7 +25,17 @@ pub struct Moved<S> {
     bounds: [[Q28; 3]; 2],
     /// The unit of the site is `2^places` of the surface's.
     places: u32,
+    /// What 1 of the world is along the surface's axes: a cone's width there.
+    narrowing: Q22,
     error: Real,
+}
+
+/// The reciprocal of what a map makes of 1 along x or along y, whichever is longer.
+fn narrowing(map: &Affine3) -> Q22 {
+    let (rows, _) = map.parts();
+    let [x, y] = [rows.map(|row| row.x), rows.map(|row| row.y)].map(|axis| square(axis.map(Real::to_bits)));
+    // a scale is below 128, its square below 2^62
+    quotient(1 << 22, 24, u64::from(sqrt(x.max(y))).max(1)).clamp(1, i64::from(i32::MAX)) as i32
 }
 
 impl<S: Surface> Moved<S> {
@@ -52,10 +62,11 @@ impl<S: Surface> Moved<S> {
         let site = Site::new(Some(near), None, &Affine3::scale(Vec3::new(unit, unit, unit)).then(map))?;
         let error = Near::from_bits(shifted(surface.error().to_bits().into(), 4 - places as i32));
         let error = site.error(error);
-        Ok(Self { surface, site, bounds, places, error })
+        Ok(Self { surface, site, bounds, places, narrowing: narrowing(map), error })
     }
 
-    /// The ray in the surface's coordinates from where it comes into the box, and the `s` there.
+    /// The ray in the surface's coordinates from where it comes into the box, with its width there, the `s`
+    /// there, and how much its cone grows.
     fn inner(&self, ray: &Ray, approach: &Approach, cone: Unit) -> Option<(Ray, Near, Unit)> {
         let (o, d) = (approach.near.origin, approach.near.direction);
         let mut part = Part::ALL;
@@ -77,11 +88,13 @@ impl<S: Surface> Moved<S> {
         let right = 4 - self.places;
         let origin = [at.x, at.y, at.z].map(|c| c.to_bits() >> right);
         let direction = [d.x, d.y, d.z].map(Near::to_bits);
-        // as wide at the same place
-        let [long, short] = [direction, ray.direction].map(|d| u64::from(sqrt(square(d))).max(1));
-        let cone = quotient(product(cone.to_bits(), long.min(1 << 30) as i32), 0, short);
-        let cone = Unit::from_bits(shifted(cone, 0).max(1));
-        Some((Ray::from_bits(origin, direction), start, cone))
+        // where it comes in, the width is that of the world; 1 of its own parameter is 2^-(k + places) of t
+        let begin = approach.parameter(start).unwrap_or(Real::MAX);
+        let own =
+            |width: i32, places: i32| shifted(product(width, self.narrowing), places.saturating_sub(22));
+        let width = Real::from_bits(own(ray.width_at(begin, cone).to_bits(), 0));
+        let cone = Unit::from_bits(own(cone.to_bits(), -(approach.places + self.places as i32)).max(1));
+        Some((Ray::from_bits(origin, direction).with_width(width), start, cone))
     }
 }
 
@@ -137,7 +150,7 @@ impl<S: Surface> Surface for Moved<S> {
             inward: false,
             chart: Chart::default(),
             face: crossing.face,
-            width: Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32),
+            width: ray.width_at(crossing.t, cone),
         };
         let Some(approach) = self.site.approach_met(ray) else { return point };
         let Some((inner, start, cone)) = self.inner(ray, &approach, cone) else { return point };
@@ -250,6 +263,58 @@ mod tests {
             }
             let far = Affine3::translate(Vec3::lit("70", "0", "0"));
             assert!(Moved::new(*field, &far).is_err() && moved_twice(field).is_ok());
+        });
+    }
+
+    /// A cone is as wide as in the world: a node is a leaf where its side is that, whatever the map makes of it
+    /// and wherever the ray comes into the box; how wide the ray is where it starts counts as well.
+    #[test]
+    fn a_cone_has_under_a_map_the_width_that_it_has_in_the_world() {
+        let mut word = words(59);
+        let mut number = |scale: i32| Real::from_bits((word() >> 32) as i32 >> 7) * scale;
+        let turn = Affine3::rotate(Vec3::lit("1", "2", "3"), Angle::from_num(0.15)).unwrap();
+        let scaled = |x: &str, y: &str, z: &str| {
+            let [x, y, z] = [x, y, z].map(|c| Real::from_num(c.parse::<f64>().unwrap()));
+            Affine3::scale(Vec3::new(x, y, z)).then(&turn)
+        };
+        // and what 1 along x or along y becomes at most
+        let maps = [
+            (turn.then(&Affine3::translate(Vec3::lit("3", "-2", "1"))), 1.0),
+            (scaled("3", "3", "3"), 3.0),
+            (scaled("0.25", "0.5", "1"), 0.5),
+            (scaled("2", "0.5", "-3"), 2.0),
+        ];
+        with_field(|field| {
+            for (map, longer) in maps {
+                let moved = Moved::new(*field, &map).unwrap();
+                let (mut same, mut other, mut levels) = (0, 0, [0; 7]);
+                for k in 0..1_000 {
+                    let (eye, to) = (
+                        Vec3::new(number(6), number(6), number(6)),
+                        Vec3::new(number(1) + Real::ONE, number(1) + Real::ONE, number(1) / 2),
+                    );
+                    let d = to.minus(eye);
+                    let direction = Vec3::new(d.x / 8, d.y / 8, d.z / 8);
+                    let (from, origin) = (map.at(eye), map.at(Vec3::default()));
+                    let cone = Unit::from_bits(1 << (20 + k % 7));
+                    let width = if k % 3 == 0 { Real::ONE / (1 << (k % 5)) } else { Real::ZERO };
+                    let ray = Ray::new(from, map.at(direction).minus(origin)).with_width(width);
+                    let narrowed = |c: f64| c / longer;
+                    let own = Ray::new(eye, direction).with_width(Real::from_num(narrowed(width.to_num())));
+                    let own_cone = Unit::from_num(narrowed(cone.to_num()));
+                    let [got, want] = [crossings(&moved, &ray, cone), crossings(field, &own, own_cone)]
+                        .map(|all| all.first().map(|crossing| crossing.memo));
+                    let Some(leaf) = want else { continue };
+                    if got == want {
+                        same += 1
+                    } else {
+                        other += 1
+                    }
+                    levels[(leaf[0] + 1).ilog2() as usize] += 1;
+                }
+                assert!(same > 500 && other < same / 40, "{map:?}: {same} {other}");
+                assert!(levels.iter().filter(|count| **count > 20).count() > 3, "{levels:?}");
+            }
         });
     }
 

@@ -179,7 +179,8 @@ impl<R: Randomness> Surface for DeepTerrain<'_, R> {
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
         let [columns, rows] = &self.frame.rules;
         let width = columns.width().max(rows.width());
-        let seen = Seen { terrain: self, footprint: Footprint::new(cone), width };
+        let footprint = Footprint::new(cone).with_width(ray.width);
+        let seen = Seen { terrain: self, footprint, width };
         let _ = crossings(&seen, &self.frame, &ray.axes(), found);
     }
 

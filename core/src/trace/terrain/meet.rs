@@ -86,7 +86,7 @@ pub(super) fn point(
     let (a, b) = (side(columns), side(rows));
     let normal = normal([along_s, along_t], [a, b]);
     let chart = if charted { chart(frame, position, [along_s, along_t], [a, b]) } else { Chart::default() };
-    let width = Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32);
+    let width = ray.width_at(crossing.t, cone);
     SurfacePoint { position, place: position, normal, inward: false, chart, face: 0, width }
 }
 
@@ -100,7 +100,7 @@ pub(super) fn level_point(
 ) -> SurfacePoint {
     let position = ray.at(crossing.t);
     let chart = if charted { chart(frame, position, [0; 2], [1; 2]) } else { Chart::default() };
-    let width = Real::from_bits((product(cone.to_bits(), crossing.t.to_bits()) >> 30) as i32);
+    let width = ray.width_at(crossing.t, cone);
     let normal = Vec3::new(Unit::ZERO, Unit::ZERO, Unit::ONE);
     SurfacePoint { position, place: position, normal, inward: false, chart, face: 1, width }
 }

@@ -30,8 +30,8 @@ struct Waiting {
     level: u8,
     /// How much of what it brings is seen.
     weight: Rgb,
-    /// How wide its cone is where it starts, 24 fractional bits.
-    width: i32,
+    /// How wide it is where it starts.
+    width: Real,
 }
 
 /// How far rays are followed.
@@ -68,7 +68,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         let mut waiting = Vec::<Waiting, R>::new();
         let mut light = Rgb::BLACK;
         let (mut ray, mut start) = (ray, *start);
-        let (mut weight, mut width, mut level) = (Rgb::WHITE, 0, 0);
+        let (mut weight, mut level) = (Rgb::WHITE, 0);
         loop {
             let direction = ray.unit_direction();
             let weighted = |light: Rgb| if level == 0 { light } else { weight.through(light) };
@@ -83,8 +83,6 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                 if point.normal.dot(direction) > 0 {
                     (point.normal, point.inward) = (negated(point.normal), true);
                 }
-                let grown = (i64::from(crossing.t.to_bits()) * i64::from(start.cone.to_bits())) >> 30;
-                point.width = Real::from_bits(i32::try_from(grown + i64::from(width)).unwrap_or(i32::MAX));
                 let point = &point;
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
@@ -103,7 +101,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                         let Some((direction, part)) = part else { continue };
                         let weight = weight.through(part);
                         if weight != Rgb::BLACK {
-                            let (origin, width) = (point.position, point.width.to_bits());
+                            let (origin, width) = (point.position, point.width);
                             let level = level.saturating_add(1);
                             // there is room: `WorldCaster::with_depth` sees to it
                             let _ = waiting.push(Waiting {
@@ -125,9 +123,9 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             }
             match waiting.pop() {
                 Some(next) => {
-                    ray = Ray::unit(next.origin, next.direction);
+                    ray = Ray::unit(next.origin, next.direction).with_width(next.width);
                     start = self.departure(next.left, next.states, start.cone);
-                    (weight, width, level) = (next.weight, next.width, next.level);
+                    (weight, level) = (next.weight, next.level);
                 }
                 None => return light,
             }
@@ -155,7 +153,8 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             if point.normal.dot(towards) <= 0 || normal.dot(towards) <= 0 {
                 return None;
             }
-            let passed = self.passed::<E>(&Ray::unit(point.position, towards), stay, distance);
+            let ray = Ray::unit(point.position, towards).with_width(point.width);
+            let passed = self.passed::<E>(&ray, stay, distance);
             if passed == Rgb::BLACK {
                 None
             } else if passed == Rgb::WHITE {

@@ -15,7 +15,7 @@ use super::events::{Event, Events};
 use super::object::{Object, is_left};
 use super::scene::{Interpenetration, World};
 use super::states::{States, bit, has};
-use crate::num::{Real, Rgb, Unit};
+use crate::num::{Rgb, Unit};
 
 /// What is known of a ray where it starts.
 #[derive(Debug, Clone, Copy)]
@@ -83,8 +83,6 @@ struct Search<'r, const E: usize> {
     /// Whether the ray starts inside the leaf, and whether the first crossing is to tell.
     is_inside: bool,
     is_undecided: bool,
-    /// Crossings up to here are the one from which the ray starts.
-    own: Real,
     /// The first change that was found so far, and the states at the ray's start as they were known then.
     found: Option<Met>,
     base: u64,
@@ -106,7 +104,6 @@ impl<'r, const E: usize> Search<'r, E> {
             first: None,
             is_inside: false,
             is_undecided: false,
-            own: Real::ZERO,
             found: None,
             base: 0,
         }
@@ -131,7 +128,7 @@ impl<'r, const E: usize> Search<'r, E> {
         if crossing.t.to_bits() > self.limit {
             return ControlFlow::Break(());
         }
-        if crossing.t <= self.own || (self.is_alone && crossing.enters == self.is_inside) {
+        if self.is_alone && crossing.enters == self.is_inside {
             return ControlFlow::Continue(());
         }
         if self.is_alone {
@@ -158,10 +155,8 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             if is_left(surface)[usize::from(search.is_inside)] {
                 return search.is_inside;
             }
-            // near where the ray starts may be the very point from which it starts
-            (search.own, search.is_undecided) = (surface.error(), false);
+            search.is_undecided = false;
         } else {
-            search.own = -Real::DELTA;
             search.is_undecided = has(search.states.unknown, number) || !surface.is_closed();
         }
         let (was_undecided, count) = (search.is_undecided, search.events.len());
@@ -275,7 +270,9 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                 search.untried |= object.others;
                 return;
             }
-            let first = search.events.all().get(search.begin).filter(|_| !search.is_inside);
+            // a crossing out of what it is outside of already is that from which it starts
+            let mut own = search.events.all().iter().skip(search.begin);
+            let first = own.find(|event| event.crossing.enters).filter(|_| !search.is_inside);
             if let Some(event) = first.copied() {
                 // where it comes in it is outside all that is taken away
                 let place = search.ray.at(event.crossing.t);

@@ -21,6 +21,8 @@ use crate::source::{Num, Place, Source};
 
 /// The most bounces of a ray that the command has room for.
 pub(crate) const DEEPEST: u8 = 30;
+/// The most lights: as many as a caster looks for.
+const LIGHTS: usize = 64;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -89,6 +91,10 @@ impl Description {
         let file: File = source.parse()?;
         if file.object.is_empty() {
             return Err(source.fail_all("object", "a world has one object at least: [[object]]"));
+        }
+        if file.light.len() > LIGHTS {
+            let reason = format!("{} lights; there is room for {LIGHTS}", file.light.len());
+            return Err(source.fail_all("light", reason));
         }
         let (camera, standpoint, orbit) = camera(source, &file.camera)?;
         let lights = file.light.iter().enumerate();

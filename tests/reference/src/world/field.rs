@@ -1,11 +1,11 @@
 //! The height field `h(x, y) = f(x) g(y)` as a shape among others, open, its upper side towards +z:
 //! `F = z - h(x, y)`.
 //!
-//! Its crossings are the leaves that the ray meets, front to back, each at the middle of its interval of
-//! `t >= 0`, with the mean normal over the leaf: the ray goes down through a leaf where `n . d < 0` and up
-//! where `n . d > 0`. Of consecutive leaves that it crosses in the same way only the first is named, so that
-//! the crossings alternate. A node is a leaf on the finest level, and where it is not wider than the ray's
-//! cone where the ray enters.
+//! Its crossings are the leaves that the ray meets, front to back, each at the middle of its interval of `t`,
+//! with the mean normal over the leaf: the ray goes down through a leaf where `n . d < 0` and up elsewhere. A
+//! node is a leaf on the finest level, and where it is not wider than the ray's cone where the ray enters.
+//! Where it leaves the leaf's column or row the ray begins anew; what it meets right there is part of the same
+//! crossing.
 //!
 //! Texture: `u` and `v` over the domain, in `[0, 1]`.
 //!
@@ -32,6 +32,16 @@ pub struct HeightField {
     pub y: Bounds,
 }
 
+/// What begins so soon behind a leaf is right behind it.
+const RIGHT_BEHIND: f64 = 1e-6;
+
+/// A leaf that a ray meets: the middle of the ray's part inside its box, and that above the leaf.
+struct Leaf {
+    t: f64,
+    above: (f64, f64),
+    part: Part,
+}
+
 impl HeightField {
     /// The height field of two profiles, with pyramids of the given depth.
     pub fn new(f: Fif, g: Fif, depth: usize) -> HeightField {
@@ -45,29 +55,28 @@ impl HeightField {
         [-f.slope * g.mean, -f.mean * g.slope, 1.0]
     }
 
-    /// Adds the crossings in the node `(i, j)` of a level.
-    fn node(&self, ray: &Ray, cone: Cone, (level, i, j): (usize, usize, usize), found: &mut Vec<Crossing>) {
+    /// The first leaf in the node `(i, j)` of a level that the ray meets from `from` on.
+    fn leaf(&self, ray: &Ray, cone: Cone, from: f64, (level, i, j): (usize, usize, usize)) -> Option<Leaf> {
         let (f, g) = (self.x.levels[level][i], self.y.levels[level][j]);
+        let [columns, rows] = [(f.x0, f.x1), (g.x0, g.x1)];
         let heights = product((f.min, f.max), (g.min, g.max));
-        let Some((t_in, t_out)) = clip(ray, [(f.x0, f.x1), (g.x0, g.x1), heights]) else { return };
+        let (t_in, t_out) = clip(ray, [columns, rows, heights])?;
+        let t_in = t_in.max(from);
+        if t_in > t_out {
+            return None;
+        }
         let depth = self.x.depth().min(self.y.depth());
         if level == depth || (f.x1 - f.x0).max(g.x1 - g.x0) <= cone.at(t_in) {
-            let across = dot(self.normal(level, i, j), ray.direction);
-            let again = found.last().is_some_and(|last| last.enters == (across < 0.0));
-            if across != 0.0 && !again {
-                let part = Part::Cell { level, i, j };
-                found.push(Crossing { t: (t_in + t_out) / 2.0, part, enters: across < 0.0 });
-            }
-            return;
+            let above = clip(ray, [columns, rows, (f64::NEG_INFINITY, f64::INFINITY)])?;
+            return Some(Leaf { t: (t_in + t_out) / 2.0, above, part: Part::Cell { level, i, j } });
         }
         let order = |direction: f64, n: usize| move |k: usize| if direction < 0.0 { n - 1 - k } else { k };
         let (n, m) = (self.x.maps, self.y.maps);
         let (order_i, order_j) = (order(ray.direction[0], n), order(ray.direction[1], m));
-        for a in 0..n {
-            for b in 0..m {
-                self.node(ray, cone, (level + 1, i * n + order_i(a), j * m + order_j(b)), found);
-            }
-        }
+        let parts = (0..n).flat_map(|a| (0..m).map(move |b| (a, b)));
+        parts
+            .map(|(a, b)| (level + 1, i * n + order_i(a), j * m + order_j(b)))
+            .find_map(|node| self.leaf(ray, cone, from, node))
     }
 
     /// The domain of a profile.
@@ -78,8 +87,16 @@ impl HeightField {
 
 impl Shape for HeightField {
     fn crossings(&self, ray: &Ray, cone: Cone) -> Vec<Crossing> {
-        let mut found = Vec::new();
-        self.node(ray, cone, (0, 0, 0), &mut found);
+        let (mut found, mut from) = (Vec::new(), 0.0);
+        while let Some(Leaf { t, above, part }) = self.leaf(ray, cone, from, (0, 0, 0)) {
+            let Part::Cell { level, i, j } = part else { break };
+            if found.is_empty() || above.0 > from + RIGHT_BEHIND {
+                let enters = dot(self.normal(level, i, j), ray.direction) < 0.0;
+                found.push(Crossing { t, part, enters });
+            }
+            // A leaf that is only touched ends where it begins.
+            from = if above.1 > from { above.1 } else { from + RIGHT_BEHIND };
+        }
         found
     }
 

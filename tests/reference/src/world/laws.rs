@@ -5,8 +5,8 @@ use crate::camera::Ray;
 use crate::fif::Fif;
 use crate::vector::{Vector, along, cross, dot, normalised};
 use crate::world::{
-    Cone, Crossing, Cube, HeightField, Implicit, Part, Plane, Polygon, Polyhedron, Shape, Sphere, Square,
-    Superellipsoid, TaperedCylinder, Torus,
+    Cone, Crossing, Cube, HeightField, Implicit, Leaf, Part, Placing, Plane, Polygon, Polyhedron, Shape,
+    Sphere, Square, Superellipsoid, TaperedCylinder, Torus,
 };
 
 /// Numbers in (-1, 1), the same at every run.
@@ -494,7 +494,7 @@ fn a_height_field_is_first_met_where_the_picture_of_a_height_field_says() {
             let (Some(first), Some(hit)) = (found.first(), hit) else { continue };
             let part = Part::Cell { level: hit.level, i: hit.i, j: hit.j };
             assert_eq!((first.t, first.part), (hit.t, part));
-            assert!(found.windows(2).all(|pair| pair[0].t <= pair[1].t && pair[0].enters != pair[1].enters));
+            assert!(found.windows(2).all(|pair| pair[0].t < pair[1].t));
             // From above, as a rule: a leaf may slope otherwise than the surface where the ray meets it.
             same += usize::from(first.enters);
             below += usize::from(!first.enters);
@@ -506,4 +506,33 @@ fn a_height_field_is_first_met_where_the_picture_of_a_height_field_says() {
         }
     }
     assert!(same > 400 && below < same / 10, "{same} {below}");
+}
+
+/// A node is a leaf where its side in the world is no longer than the cone is wide there.
+#[test]
+fn a_leaf_of_a_moved_height_field_is_as_wide_as_the_cone_in_the_world() {
+    let knots = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
+    let rough = |a: f64| Fif::interpolating(&knots, &[a, -a]).integral(0.0);
+    let mut numbers = Numbers::new(10);
+    let (mut levels, mut between) = ([0; 9], 0);
+    for scale in [[1.0, 1.0, 1.0], [3.0, 3.0, 0.5], [0.25, 0.5, 2.0], [2.0, 0.1, 5.0]] {
+        let turn = Placing::rotation([1.0, 2.0, 3.0], 50.0);
+        let placing = Placing::scaling(scale).then(&turn).then(&Placing::translation([1.0, -2.0, 3.0]));
+        let shape = Box::new(HeightField::new(rough(0.85), rough(0.5), 8));
+        let leaf = Leaf { shape, placing, materials: Vec::new() };
+        for _ in 0..100 {
+            let target = placing.point([1.0 + numbers.next(), 1.0 + numbers.next(), 0.0]);
+            let origin = [0, 1, 2].map(|k| target[k] + 6.0 * numbers.next());
+            let ray = Ray { origin, direction: along(target, -1.0, origin) };
+            let cone = Cone { width: 0.1 + 0.1 * numbers.next(), growth: 0.2 + 0.2 * numbers.next() };
+            let found = crate::world::walk::leaf_crossings(&leaf, &ray, cone);
+            let Some(Crossing { t, part: Part::Cell { level, .. }, .. }) = found.first() else { continue };
+            let wide = scale[0].max(scale[1]) * 2.0 * libm::exp2(-(*level as f64));
+            levels[*level] += 1;
+            // The middle of the interval is behind where the ray enters.
+            assert!(*level == 8 || wide <= cone.at(*t) * (1.0 + 1e-12), "{scale:?} {level} {t}");
+            between += usize::from(*level > 0 && 2.0 * wide > cone.at(*t));
+        }
+    }
+    assert!(levels.iter().filter(|count| **count > 3).count() > 3 && between > 100, "{levels:?} {between}");
 }

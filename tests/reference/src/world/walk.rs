@@ -13,6 +13,7 @@
 //! unit V, section 5.10.3.
 
 use crate::camera::Ray;
+use crate::vector::Vector;
 use crate::world::compound::Program;
 use crate::world::placing::Placing;
 use crate::world::shape::{Cone, Crossing, Part, Shape};
@@ -145,11 +146,11 @@ pub(crate) fn counts(ray: &Ray, crossing: &Crossing, range: Range<f64>) -> bool 
     range.contains(&crossing.t) && ray.at(crossing.t).iter().all(|c| c.abs() <= OUTERMOST)
 }
 
-/// The crossings of a leaf in its place.
+/// The crossings of a leaf in its place. Widths are compared in the world: by how long the map makes 1 along
+/// x or along y, whichever is longer.
 pub(crate) fn leaf_crossings(leaf: &Leaf, ray: &Ray, cone: Cone) -> Vec<Crossing> {
-    let generic = leaf.placing.generic_ray(ray);
-    let length = |ray: &Ray| libm::sqrt(ray.direction.iter().map(|c| c * c).sum());
-    let scale = length(&generic) / length(ray);
-    let cone = Cone { width: cone.width * scale, growth: cone.growth * scale };
-    leaf.shape.crossings(&generic, cone)
+    let length = |axis: Vector| libm::sqrt(leaf.placing.tangent(axis).iter().map(|c| c * c).sum());
+    let scale = length([1.0, 0.0, 0.0]).max(length([0.0, 1.0, 0.0]));
+    let cone = Cone { width: cone.width / scale, growth: cone.growth / scale };
+    leaf.shape.crossings(&leaf.placing.generic_ray(ray), cone)
 }
