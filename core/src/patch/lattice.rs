@@ -8,29 +8,39 @@
 //!
 //! A cell between four heights knows 4 x 4 of them, and its quarters are cells again: four maps `T_ij` of 16
 //! control heights, `T_ij[(a,b),(k,l)] = m[i + 3 + k - 2 a][j + 3 + l - 2 b]`, a projected system like a
-//! patch. Its ends are not control points: `c_00` is the limit stencil, the eigenvector of `T_00` for 1.
+//! patch. Its ends are not control points: `c_00` is the limit stencil, the eigenvector of `T_00` for 1. The
+//! refinable function `phi`, what a height of 1 among others of 0 tends to, is known at whole places by it,
+//! and at halves by `phi(x) = sum_j m(j) phi(2 x - j)`: the heights of a cell go from digit to digit, and
+//! the last digit is in the halves.
 //!
 //! Source: N. Dyn, D. Levin, "Subdivision schemes in geometric modelling", 2002, for the stationary scheme;
-//! it is a patch of Tosan, Guerin, Baskurt (section 4.1) whose boundary is not a control point's. Formats: 28
-//! fractional bits, a row rounded once.
+//! it is a patch of Tosan, Guerin, Baskurt (section 4.1) whose boundary is not a control point's. Formats:
+//! entries and `phi` 28 fractional bits; heights on their way are what they differ by from one of them, in
+//! words of as many fractional bits as there is room for, 14 more than a height's at most.
+
+use core::cell::Cell;
 
 use super::address::{Address, Pair};
 use super::barycentric::{Barycentric, ONE, mixed, wide};
 use super::contraction::{Contraction, mean};
-use super::mask_step::{Square, weights};
+use super::mask_step::{Classes, place, refine};
 use super::scheme::{CORNERS, Scheme};
 use crate::Error;
 use crate::num::formats::{Q24, Q28};
-use crate::num::{Near, Real, product};
+use crate::num::{Near, Real, Wide, product};
 
 /// A stationary mask of 5 x 5 entries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Mask {
     entries: [[Q28; 5]; 5],
-    /// `c_00` on the 3 x 3 heights about a grid point.
-    limit: [[Q28; 3]; 3],
+    classes: Classes,
+    /// `phi(x / 2 - 2, y / 2 - 2)`, row after row.
+    halves: [Q28; SIDE * SIDE],
     contraction: Contraction,
 }
+
+/// Places of `phi` along an axis from -2 to 2, by halves: 0 at both ends.
+const SIDE: usize = 9;
 
 /// Rounds of `c = T_00 c`: each draws it nearer by the norm of `T_00`.
 const ROUNDS: u32 = 128;
@@ -41,8 +51,8 @@ impl Mask {
     ///
     /// # Errors
     /// [`Error::NotBarycentric`] for a class with another sum: `column` 0 for the entries with even indices,
-    /// 1 where the second is odd, 2 where the first is, 3 for both; [`Error::NotContractive`] and
-    /// [`Error::OutOfRange`] as [`Contraction`] says.
+    /// 1 where the second is odd, 2 where the first is, 3 for both; [`Error::OutOfRange`] for an entry of 2 or
+    /// more in magnitude; [`Error::NotContractive`] and [`Error::OutOfRange`] as [`Contraction`] says.
     pub fn new(entries: [[Near; 5]; 5]) -> Result<Self, Error> {
         let mut bits = entries.map(|row| row.map(Near::to_bits));
         for class in 0..4_usize {
@@ -62,13 +72,19 @@ impl Mask {
                 *entry = entry.saturating_add(off as i32);
             }
         }
-        let limit = limit(&bits);
-        let mask = Self { entries: bits, limit, contraction: Contraction::NONE };
+        for (index, entry) in bits.iter().flatten().enumerate() {
+            if entry.unsigned_abs() >= 2 << 28 {
+                let (what, value, max) = ("entry of a mask", wide(i64::from(*entry)), Wide::lit("2"));
+                return Err(Error::OutOfRange { what, index: Some(index), value, min: -max, max });
+            }
+        }
+        let (classes, halves) = (Classes::of(&bits), halves(&bits));
+        let mask = Self { entries: bits, classes, halves, contraction: Contraction::NONE };
         let mut maps = [Barycentric::IDENTITY; 4];
         for (map, (i, j)) in maps.iter_mut().zip([(0, 0), (0, 1), (1, 0), (1, 1)]) {
             *map = mask.map(i, j)?;
         }
-        let middle = mean(CORNERS.map(|corner| flat(&mask.stencil(corner))));
+        let middle = mean(CORNERS.map(|corner| mask.stencil(corner)));
         Ok(Self { contraction: Contraction::prove(&maps, &middle)?, ..mask })
     }
 
@@ -113,20 +129,15 @@ impl Mask {
         &self.contraction
     }
 
-    /// `phi` at `s` and `t` in a cell: how much of each of its 4 x 4 heights. All addresses of a place give
-    /// the same bits.
+    /// The height at `s` and `t` of a cell, saturated. All addresses of a place give the same bits.
     ///
-    /// They add up to 1 exactly. Error: below 2 units of `2^-28` a digit, and 2
-    /// (`a_lattice_is_within_two_units_a_digit`).
+    /// Error: 2 units of `2^-24` a digit and 2 where heights are within 1 of 0 and the mask is a fitted one,
+    /// in proportion beyond: `36 d r^2 2^-31` a digit for heights that differ by `d` and weights whose
+    /// magnitudes are proven to add up to `r` at most (`a_lattice_is_within_two_units_a_digit`).
     ///
-    /// Cost: 84 products a digit (the kernel row `patch lattice` counts a point of 12 digits).
-    pub fn weights(&self, at: [Address<2>; 2]) -> [Near; 16] {
-        self.weights_bits(&Pair::of(at)).map(Near::from_bits)
-    }
-
-    /// The height at `s` and `t` of a cell, saturated.
+    /// Cost: 100 products a digit but the last, and 16 (the kernel row `patch lattice` counts a point of 12).
     pub fn height(&self, heights: &[Real; 16], at: [Address<2>; 2]) -> Real {
-        Real::from_bits(mixed(&heights.map(Real::to_bits), &self.weights_bits(&Pair::of(at))))
+        Real::from_bits(self.height_bits(&heights.map(Real::to_bits), &Pair::of(at)))
     }
 
     /// The entry that takes a height `from` to a height `to` of the part with this digit.
@@ -149,60 +160,123 @@ impl Mask {
         Barycentric::from_columns(columns)
     }
 
+    /// `phi` about each of the heights of a cell, at its place by halves of the cell; 0 beyond it.
+    #[inline(always)]
+    fn about(&self, [i, j]: [usize; 2]) -> Option<&[Q28; Self::ABOUT]> {
+        self.halves.get(SIDE * i + j..)?.first_chunk()
+    }
+
+    /// From `phi` about the last height to that about the first.
+    const ABOUT: usize = (SIDE + 1) * 6 + 1;
+
     /// The weights of a corner of the cell: the limit stencil about it.
-    fn stencil(&self, [s, t]: [bool; 2]) -> Square {
-        let mut weights = [[0; 4]; 4];
-        for (row, of) in weights.iter_mut().skip(s.into()).zip(&self.limit) {
-            for (weight, of) in row.iter_mut().skip(t.into()).zip(of) {
-                *weight = *of;
-            }
-        }
-        weights
+    fn stencil(&self, corner: [bool; 2]) -> [Q28; 16] {
+        let Some(about) = self.about(corner.map(|end| 2 * usize::from(end))) else { return [0; 16] };
+        core::array::from_fn(|k| about.get((3 - k / 4) * 2 * SIDE + (3 - k % 4) * 2).copied().unwrap_or(0))
     }
 
     #[inline(always)]
-    fn weights_bits(&self, pair: &Pair) -> [Q28; 16] {
-        weights(&self.entries, pair, &self.stencil(pair.at_end))
+    fn height_bits(&self, heights: &[Q24; 16], pair: &Pair) -> Q24 {
+        // how far heights are from one of them: halves do not overflow
+        let [base, half] = [heights[5], heights[5] >> 1];
+        let spread = heights.iter().fold(0, |spread, height| {
+            let apart = (height >> 1).wrapping_sub(half);
+            spread | apart ^ (apart >> 31)
+        });
+        // they differ by up to 2^(33 - zeros) and a unit, and all that refining makes of that fits a word
+        let taken = self.contraction.headroom().wrapping_add(2);
+        let scale = spread.leading_zeros().wrapping_sub(taken).cast_signed().min(14);
+        let (one, other) = ([(); 16].map(|()| Cell::new(0)), [(); 16].map(|()| Cell::new(0)));
+        for (k, height) in heights.iter().enumerate() {
+            one[place(k / 4, k % 4)].set(if scale >= 0 {
+                height.wrapping_sub(base).wrapping_shl(scale.cast_unsigned())
+            } else {
+                ((i64::from(*height) - i64::from(base)) >> scale.unsigned_abs()) as i32
+            });
+        }
+        let (mut from, mut to) = (&one, &other);
+        // the last digits are in the halves
+        let [mut s, mut t] = pair.indices.map(|index| index.wrapping_shl(32_u32.wrapping_sub(pair.levels)));
+        for _ in 1..pair.levels {
+            refine(&self.classes, from, to, [s >> 31 == 1, t >> 31 == 1]);
+            (s, t) = (s << 1, t << 1);
+            core::mem::swap(&mut from, &mut to);
+        }
+        let by_halves = |digits: u32, end: bool| {
+            if pair.levels == 0 { 2 * usize::from(end) } else { (digits >> 31) as usize + usize::from(end) }
+        };
+        let [end_s, end_t] = pair.at_end;
+        let Some(about) = self.about([by_halves(s, end_s), by_halves(t, end_t)]) else { return base };
+        let mut sum = 0;
+        for a in 0..4 {
+            for b in 0..4 {
+                let weight = about[(3 - a) * 2 * SIDE + (3 - b) * 2];
+                sum = product(from[place(a, b)].get(), weight).wrapping_add(sum);
+            }
+        }
+        // a word times weights below 15 in sum: below 2^63
+        let shift = 28_i32.wrapping_add(scale).cast_unsigned();
+        let above = (sum.wrapping_shr(shift.wrapping_sub(1)).wrapping_add(1)) >> 1;
+        above.wrapping_add(base.into()).clamp(i32::MIN.into(), i32::MAX.into()) as i32
     }
 }
 
-fn flat(weights: &Square) -> [Q28; 16] {
-    let mut all = [0; 16];
-    for (to, weight) in all.iter_mut().zip(weights.as_flattened()) {
-        *to = *weight;
+/// What is lost of 1 by rounding goes to the middle of each of the classes of places by halves; 28 fractional
+/// bits.
+fn rounded(halves: &[[i64; 7]; 7]) -> [Q28; SIDE * SIDE] {
+    let mut all = [0; SIDE * SIDE];
+    let mut left = [[ONE; 2]; 2];
+    let mut each = |i: usize, j: usize, weight: i64, whole: bool| {
+        let place = all.get_mut(SIDE * (i + 1) + j + 1);
+        let left = left.get_mut(i & 1).and_then(|left| left.get_mut(j & 1));
+        if let (Some(place), Some(left)) = (place, left) {
+            *place = if whole { *left } else { ((weight >> 27).wrapping_add(1) >> 1) as i32 };
+            *left = left.wrapping_sub(*place);
+        }
+    };
+    // the middle of a class is at 2 or 3 of both indices: the last
+    let middle = |index: usize| matches!(index, 2 | 3);
+    for last in [false, true] {
+        for (i, row) in halves.iter().enumerate() {
+            for (j, weight) in row.iter().enumerate() {
+                if (middle(i) && middle(j)) == last {
+                    each(i, j, *weight, last);
+                }
+            }
+        }
     }
     all
 }
 
-/// The stencil that is fixed by one refinement about a grid point, by iteration with 56 fractional bits.
+/// `phi` at `-3/2, -1 ... 3/2` along both axes: at whole places what is fixed by one refinement about a grid
+/// point, by iteration with 56 fractional bits, at the others by one more.
 #[inline(never)]
-fn limit(entries: &[[Q28; 5]; 5]) -> [[Q28; 3]; 3] {
+fn halves(entries: &[[Q28; 5]; 5]) -> [Q28; SIDE * SIDE] {
     // the grid point's own weight 1 is a start like any other
     let mut limit = [[0_i64; 3]; 3];
     limit[1][1] = 1 << 56;
-    for _ in 0..ROUNDS {
-        let mut next = [[0_i64; 3]; 3];
-        for (a, row) in next.iter_mut().enumerate() {
-            for (b, to) in row.iter_mut().enumerate() {
-                for (k, weights) in limit.iter().enumerate() {
-                    for (l, weight) in weights.iter().enumerate() {
-                        let index = |to: usize, from: usize| (3 + to).checked_sub(2 * from);
-                        let entry = index(k, a).and_then(|i| Some(*entries.get(i)?.get(index(l, b)?)?));
-                        let product = i128::from(*weight) * i128::from(entry.unwrap_or(0));
-                        *to = to.saturating_add(i64::try_from(product >> 28).unwrap_or(i64::MAX));
-                    }
-                }
+    let whole = |limit: &[[i64; 3]; 3], x: usize, y: usize| {
+        // phi at (x, y) halves from -3/2 on, from phi at whole places: `sum_j m(j) phi(x - j)`
+        let mut sum = 0_i64;
+        for (k, row) in limit.iter().enumerate() {
+            for (l, weight) in row.iter().enumerate() {
+                // the entry of j = x - k - 2
+                let entry = (x.wrapping_sub(k), y.wrapping_sub(l));
+                let entry = entries.get(entry.0).and_then(|row| row.get(entry.1)).copied().unwrap_or(0);
+                let product = i128::from(*weight) * i128::from(entry);
+                sum = sum.saturating_add(i64::try_from(product >> 28).unwrap_or(i64::MAX));
             }
         }
+        sum
+    };
+    for _ in 0..ROUNDS {
+        let mut next = [1, 3, 5].map(|x| [1, 3, 5].map(|y| whole(&limit, x, y)));
         // rounding down loses what the middle takes up
         let lost = next.iter().flatten().fold(1_i64 << 56, |left, weight| left.saturating_sub(*weight));
         next[1][1] = next[1][1].saturating_add(lost);
         limit = next;
     }
-    let mut rounded = limit.map(|row| row.map(|weight| ((weight >> 27).wrapping_add(1) >> 1) as i32));
-    let lost = rounded.iter().flatten().fold(ONE, |left, weight| left.saturating_sub(*weight));
-    rounded[1][1] = rounded[1][1].saturating_add(lost);
-    rounded
+    rounded(&[0, 1, 2, 3, 4, 5, 6].map(|x| [0, 1, 2, 3, 4, 5, 6].map(|y| whole(&limit, x, y))))
 }
 
 impl Scheme<16> for Mask {
@@ -237,12 +311,12 @@ impl Scheme<16> for Mask {
     }
 
     fn corner(&self, heights: &[Q24; 16], at_end: [bool; 2]) -> Q24 {
-        mixed(heights, &flat(&self.stencil(at_end)))
+        mixed(heights, &self.stencil(at_end))
     }
 
     fn at(&self, heights: &[Q24; 16], at: [u32; 2], levels: u32) -> Q24 {
         let [s, t] = at.map(|index| Address::<2>::of(index, levels).ok());
         let (Some(s), Some(t)) = (s, t) else { return 0 };
-        mixed(heights, &self.weights_bits(&Pair::of([s, t])))
+        self.height_bits(heights, &Pair::of([s, t]))
     }
 }
