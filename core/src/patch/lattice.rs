@@ -23,7 +23,7 @@ use core::cell::Cell;
 use super::address::{Address, Pair};
 use super::barycentric::{Barycentric, ONE, mixed, wide};
 use super::contraction::{Contraction, mean};
-use super::mask_step::{Classes, place, refine};
+use super::mask_step::{Classes, MIDDLE, exact_part, place, refine};
 use super::scheme::{CORNERS, Scheme};
 use crate::Error;
 use crate::num::formats::{Q24, Q28};
@@ -36,6 +36,8 @@ pub struct Mask {
     classes: Classes,
     /// `phi(x / 2 - 2, y / 2 - 2)`, row after row.
     halves: [Q28; SIDE * SIDE],
+    /// The mean of the weights of the corners.
+    middle: [Q28; 16],
     contraction: Contraction,
 }
 
@@ -79,13 +81,18 @@ impl Mask {
             }
         }
         let (classes, halves) = (Classes::of(&bits), halves(&bits));
-        let mask = Self { entries: bits, classes, halves, contraction: Contraction::NONE };
+        let (middle, contraction) = ([0; 16], Contraction::NONE);
+        let mask = Self { entries: bits, classes, halves, middle, contraction };
         let mut maps = [Barycentric::IDENTITY; 4];
         for (map, (i, j)) in maps.iter_mut().zip([(0, 0), (0, 1), (1, 0), (1, 1)]) {
             *map = mask.map(i, j)?;
         }
-        let middle = mean(CORNERS.map(|corner| mask.stencil(corner)));
-        Ok(Self { contraction: Contraction::prove(&maps, &middle)?, ..mask })
+        let mut middle = mean(CORNERS.map(|corner| mask.stencil(corner)));
+        // what rounding lost of 1
+        let lost = middle.iter().fold(Near::ONE, |left, weight| left.saturating_sub(*weight));
+        middle[5] = middle[5].saturating_add(lost);
+        let contraction = Contraction::prove(&maps, &middle)?;
+        Ok(Self { middle: middle.map(Near::to_bits), contraction, ..mask })
     }
 
     /// The mask with these 21 numbers: the entries row after row without the middle of each class, which
@@ -137,7 +144,55 @@ impl Mask {
     ///
     /// Cost: 100 products a digit but the last, and 16 (the kernel row `patch lattice` counts a point of 12).
     pub fn height(&self, heights: &[Real; 16], at: [Address<2>; 2]) -> Real {
-        Real::from_bits(self.height_bits(&heights.map(Real::to_bits), &Pair::of(at)))
+        let pair = Pair::of(at);
+        // how far heights are from one of them: halves do not overflow
+        let base = heights[5].to_bits();
+        let spread = heights.iter().fold(0, |spread, height| {
+            let apart = (height.to_bits() >> 1).wrapping_sub(base >> 1);
+            spread | apart ^ (apart >> 31)
+        });
+        // they differ by up to 2^(33 - zeros) and a unit, and all that refining makes of that fits a word
+        let taken = self.contraction.headroom().wrapping_add(2);
+        let scale = spread.leading_zeros().wrapping_sub(taken).cast_signed().min(14);
+        let scaled: [i32; 16] = core::array::from_fn(|k| {
+            let height = heights[place(k >> 2 & 3, k & 3)].to_bits();
+            if scale >= 0 {
+                height.wrapping_sub(base).wrapping_shl(scale.cast_unsigned())
+            } else {
+                ((i64::from(height) - i64::from(base)) >> scale.unsigned_abs()) as i32
+            }
+        });
+        let (one, other) = (scaled.map(Cell::new), scaled.map(Cell::new));
+        let mut digits = pair.indices.map(|index| index.wrapping_shl(32_u32.wrapping_sub(pair.levels)));
+        // the last digits are in the halves
+        let steps = pair.levels.saturating_sub(1);
+        for _ in 0..steps >> 1 {
+            refine(&self.classes, &one, &other, &mut digits);
+            refine(&self.classes, &other, &one, &mut digits);
+        }
+        let mut last = &one;
+        if steps & 1 == 1 {
+            refine(&self.classes, &one, &other, &mut digits);
+            last = &other;
+        }
+        // places by halves: a digit and, at the end of the part, one more; all of it where there is no digit
+        let [[s, t], [end_s, end_t]] =
+            [digits.map(|digit| (digit >> 31) as usize), pair.at_end.map(usize::from)];
+        let ends = if pair.levels == 0 { 2 } else { 1 };
+        let Some(about) = self.about([s + ends * end_s, t + ends * end_t]) else { return heights[5] };
+        // what steps took in the middle, and half a unit of the result
+        let shift = 28_i32.wrapping_add(scale).cast_unsigned();
+        let taken = (steps as i32).wrapping_mul(MIDDLE);
+        let mut sum = product(taken, ONE).wrapping_add(1_i64.wrapping_shl(shift.wrapping_sub(1)));
+        for a in 0..4 {
+            for b in 0..4 {
+                let weight = about[(3 - a) * 2 * SIDE + (3 - b) * 2];
+                sum = product(last[place(a, b)].get(), weight).wrapping_add(sum);
+            }
+        }
+        // a word times weights below 15 in sum: below 2^63
+        let height = sum.wrapping_shr(shift).wrapping_add(base.into());
+        Real::from_bits(height.clamp(i32::MIN.into(), i32::MAX.into()) as i32)
     }
 
     /// The entry that takes a height `from` to a height `to` of the part with this digit.
@@ -170,82 +225,49 @@ impl Mask {
     const ABOUT: usize = (SIDE + 1) * 6 + 1;
 
     /// The weights of a corner of the cell: the limit stencil about it.
+    #[inline(always)]
     fn stencil(&self, corner: [bool; 2]) -> [Q28; 16] {
         let Some(about) = self.about(corner.map(|end| 2 * usize::from(end))) else { return [0; 16] };
         core::array::from_fn(|k| about.get((3 - k / 4) * 2 * SIDE + (3 - k % 4) * 2).copied().unwrap_or(0))
     }
-
-    #[inline(always)]
-    fn height_bits(&self, heights: &[Q24; 16], pair: &Pair) -> Q24 {
-        // how far heights are from one of them: halves do not overflow
-        let [base, half] = [heights[5], heights[5] >> 1];
-        let spread = heights.iter().fold(0, |spread, height| {
-            let apart = (height >> 1).wrapping_sub(half);
-            spread | apart ^ (apart >> 31)
-        });
-        // they differ by up to 2^(33 - zeros) and a unit, and all that refining makes of that fits a word
-        let taken = self.contraction.headroom().wrapping_add(2);
-        let scale = spread.leading_zeros().wrapping_sub(taken).cast_signed().min(14);
-        let (one, other) = ([(); 16].map(|()| Cell::new(0)), [(); 16].map(|()| Cell::new(0)));
-        for (k, height) in heights.iter().enumerate() {
-            one[place(k / 4, k % 4)].set(if scale >= 0 {
-                height.wrapping_sub(base).wrapping_shl(scale.cast_unsigned())
-            } else {
-                ((i64::from(*height) - i64::from(base)) >> scale.unsigned_abs()) as i32
-            });
-        }
-        let (mut from, mut to) = (&one, &other);
-        // the last digits are in the halves
-        let [mut s, mut t] = pair.indices.map(|index| index.wrapping_shl(32_u32.wrapping_sub(pair.levels)));
-        for _ in 1..pair.levels {
-            refine(&self.classes, from, to, [s >> 31 == 1, t >> 31 == 1]);
-            (s, t) = (s << 1, t << 1);
-            core::mem::swap(&mut from, &mut to);
-        }
-        let by_halves = |digits: u32, end: bool| {
-            if pair.levels == 0 { 2 * usize::from(end) } else { (digits >> 31) as usize + usize::from(end) }
-        };
-        let [end_s, end_t] = pair.at_end;
-        let Some(about) = self.about([by_halves(s, end_s), by_halves(t, end_t)]) else { return base };
-        let mut sum = 0;
-        for a in 0..4 {
-            for b in 0..4 {
-                let weight = about[(3 - a) * 2 * SIDE + (3 - b) * 2];
-                sum = product(from[place(a, b)].get(), weight).wrapping_add(sum);
-            }
-        }
-        // a word times weights below 15 in sum: below 2^63
-        let shift = 28_i32.wrapping_add(scale).cast_unsigned();
-        let above = (sum.wrapping_shr(shift.wrapping_sub(1)).wrapping_add(1)) >> 1;
-        above.wrapping_add(base.into()).clamp(i32::MIN.into(), i32::MAX.into()) as i32
-    }
 }
 
-/// What is lost of 1 by rounding goes to the middle of each of the classes of places by halves; 28 fractional
-/// bits.
+/// With 28 fractional bits. Places that differ by whole ones are the weights of one place, which add up to 1:
+/// what rounding loses of it goes to those in the middle.
 fn rounded(halves: &[[i64; 7]; 7]) -> [Q28; SIDE * SIDE] {
-    let mut all = [0; SIDE * SIDE];
-    let mut left = [[ONE; 2]; 2];
-    let mut each = |i: usize, j: usize, weight: i64, whole: bool| {
-        let place = all.get_mut(SIDE * (i + 1) + j + 1);
-        let left = left.get_mut(i & 1).and_then(|left| left.get_mut(j & 1));
-        if let (Some(place), Some(left)) = (place, left) {
-            *place = if whole { *left } else { ((weight >> 27).wrapping_add(1) >> 1) as i32 };
-            *left = left.wrapping_sub(*place);
-        }
-    };
-    // the middle of a class is at 2 or 3 of both indices: the last
-    let middle = |index: usize| matches!(index, 2 | 3);
-    for last in [false, true] {
-        for (i, row) in halves.iter().enumerate() {
-            for (j, weight) in row.iter().enumerate() {
-                if (middle(i) && middle(j)) == last {
-                    each(i, j, *weight, last);
-                }
+    let (mut all, mut left) = ([0; SIDE * SIDE], [[ONE; 2]; 2]);
+    for (i, row) in halves.iter().enumerate() {
+        for (j, weight) in row.iter().enumerate() {
+            let weight = ((weight >> 27).wrapping_add(1) >> 1) as i32;
+            if let Some(place) = all.get_mut(SIDE * (i + 1) + j + 1) {
+                *place = weight;
             }
+            let left = &mut left[i & 1][j & 1];
+            *left = left.wrapping_sub(weight);
         }
     }
+    for [i, j] in [[2, 2], [2, 3], [3, 2], [3, 3_usize]] {
+        let middle = &mut all[SIDE * (i + 1) + j + 1];
+        *middle = middle.wrapping_add(left[i & 1][j & 1]);
+    }
     all
+}
+
+/// `phi` at the place `(x, y)` by halves from -3/2 on, from `phi` at whole places: `sum_j m(j) phi(x - j)`,
+/// each product rounded down, 56 fractional bits. Out of line: products of 128 bits take many instructions.
+#[inline(never)]
+fn refined(entries: &[[Q28; 5]; 5], limit: &[[i64; 3]; 3], x: usize, y: usize) -> i64 {
+    let mut sum = 0_i64;
+    for (k, row) in limit.iter().enumerate() {
+        for (l, weight) in row.iter().enumerate() {
+            // the entry of j = x - k - 2
+            let row = entries.get(x.wrapping_sub(k));
+            let entry = row.and_then(|row| row.get(y.wrapping_sub(l))).copied().unwrap_or(0);
+            let product = i128::from(*weight) * i128::from(entry);
+            sum = sum.saturating_add(i64::try_from(product >> 28).unwrap_or(i64::MAX));
+        }
+    }
+    sum
 }
 
 /// `phi` at `-3/2, -1 ... 3/2` along both axes: at whole places what is fixed by one refinement about a grid
@@ -255,28 +277,25 @@ fn halves(entries: &[[Q28; 5]; 5]) -> [Q28; SIDE * SIDE] {
     // the grid point's own weight 1 is a start like any other
     let mut limit = [[0_i64; 3]; 3];
     limit[1][1] = 1 << 56;
-    let whole = |limit: &[[i64; 3]; 3], x: usize, y: usize| {
-        // phi at (x, y) halves from -3/2 on, from phi at whole places: `sum_j m(j) phi(x - j)`
-        let mut sum = 0_i64;
-        for (k, row) in limit.iter().enumerate() {
-            for (l, weight) in row.iter().enumerate() {
-                // the entry of j = x - k - 2
-                let entry = (x.wrapping_sub(k), y.wrapping_sub(l));
-                let entry = entries.get(entry.0).and_then(|row| row.get(entry.1)).copied().unwrap_or(0);
-                let product = i128::from(*weight) * i128::from(entry);
-                sum = sum.saturating_add(i64::try_from(product >> 28).unwrap_or(i64::MAX));
+    for _ in 0..ROUNDS {
+        let mut next = limit;
+        for (row, x) in next.iter_mut().zip([1, 3, 5]) {
+            for (weight, y) in row.iter_mut().zip([1, 3, 5]) {
+                *weight = refined(entries, &limit, x, y);
             }
         }
-        sum
-    };
-    for _ in 0..ROUNDS {
-        let mut next = [1, 3, 5].map(|x| [1, 3, 5].map(|y| whole(&limit, x, y)));
         // rounding down loses what the middle takes up
         let lost = next.iter().flatten().fold(1_i64 << 56, |left, weight| left.saturating_sub(*weight));
         next[1][1] = next[1][1].saturating_add(lost);
         limit = next;
     }
-    rounded(&[0, 1, 2, 3, 4, 5, 6].map(|x| [0, 1, 2, 3, 4, 5, 6].map(|y| whole(&limit, x, y))))
+    let mut halves = [[0; 7]; 7];
+    for (x, row) in halves.iter_mut().enumerate() {
+        for (y, weight) in row.iter_mut().enumerate() {
+            *weight = refined(entries, &limit, x, y);
+        }
+    }
+    rounded(&halves)
 }
 
 impl Scheme<16> for Mask {
@@ -288,35 +307,21 @@ impl Scheme<16> for Mask {
         &self.contraction
     }
 
-    fn part(&self, heights: &[Q24; 16], [i, j]: [u32; 2]) -> [Q24; 16] {
-        let mut result = [0; 16];
-        for (k, row) in result.chunks_exact_mut(4).enumerate() {
-            for (l, to) in row.iter_mut().enumerate() {
-                let mut sum = 1_i64 << 27;
-                let (top_s, top_t) = (i as usize + 3 + k, j as usize + 3 + l);
-                for (a, heights) in heights.chunks_exact(4).enumerate() {
-                    let Some(entries) = top_s.checked_sub(2 * a).and_then(|i| self.entries.get(i)) else {
-                        continue;
-                    };
-                    for (b, height) in heights.iter().enumerate() {
-                        if let Some(entry) = top_t.checked_sub(2 * b).and_then(|j| entries.get(j)) {
-                            sum = product(*height, *entry).wrapping_add(sum);
-                        }
-                    }
-                }
-                *to = (sum >> 28) as i32;
-            }
-        }
-        result
+    fn part(&self, heights: &[Q24; 16], digits: [u32; 2]) -> [Q24; 16] {
+        exact_part(&self.classes, heights, digits.map(|digit| (digit & 1) as usize))
     }
 
     fn corner(&self, heights: &[Q24; 16], at_end: [bool; 2]) -> Q24 {
         mixed(heights, &self.stencil(at_end))
     }
 
+    fn middle(&self, heights: &[Q24; 16]) -> Q24 {
+        mixed(heights, &self.middle)
+    }
+
     fn at(&self, heights: &[Q24; 16], at: [u32; 2], levels: u32) -> Q24 {
         let [s, t] = at.map(|index| Address::<2>::of(index, levels).ok());
         let (Some(s), Some(t)) = (s, t) else { return 0 };
-        self.height_bits(heights, &Pair::of([s, t]))
+        self.height(&heights.map(Real::from_bits), [s, t]).to_bits()
     }
 }
