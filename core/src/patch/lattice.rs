@@ -325,3 +325,50 @@ impl Scheme<16> for Mask {
         self.height(&heights.map(Real::from_bits), [s, t]).to_bits()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::seeded::words;
+    use super::*;
+    use std::vec::Vec;
+
+    /// What is proven of any word holds of words of up to 12 digits, and is not much more than they make:
+    /// heights that are allowed stay in their format.
+    #[test]
+    fn no_word_makes_more_of_heights_than_is_proven() {
+        let mut word = words(31);
+        let (mut tried, mut closest) = (0, 0.0_f64);
+        while tried < 12 * 50 {
+            let cubic = [1, 4, 6, 4, 1];
+            let mut entries = cubic.map(|a| cubic.map(|b| (a * b << 22) + word(26)));
+            for class in 0..4_usize {
+                let of = |k: &usize| k / 5 % 2 == class / 2 && k % 5 % 2 == class % 2;
+                let sum: i32 = (0..25).filter(of).map(|k| entries[k / 5][k % 5]).sum();
+                entries[2 - class / 2][2 - class % 2] += ONE - sum;
+            }
+            let Ok(mask) = Mask::new(entries.map(|row| row.map(Near::from_bits))) else { continue };
+            let maps = [[0, 0], [0, 1], [1, 0], [1, 1]].map(|[i, j]| mask.map(i, j).unwrap());
+            let proven = 128.0 / mask.contraction().most().to_num::<f64>();
+            for _ in 0..50 {
+                let mut columns: Vec<[f64; 16]> =
+                    (0..16).map(|k| core::array::from_fn(|i| f64::from(u8::from(i == k)))).collect();
+                for _ in 0..1 + word(31).unsigned_abs() % 12 {
+                    let map = &maps[(word(31) & 3) as usize];
+                    for column in &mut columns {
+                        let row = |row: &[Q28; 16]| {
+                            row.iter().zip(&*column).map(|(a, b)| f64::from(*a) * b).sum::<f64>()
+                        };
+                        *column = map.rows().each_ref().map(|of| row(of) / f64::from(ONE));
+                    }
+                }
+                let most = columns.iter().map(|column| column.iter().map(|w| w.abs()).sum::<f64>());
+                let most = most.fold(0.0, f64::max);
+                assert!(most <= proven, "{most} {proven}");
+                closest = closest.max(most / proven);
+                tried += 1;
+            }
+        }
+        assert!(closest > 0.7 && closest < 1.0, "{closest}");
+    }
+}
