@@ -54,8 +54,8 @@ fn a_lattice_is_within_two_units_a_digit() {
             tried += 1;
         }
     }
-    println!("{most:?}");
-    assert!(most.iter().all(|most| *most > 0.5), "{most:?}");
+    // 3.2 and 4.3 units: more if what steps take is not given back
+    assert!(most[0] > 0.5 && most[0] < 4.0 && most[1] > 0.5 && most[1] < 5.0, "{most:?}");
 }
 
 /// One height stays one, to the last bit; both addresses of a place give the same bits; heights at the ends of

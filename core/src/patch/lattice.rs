@@ -138,9 +138,10 @@ impl Mask {
 
     /// The height at `s` and `t` of a cell, saturated. All addresses of a place give the same bits.
     ///
-    /// Error: 2 units of `2^-24` a digit and 2 where heights are within 1 of 0 and the mask is a fitted one,
-    /// in proportion beyond: `36 d r^2 2^-31` a digit for heights that differ by `d` and weights whose
-    /// magnitudes are proven to add up to `r` at most (`a_lattice_is_within_two_units_a_digit`).
+    /// Error: 2 units of `2^-24` a digit and 2 for heights within 1 of 0, in proportion beyond
+    /// (`a_lattice_is_within_two_units_a_digit`). Proof: a step is off by 18 units of the scale, `2^(g - 6)` units
+    /// of `2^-24` each for weights of a word that are proven to stay below `2^g` in sum, and later steps make of it
+    /// what `|phi|_1` says: at most 1.7 a digit for the masks of `docs/FITS.md`, whose `g` is 2 at most.
     ///
     /// Cost: 100 products a digit but the last, and 16 (the kernel row `patch lattice` counts a point of 12).
     pub fn height(&self, heights: &[Real; 16], at: [Address<2>; 2]) -> Real {
@@ -149,13 +150,13 @@ impl Mask {
         let base = heights[5].to_bits();
         let spread = heights.iter().fold(0, |spread, height| {
             let apart = (height.to_bits() >> 1).wrapping_sub(base >> 1);
-            spread | apart ^ (apart >> 31)
+            spread | (apart ^ (apart >> 31))
         });
         // they differ by up to 2^(33 - zeros) and a unit, and all that refining makes of that fits a word
         let taken = self.contraction.headroom().wrapping_add(2);
         let scale = spread.leading_zeros().wrapping_sub(taken).cast_signed().min(14);
         let scaled: [i32; 16] = core::array::from_fn(|k| {
-            let height = heights[place(k >> 2 & 3, k & 3)].to_bits();
+            let height = heights[place((k >> 2) & 3, k & 3)].to_bits();
             if scale >= 0 {
                 height.wrapping_sub(base).wrapping_shl(scale.cast_unsigned())
             } else {
@@ -341,7 +342,7 @@ mod tests {
         let (mut tried, mut closest) = (0, 0.0_f64);
         while tried < 12 * 50 {
             let cubic = [1, 4, 6, 4, 1];
-            let mut entries = cubic.map(|a| cubic.map(|b| (a * b << 22) + word(26)));
+            let mut entries = cubic.map(|a| cubic.map(|b| ((a * b) << 22) + word(26)));
             for class in 0..4_usize {
                 let of = |k: &usize| k / 5 % 2 == class / 2 && k % 5 % 2 == class % 2;
                 let sum: i32 = (0..25).filter(of).map(|k| entries[k / 5][k % 5]).sum();

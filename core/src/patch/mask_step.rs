@@ -49,7 +49,7 @@ pub(super) type Window = [Cell<i32>; 16];
 
 /// Where the height `(a, b)` stands: the two bits of `b` change places.
 pub(super) const fn place(a: usize, b: usize) -> usize {
-    4 * a + (b & 1) * 2 + (b >> 1 & 1)
+    4 * a + (b & 1) * 2 + ((b >> 1) & 1)
 }
 
 /// The heights of the part with the digits that are the first bits of these words, which are shifted out.
@@ -196,7 +196,7 @@ mod tests {
                     assert_eq!(i128::from(whole), (exact + (1 << 27)) >> 28);
                     // 28 fractional bits of a unit
                     let less = exact - (i128::from(to[place(k, l)].get()) << 28);
-                    assert!((0..=4 * products << 28).contains(&less), "{i} {j}, {k} {l}: {less}");
+                    assert!((0..=(4 * products) << 28).contains(&less), "{i} {j}, {k} {l}: {less}");
                     most = most.max(less >> 28);
                     sum += less;
                     tried += 1;
@@ -205,6 +205,6 @@ mod tests {
         }
         // rounded down, half a unit a product on the average: 12.5 units of which are 4
         assert!(tried == 200 * 64 && most >= 24 && most <= 2 * i128::from(MIDDLE));
-        assert_eq!(sum / tried >> 28, 12, "{most}");
+        assert_eq!((sum / tried) >> 28, 12, "{most}");
     }
 }

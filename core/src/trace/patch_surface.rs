@@ -110,7 +110,7 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
         // rest are below 2^20
         let parts = parts.max(1);
         let (first, rest) = ((index << 12) / parts, (index << 12) % parts);
-        (first << 12 | (rest << 12) / parts).cast_signed()
+        ((first << 12) | ((rest << 12) / parts)).cast_signed()
     }
 
     /// Hands over the leaves that a ray meets, in order, with their control heights.
