@@ -73,13 +73,16 @@ fn what_cannot_be_fitted_is_said_in_one_line_and_nothing_is_written() {
     picture(&at.join("tiny.png"), [2, 2], sixteen, |x, y| (x + y) as u16);
     picture(&at.join("void.png"), [33, 33], sixteen, |x, y| if x == 7 { 1 << 15 } else { (x * y) as u16 });
     picture(&at.join("low.png"), [33, 33], png::BitDepth::Eight, |x, y| (x * x + y) as u16 / 8);
-    let cases: [(&[&str], &str); 12] = [
+    let cases: [(&[&str], &str); 15] = [
         (&["flat.png", "--parameters", "70"], "flat"),
         (&["tiny.png", "--parameters", "4"], "2 samples a side holds no"),
         (&["void.png", "--parameters", "70"], "33 samples of the window are missing"),
         (&["none.png", "--parameters", "70"], "none.png"),
         (&[DEM, "--parameters", "70"], "no square"),
         (&[DEM, "--parameters", "70", "--window", "300,0,129"], "reaches beyond"),
+        (&[DEM, "--parameters", "70", "--window", "18446744073709551615,0,33"], "reaches beyond"),
+        (&[DEM, "--parameters", "70", "--window", "0,0,18446744073709551615"], "reaches beyond"),
+        (&[DEM, "--parameters", "70", "--window", "0,0,0"], "0 samples a side"),
         (&[DEM, "--parameters", "2000", "--window", "0,0,33"], "more than the 1089 samples"),
         (&[DEM, "--parameters", "30", "--window", "0,0,33"], "the smallest lattice"),
         (&[DEM, "--bytes", "30", "--window", "0,0,33"], "--bytes 30"),

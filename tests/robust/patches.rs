@@ -125,7 +125,9 @@ fn any_numbers_make_a_surface_or_an_error() {
                     let _ = (patch.weights(at), patch.height(&[Real::MIN; 9], at));
                 }
                 if let Ok(mask) = &mask {
-                    let _ = (mask.weights(at), mask.height(&[Real::MAX; 16], at));
+                    let extremes = std::array::from_fn(|k| if k % 3 == 0 { Real::MIN } else { Real::MAX });
+                    let _ = mask.height(&extremes, at);
+                    assert_eq!(mask.height(&[Real::MAX; 16], at), Real::MAX);
                 }
                 let _ = (product.weights(at), product.height(&[Real::MIN; 9], at));
             }

@@ -111,13 +111,16 @@ impl<const J: usize> Barycentric<J> {
     /// `P T`: the control points of the part that is the image of this map.
     #[inline(always)]
     pub(super) fn part(&self, points: &[Q24; J]) -> [Q24; J] {
-        let mut sums = [1 << 27; J];
-        for (row, point) in self.rows.iter().zip(points) {
-            for (sum, entry) in sums.iter_mut().zip(row) {
-                *sum = product(*entry, *point).wrapping_add(*sum);
+        let mut part = [0; J];
+        for (k, to) in part.iter_mut().enumerate() {
+            // a sum at a time: as many as there are points do not fit the registers
+            let mut sum = HALF;
+            for (row, point) in self.rows.iter().zip(points) {
+                sum = product(row.get(k).copied().unwrap_or(0), *point).wrapping_add(sum);
             }
+            *to = (sum >> 28) as i32;
         }
-        sums.map(|sum| (sum >> 28) as i32)
+        part
     }
 }
 

@@ -71,9 +71,11 @@ pub struct Contraction {
 struct Words {
     /// The length of the longest.
     depth: usize,
-    /// The greatest norm of their products, and of those of their beginnings.
+    /// The greatest norm of their products.
     norm: i64,
-    shorter: i64,
+    /// Of their beginnings `v`, the empty one too: the greatest `|T_v e_k - c|_1` and `|T_v e_k|_1`.
+    apart: i64,
+    column: i64,
     /// The greatest `|T_w c - c|_1 / (1 - |T_w|)` and `|T_w c|_1`.
     radius: i64,
     sum: i64,
@@ -141,6 +143,24 @@ fn displacement<const J: usize>(w: &Matrix<J>, c: &[Near; J], size: i64) -> [i64
     sums
 }
 
+/// `max_k |W e_k - c|_1` and `max_k |W e_k|_1`, rounded up.
+fn columns<const J: usize>(w: &Matrix<J>, c: &[Near; J]) -> [i64; 2] {
+    let mut most = [0; 2];
+    for k in 0..J {
+        let mut sums = [(J as i64).saturating_mul(ERROR); 2];
+        for (row, own) in w.iter().zip(c) {
+            let entry = row.get(k).copied().map_or(0, i64::from);
+            for (sum, from) in sums.iter_mut().zip([i64::from(own.to_bits()), 0]) {
+                *sum = sum.saturating_add(entry.saturating_sub(from).saturating_abs());
+            }
+        }
+        for (most, sum) in most.iter_mut().zip(sums) {
+            *most = sum.max(*most);
+        }
+    }
+    most
+}
+
 /// Upwards: `a b` of numbers that are not negative, 28 fractional bits, saturated.
 fn above(a: i64, b: i64) -> i64 {
     let exact = i128::from(a) * i128::from(b);
@@ -162,7 +182,8 @@ impl Words {
         (c, size): (&[Near; J], i64),
         (most_norm, most_radius): (i64, i64),
     ) -> Option<Self> {
-        let mut found = Self { depth: 0, norm: 0, shorter: ONE.into(), radius: 0, sum: 0 };
+        let [apart, column] = columns(Barycentric::IDENTITY.rows(), c);
+        let mut found = Self { depth: 0, norm: 0, apart, column, radius: 0, sum: 0 };
         let mut stack = [[[0; J]; J]; DEEPEST];
         let mut word = [0_usize; DEEPEST];
         let (mut level, mut products) = (0_usize, 0_usize);
@@ -196,7 +217,9 @@ impl Words {
                 found.sum = found.sum.max(sum);
                 *next += 1;
             } else {
-                found.shorter = found.shorter.max(norm);
+                let [apart, column] = columns(&product, c);
+                found.apart = found.apart.max(apart);
+                found.column = found.column.max(column);
                 *stack.get_mut(level)? = product;
                 level += 1;
                 word.get(level)?;
@@ -234,9 +257,11 @@ impl Contraction {
         let sum = words.sum.saturating_add(above(words.norm, words.radius));
         let sum = sum.min(size.saturating_add(words.radius));
         let radius = words.radius.min(sum.saturating_add(size));
-        // T_w e_k = T_w c + T_w (e_k - c): a point, and what its norm leaves of a vector of at most 1 + |c|
-        let between = above(words.shorter, size.saturating_add(ONE.into()));
-        Self { depth: words.depth as u32, norm: words.norm, radius, sum, reach: sum.saturating_add(between) }
+        // any word is some of the list and a beginning v of one: T_v e_k is no further from c than `apart`,
+        // nor, by what the radius says, is what the words before make of it; T_w p = T_w c + T_w (p - c)
+        let apart = words.apart.max(words.radius);
+        let reach = words.column.max(words.sum.saturating_add(above(words.norm, apart)));
+        Self { depth: words.depth as u32, norm: words.norm, radius, sum, reach }
     }
 
     /// The proof for the tensor product of two systems:
@@ -294,6 +319,13 @@ impl Contraction {
     pub(super) fn most(&self) -> Wide {
         let most = ratio(1 << 31, 28, self.reach.unsigned_abs());
         Wide::from_bits(i64::try_from(most).unwrap_or(i64::MAX).saturating_mul(1 << 24))
+    }
+
+    /// The least `g` with `2^g` above what weights of any word can be in sum, a part in 256 to spare: how many
+    /// bits heights need above their own.
+    pub(super) const fn headroom(&self) -> u32 {
+        let most = self.reach.saturating_add(self.reach >> 8).unsigned_abs();
+        (u64::BITS - most.leading_zeros()).saturating_sub(28)
     }
 
     /// How far points of the part with these control points can be from the mean of its corners, 24

@@ -31,6 +31,13 @@ pub trait Scheme<const J: usize> {
     /// The height at `index / N^levels` of both parameters.
     fn at(&self, heights: &[Q24; J], index: [u32; 2], levels: u32) -> Q24;
 
+    /// The mean of the heights of the corners.
+    #[inline]
+    fn middle(&self, heights: &[Q24; J]) -> Q24 {
+        let sum: i64 = CORNERS.iter().map(|corner| i64::from(self.corner(heights, *corner))).sum();
+        (sum >> 2) as i32
+    }
+
     /// Rigorous bounds of all heights of a cell.
     #[inline]
     fn bounds(&self, heights: &[Q24; J]) -> [Q24; 2] {
@@ -38,8 +45,7 @@ pub trait Scheme<const J: usize> {
         for height in heights {
             (least, most) = (least.min(*height), most.max(*height));
         }
-        let sum: i64 = CORNERS.iter().map(|corner| i64::from(self.corner(heights, *corner))).sum();
-        let middle = (sum >> 2) as i32;
+        let middle = self.middle(heights);
         let width = self.contraction().half_width(most.wrapping_sub(least).cast_unsigned());
         // parts are rounded: a unit a level, which the proof's levels halve and halve again
         let width = i32::try_from(width).unwrap_or(i32::MAX).saturating_add(ROUNDING);

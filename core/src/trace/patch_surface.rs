@@ -103,12 +103,23 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
     /// The plane before node `index` of `parts`.
     #[inline(always)]
     fn plane(index: u32, parts: u32) -> Q24 {
-        // at most 2^24
-        ((u64::from(index) << 24) / u64::from(parts.max(1))) as i32
+        if index >= parts {
+            return 1 << 24;
+        }
+        // index 2^24 / parts in two steps of 12 bits, as long as a word divides in one instruction; index and
+        // rest are below 2^20
+        let parts = parts.max(1);
+        let (first, rest) = ((index << 12) / parts, (index << 12) % parts);
+        ((first << 12) | ((rest << 12) / parts)).cast_signed()
     }
 
-    /// Hands over the leaves that a ray meets, in order.
-    fn walk(&self, ray: &Ray, footprint: Footprint, found: &mut impl FnMut(&Leaf) -> ControlFlow<()>) {
+    /// Hands over the leaves that a ray meets, in order, with their control heights.
+    fn walk(
+        &self,
+        ray: &Ray,
+        footprint: Footprint,
+        found: &mut impl FnMut(&Leaf, &[Q24; J]) -> ControlFlow<()>,
+    ) {
         let axes = ray.axes();
         let [x, y, z] = &axes;
         let span = y.clip(0, 1 << 24, x.clip(0, 1 << 24, (0, i32::MAX)));
@@ -180,7 +191,7 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
                 let [low, high] = self.leaf_bounds(&heights, [low, high]);
                 let inside = z.clip(low, high, span);
                 let leaf = Leaf { level: level as u32, place, span: inside };
-                if inside.0 <= inside.1 && found(&leaf).is_break() {
+                if inside.0 <= inside.1 && found(&leaf, &heights).is_break() {
                     return;
                 }
                 continue;
@@ -240,10 +251,9 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
         heights
     }
 
-    /// The mean normal over a node, components saturated at ±64.
-    fn normal(&self, level: u32, place: [u32; 2]) -> [i32; 3] {
-        let heights = self.node(level, place);
-        let corners = CORNERS.map(|corner| i64::from(self.sheet.scheme().corner(&heights, corner)));
+    /// The mean normal over a node with these control heights, components saturated at ±64.
+    fn normal(&self, level: u32, heights: &[Q24; J]) -> [i32; 3] {
+        let corners = CORNERS.map(|corner| i64::from(self.sheet.scheme().corner(heights, corner)));
         let normal = mean_normal(corners, self.parts(level).into());
         [normal.x, normal.y, normal.z].map(Real::to_bits)
     }
@@ -276,14 +286,14 @@ impl<S: Scheme<J>, const J: usize> Surface for PatchSurface<'_, S, J> {
 
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
         let (mut left, mut last) = (CROSSINGS, None);
-        self.walk(ray, Footprint::new(cone).with_width(ray.width), &mut |leaf| {
+        self.walk(ray, Footprint::new(cone).with_width(ray.width), &mut |leaf, heights| {
             let joined = last.is_some_and(|out: i32| leaf.span.0.saturating_sub(out) <= GAP);
             last = Some(leaf.span.1);
             // right behind the leaf before, it is the same crossing
             if joined {
                 return ControlFlow::Continue(());
             }
-            let normal = self.normal(leaf.level, leaf.place);
+            let normal = self.normal(leaf.level, heights);
             let dot: i64 = normal.iter().zip(ray.direction).map(|(n, d)| product(*n, d) >> 2).sum();
             left -= 1;
             let crossing =
@@ -310,7 +320,8 @@ impl<S: Scheme<J>, const J: usize> Surface for PatchSurface<'_, S, J> {
     fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {
         let position = ray.at(crossing.t);
         let [first, second] = crossing.memo;
-        let normal = self.normal(first >> 24, [first & ((1 << 24) - 1), second]);
+        let level = first >> 24;
+        let normal = self.normal(level, &self.node(level, [first & ((1 << 24) - 1), second]));
         let chart = if charted {
             let rise = |slope: i32| Real::from_bits(slope.saturating_neg());
             Chart {
@@ -420,6 +431,25 @@ mod tests {
             // leaves are 1/256 wide, and slopes at most 2
             assert!(most > 1e-3 && most < 0.06, "{most}");
         });
+    }
+
+    /// Planes are whole parts of 1, rounded down, for every count of parts.
+    #[test]
+    fn planes_are_where_parts_begin() {
+        type Plain<'a> = PatchSurface<'a, Tensor<2, 3, 3, 9>, 9>;
+        let mut tried = 0;
+        for parts in (1..=40).chain([243, 1000, 65_536, 99_999, (1 << 20) - 1, 1 << 20]) {
+            for index in (0..=parts).step_by(parts as usize / 200 + 1).chain([parts - 1, parts]) {
+                let exact = (u64::from(index) << 24) / u64::from(parts);
+                assert_eq!(
+                    u64::from(Plain::plane(index, parts).cast_unsigned()),
+                    exact,
+                    "{index} of {parts}"
+                );
+                tried += 1;
+            }
+        }
+        assert!(tried > 1_000);
     }
 
     /// A rough sheet hides the ground: no vertical ray through an edge or a corner of its cells passes.

@@ -59,7 +59,11 @@ impl Elevation {
         voids: Voids,
     ) -> Result<(Samples, f64, f64), Fail> {
         let refused = |reason: String| Fail::new(format_args!("{name}: {reason}"));
-        if row + side > self.rows || column + side > self.columns {
+        if side < 2 {
+            return Err(refused(format!("a window of {side} samples a side has no range: 2 are the least")));
+        }
+        let reaches = |begin: usize, all: usize| begin.checked_add(side).is_none_or(|end| end > all);
+        if reaches(row, self.rows) || reaches(column, self.columns) {
             let (rows, columns) = (self.rows, self.columns);
             let reason = format!(
                 "--window {row},{column},{side} reaches beyond its {rows} rows and {columns} columns"

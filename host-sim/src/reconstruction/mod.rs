@@ -224,7 +224,7 @@ fn model(args: &Fit, side: usize) -> Result<Model, Fail> {
         let reason = format!("the smallest {name} for {side} samples a side, {fewest} cell{plural} along it");
         return Err(Fail::new(format_args!("{asked}: {reason}, has {parameters} parameters, {bytes} bytes")));
     };
-    Ok(Model { family, cells, levels: (spans / cells).ilog2() })
+    Ok(Model { family, cells, levels: (spans / cells).ilog2(), tether: family.tether() })
 }
 
 /// The best of all starts.
