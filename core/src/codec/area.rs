@@ -22,12 +22,6 @@ impl<'a, S: Sample> Area<'a, S> {
         self.wide == side && self.high == side
     }
 
-    /// A pixel; none outside.
-    #[inline(never)]
-    pub(super) fn at(&self, i: u32, j: u32) -> Option<&'a Cell<S>> {
-        self.row(i).get(j as usize)
-    }
-
     /// A row; none below.
     #[inline]
     pub(super) fn row(&self, i: u32) -> &'a [Cell<S>] {

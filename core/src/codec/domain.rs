@@ -49,36 +49,45 @@ impl Turned {
         }
         Self { start, right, down }
     }
+
+    /// Where a row begins.
+    #[inline]
+    const fn at(&self, r: u32) -> u32 {
+        self.start.wrapping_add(r.wrapping_mul(self.down))
+    }
 }
 
-impl<S: Sample> Source<'_, S> {
-    /// Shows each sample of a domain of so many a side, row by row as it lies, a row until it has seen enough,
-    /// and tells their sum.
+impl<'a, S: Sample> Source<'a, S> {
+    /// So many pixels from a place on.
     #[inline]
-    fn each(&self, side: u32, turned: Turned, mut seen: impl FnMut(u32, i32) -> bool) -> u32 {
-        let mut sum = 0_u32;
-        let rows = |from: u32, length: u32| {
-            self.samples.get(from as usize..).and_then(|rest| rest.get(..length as usize)).unwrap_or(&[])
-        };
-        for r in 0..side {
-            let from = self.start + r * self.down;
-            let mut at = turned.start.wrapping_add(r.wrapping_mul(turned.down));
-            let mut show = |value: i32| {
-                sum = sum.wrapping_add(value as u32);
-                let goes_on = seen(at, value);
-                at = at.wrapping_add(turned.right);
-                goes_on
-            };
-            if self.lower == 0 {
-                rows(from, side).iter().all(|sample| show(sample.get().number()));
-                continue;
+    fn pixels(&self, from: u32, count: u32) -> &'a [Cell<S>] {
+        self.samples.get(from as usize..).and_then(|rest| rest.get(..count as usize)).unwrap_or(&[])
+    }
+
+    /// Lays `count` samples of row `r`, from the `s`th on, into slots, `step` apart from `at` on, and tells
+    /// their sum.
+    #[inline(never)]
+    fn row(&self, [r, s, count]: [u32; 3], slots: &[Cell<S>], mut at: u32, step: u32) -> u32 {
+        let (mut sum, from) = (0_u32, self.start + r * self.down);
+        let mut lay = |value: i32| {
+            sum = sum.wrapping_add(value as u32);
+            let slot = slots.get(at as usize);
+            if let Some(slot) = slot {
+                slot.set(S::cut(value));
             }
-            let mut lower = rows(from + self.lower, 2 * side).chunks_exact(2);
-            for upper in rows(from, 2 * side).chunks_exact(2) {
-                let ([a, b], Some([c, d])) = (upper, lower.next()) else { break };
-                if !show(quarter([a, b], [c, d])) {
-                    break;
-                }
+            at = at.wrapping_add(step);
+            slot.is_some()
+        };
+        if self.lower == 0 {
+            self.pixels(from + s, count).iter().all(|sample| lay(sample.get().number()));
+            return sum;
+        }
+        let rows = |from: u32| self.pixels(from + 2 * s, 2 * count).chunks_exact(2);
+        let mut lower = rows(from + self.lower);
+        for upper in rows(from) {
+            let ([a, b], Some([c, d])) = (upper, lower.next()) else { break };
+            if !lay(quarter([a, b], [c, d])) {
+                break;
             }
         }
         sum
@@ -88,29 +97,40 @@ impl<S: Sample> Source<'_, S> {
     #[inline(never)]
     pub(super) fn lay(&self, leaf: &Area<'_, S>, drawn: u32) -> i32 {
         let side = 1 << drawn;
-        // a place in the picture, or at the picture's edge one in the leaf, which tells row and column
-        let whole = leaf.is_whole(side);
-        let pitch = if whole { leaf.columns } else { side };
-        let picture = leaf.picture.get(leaf.start as usize..).unwrap_or(&[]);
-        let sum = self.each(side, Turned::new(self.isometry, side, pitch), |at, value| {
-            let slot = if whole { picture.get(at as usize) } else { leaf.at(at >> drawn, at & (side - 1)) };
-            if let Some(slot) = slot {
-                slot.set(S::cut(value));
-            }
-            !whole || slot.is_some()
-        });
+        if leaf.is_whole(side) {
+            let slots = leaf.picture.get(leaf.start as usize..).unwrap_or(&[]);
+            return self.turn(slots, drawn, leaf.columns);
+        }
+        // at the picture's edge each sample finds its own place
+        let (mut sum, turned) = (0_u32, Turned::new(self.isometry, side, side));
+        let blank = Cell::new(S::cut(0));
+        for k in 0..side << drawn {
+            let (r, s) = (k >> drawn, k & (side - 1));
+            let at = turned.at(r).wrapping_add(s.wrapping_mul(turned.right));
+            let slot = leaf.row(at >> drawn).get((at & (side - 1)) as usize).unwrap_or(&blank);
+            sum = sum.wrapping_add(self.row([r, s, 1], core::slice::from_ref(slot), 0, 0));
+        }
         mean(sum, drawn)
     }
 
-    /// What the domain less its mean is at full contrast, with 7 fractional bits: for an encoder.
+    /// Turns the domain into a square whose rows are `pitch` apart, and tells its mean.
+    fn turn(&self, slots: &[Cell<S>], drawn: u32, pitch: u32) -> i32 {
+        let (side, mut sum) = (1 << drawn, 0_u32);
+        let turned = Turned::new(self.isometry, side, pitch);
+        for r in 0..side {
+            sum = sum.wrapping_add(self.row([r, 0, side], slots, turned.at(r), turned.right));
+        }
+        mean(sum, drawn)
+    }
+
+    /// What the domain less its mean is at full contrast, with 7 fractional bits: for an encoder, whose leaves
+    /// are drawn in their own size, 32 at most.
     pub(super) fn copied(&self, drawn: u32, into: &mut [i32]) {
-        let side = 1 << drawn;
-        let sum = self.each(side, Turned::new(self.isometry, side, side), |at, value| {
-            let slot = into.get_mut(at as usize);
-            slot.map(|slot| *slot = value).is_some()
-        });
-        let mean = mean(sum, drawn);
-        into.iter_mut().take(1 << (2 * drawn)).for_each(|slot| *slot = 8 * ((*slot << 4) - mean));
+        let all = core::array::from_fn::<_, 1024, _>(|_| Cell::new(S::cut(0)));
+        let mean = self.turn(&all, drawn, 1 << drawn);
+        for (slot, sample) in into.iter_mut().zip(&all).take(1 << (2 * drawn)) {
+            *slot = 8 * ((sample.get().number() << 4) - mean);
+        }
     }
 }
 

@@ -121,7 +121,7 @@ impl Header {
 
     /// A plane as it is drawn.
     #[inline(never)]
-    fn shape(&self, plane: u32, scale: i32) -> Shape {
+    pub(super) fn shape(&self, plane: u32, scale: i32) -> Shape {
         let there = plane < self.count();
         let halved = self.halved(plane);
         let size = self.plane_size(plane);
