@@ -112,10 +112,10 @@ impl Levels {
     /// Makes them all 0.
     #[inline(never)]
     pub fn clear(&mut self) {
-        let (all, _) = self.levels.as_chunks_mut::<STRIDE>();
         while self.columns != 0 {
-            if let Some(column) = all.get_mut(self.columns.trailing_zeros() as usize + 1) {
-                *column = [0; STRIDE];
+            let column = (self.columns.trailing_zeros() as usize + 1) * STRIDE;
+            if let Some(levels) = self.levels.get_mut(column..column + FREQUENCIES) {
+                levels.fill(0);
             }
             self.columns &= self.columns - 1;
         }
@@ -170,8 +170,7 @@ impl<'a> Inverse<'a> {
             if there & 1 == 1 {
                 let (mut even, mut odd, mut phase, mut c) = (0_i32, 0_i32, 0, ROOT_HALF);
                 let mut levels = column.iter().take(self.rows).map(|level| i32::from(*level));
-                loop {
-                    let Some(level) = levels.next() else { break };
+                while let Some(level) = levels.next() {
                     even += c * level;
                     phase += turn;
                     let Some(level) = levels.next() else { break };
@@ -232,8 +231,7 @@ pub(super) fn pixels<S: Sample>(terms: &[Term], turn: u32) -> [i32; 4] {
     let (mut phase, mut p) = (0, 1 << 14);
     let mut terms = terms.iter();
     // four at a time, as many as there are: a compiler that unrolls it further pays more than it gains
-    loop {
-        let Some([a, b]) = terms.next() else { break };
+    while let Some([a, b]) = terms.next() {
         even = [even[0] + S::product(p, *a), even[1] + S::product(p, *b)];
         phase += turn;
         let Some([a, b]) = terms.next() else { break };
