@@ -79,6 +79,11 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "figure-7-jittered",
     "clouds",
     "lava",
+    "photograph",
+    "photograph-colour",
+    "regeneration",
+    "maps-alone",
+    "elevation",
     "edge-midpoints",
     "centre-midpoints",
     "no-hole",
@@ -112,6 +117,15 @@ pub(crate) fn nearest(name: &str) -> Option<&'static str> {
     let (known, _) = SCENES.iter().min_by_key(|(known, _)| (distance(known), known.len()))?;
     (distance(known) <= name.chars().count().div_ceil(3)).then_some(*known)
 }
+
+/// Built-in streams of images, by name.
+pub(crate) const STREAMS: [(&str, &[u8]); 5] = [
+    ("camera-streaming", include_bytes!("../../tests/vectors/camera-streaming.atfi")),
+    ("camera-iterated", include_bytes!("../../tests/vectors/camera-iterated.atfi")),
+    ("camera-pure", include_bytes!("../../tests/vectors/pure.atfi")),
+    ("camera-colour", include_bytes!("../../tests/vectors/colour-halved.atfi")),
+    ("jacksboro", include_bytes!("../data/jacksboro-elevation-m.atfi")),
+];
 
 /// A built-in data file that is no text.
 pub(crate) fn bytes(file: &str) -> Option<&'static [u8]> {

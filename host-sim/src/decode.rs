@@ -1,6 +1,7 @@
 //! `attractor decode`: a stream of core's codec as a PNG file.
 
-use std::fs;
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use attractor::Error;
@@ -77,11 +78,15 @@ fn all_planes<S: Sample + Default + Into<u16>>(
     Ok((all, size))
 }
 
+/// Luma and chroma of every pixel, and the size.
+pub(crate) fn samples(bytes: &[u8], sweeps: Option<u32>) -> Result<(Vec<[u16; 3]>, Size), Error> {
+    if check(bytes)?.deep { all_planes::<u16>(bytes, 0, sweeps) } else { all_planes::<u8>(bytes, 0, sweeps) }
+}
+
 /// The planes as they lie, for an encoder that takes its domains from them.
 pub(crate) fn planes_of(bytes: &[u8]) -> Result<Vec<Vec<u16>>, Error> {
     let header = check(bytes)?;
-    let (pixels, size) =
-        if header.deep { all_planes::<u16>(bytes, 0, None)? } else { all_planes::<u8>(bytes, 0, None)? };
+    let (pixels, size) = samples(bytes, None)?;
     let count = if header.planes == Planes::Grey { 1 } else { 3 };
     let plane = |index: u32| {
         let step = 1 << header.halved(index);
@@ -92,9 +97,25 @@ pub(crate) fn planes_of(bytes: &[u8]) -> Result<Vec<Vec<u16>>, Error> {
     Ok((0..count).map(plane).collect())
 }
 
+/// The most bytes that are read of a file.
+const LONGEST: u64 = 1 << 26;
+
+/// The bytes of a file, or why not; of one without an end no more than a picture takes.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes));
+    match read {
+        Err(error) => Err(format!("{}: {error}", path.display())),
+        Ok(_) if bytes.len() as u64 > LONGEST => {
+            Err(format!("{}: it is longer than {LONGEST} bytes", path.display()))
+        }
+        Ok(_) => Ok(bytes),
+    }
+}
+
 /// The bytes of a stream, read and checked.
 pub(crate) fn load(path: &Path) -> Result<(Vec<u8>, Header), Fail> {
-    let bytes = fs::read(path).map_err(|error| Fail::new(format_args!("{}: {error}", path.display())))?;
+    let bytes = read(path).map_err(Fail::new)?;
     let header = check(&bytes).map_err(|error| Fail::new(format_args!("{}: {error}", path.display())))?;
     Ok((bytes, header))
 }

@@ -10,6 +10,7 @@ mod encode;
 mod export;
 mod exported;
 mod fits;
+mod images;
 mod measure;
 mod pictures;
 mod rooms;

@@ -4,12 +4,14 @@
 #![no_std]
 
 mod board;
+mod show;
 mod sizes;
 mod wire;
 
 pub use attractor_workload as workload;
 pub use board::Board;
 pub use semihosting;
+pub use show::show;
 pub use wire::Wire;
 
 #[cfg(target_arch = "arm")]

@@ -5,7 +5,7 @@
 //! the stage, so that one function serves several lines. A built-in scene of the command is a line of
 //! `built_in::PAIRS`, or of `built_in::IN_MONO`.
 
-use crate::built_in::{IN_MONO, PAIRS};
+use crate::built_in::{IMAGES, IN_MONO, PAIRS};
 use crate::machine::SMALL;
 use crate::own::{self, ROWS};
 
@@ -25,6 +25,9 @@ pub static ALL: &[Scene] = &{
     }
     all
 };
+
+/// Encoded pictures, which have an image of their own; none on Armv6-M.
+pub static CODED: &[Scene] = if SMALL { &[] } else { IMAGES.as_flattened() };
 
 /// A mirror whose pyramid is larger than the RAM of any of the targets: each must refuse it.
 pub static TOO_LARGE: Scene = own::TOO_LARGE;

@@ -33,12 +33,13 @@ pub(crate) struct Options {
 pub(crate) fn run(options: &Options) -> Result<bool> {
     let asked = |name: &str| options.names.iter().any(|part| name.contains(part.as_str()));
     let kernels: Vec<_> = kernels::ALL.iter().filter(|kernel| asked(kernel.name)).collect();
-    let scenes: Vec<_> = scenes::ALL
-        .iter()
-        .map(|scene| (scene.name, format!("{}x{}", scene.size.width, scene.size.height)))
-        .filter(|(name, size)| asked(&format!("{name} {size}")))
-        .collect();
-    if kernels.is_empty() && scenes.is_empty() {
+    let of = |table: &[scenes::Scene]| -> Vec<_> {
+        let sizes =
+            table.iter().map(|scene| (scene.name, format!("{}x{}", scene.size.width, scene.size.height)));
+        sizes.filter(|(name, size)| asked(&format!("{name} {size}"))).collect()
+    };
+    let tables = [("scenes", of(scenes::ALL)), ("images", of(scenes::CODED))];
+    if kernels.is_empty() && tables.iter().all(|(_, scenes)| scenes.is_empty()) {
         bail!("no kernel and no scene has {} in its name", options.names.join(" or "));
     }
     let limit = Duration::from_secs(options.timeout);
@@ -54,9 +55,9 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
                 println!("{:<32} {each:>14.2} instructions a {}", kernel.name, kernel.unit);
             }
         }
-        if !scenes.is_empty() {
-            let image = images::one(target, &compiler, "scenes")?;
-            for (name, size) in &scenes {
+        for (image, scenes) in tables.iter().filter(|(_, scenes)| !scenes.is_empty()) {
+            let image = images::one(target, &compiler, image)?;
+            for (name, size) in scenes {
                 scene(target, &image, limit, name, size)?;
             }
         }

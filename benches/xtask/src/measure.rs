@@ -15,6 +15,9 @@ use crate::stack;
 use crate::targets::{Machine, Target};
 use crate::toolchain::Toolchain;
 
+/// The images that draw scenes.
+const TABLES: [&str; 2] = ["scenes", "images"];
+
 /// Builds the images, runs them and gathers what they say; counts the kernels `by_kind` once more,
 /// instruction by instruction. Comparisons come later.
 pub(crate) fn measure(
@@ -49,8 +52,10 @@ pub(crate) fn measure(
         for line in run(&machine, images.path("kernels")?, limit)? {
             measured.take(&machine, line);
         }
-        for line in run(&machine, images.path("scenes")?, limit)? {
-            measured.take(&machine, line);
+        for table in TABLES {
+            for line in run(&machine, images.path(table)?, limit)? {
+                measured.take(&machine, line);
+            }
         }
     }
     if !measured.refused {
@@ -137,7 +142,9 @@ impl Measured {
 /// Draws every scene once more into files, and turns these into PPM pictures.
 fn stream(target: &Target, images: &Images, limit: Duration, directory: &Path) -> Result<()> {
     std::fs::create_dir_all(directory).with_context(|| format!("{} cannot be made", directory.display()))?;
-    emulator::run(&target.machine, images.path("scenes")?, &["frames"], &[], directory, limit)?;
+    for table in TABLES {
+        emulator::run(&target.machine, images.path(table)?, &["frames"], &[], directory, limit)?;
+    }
     for entry in std::fs::read_dir(directory)? {
         let raw = entry?.path();
         if raw.extension().is_some_and(|extension| extension == "raw") {

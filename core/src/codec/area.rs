@@ -16,6 +16,12 @@ pub(super) struct Area<'a, S: Sample> {
 }
 
 impl<'a, S: Sample> Area<'a, S> {
+    /// Whether that is all of a leaf with so many pixels a side.
+    #[inline]
+    pub(super) const fn is_whole(&self, side: u32) -> bool {
+        self.wide == side && self.high == side
+    }
+
     /// A row; none below.
     #[inline]
     pub(super) fn row(&self, i: u32) -> &'a [Cell<S>] {

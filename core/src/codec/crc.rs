@@ -24,7 +24,7 @@ const TABLE: [u32; 16] = {
 impl Crc {
     pub(super) const NEW: Self = Self(u32::MAX);
 
-    #[inline]
+    #[inline(never)]
     pub(super) fn add(&mut self, byte: u8) {
         self.0 ^= u32::from(byte);
         for _ in 0..2 {

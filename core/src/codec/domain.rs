@@ -5,90 +5,132 @@ use core::cell::Cell;
 use super::area::Area;
 use super::sample::Sample;
 
-/// The mean of a sample, its right neighbour and the two below.
-#[inline(never)]
-pub(super) fn halved<S: Sample>(samples: &[Cell<S>], at: u32, pitch: u32) -> i32 {
-    let two = |at: u32| match samples.get(at as usize..).and_then(|rest| rest.first_chunk()) {
-        Some([a, b]) => a.get().number() + b.get().number(),
-        None => 0,
-    };
-    (two(at) + two(at.wrapping_add(pitch)) + 2) >> 2
+/// The mean of a square of four samples, of which the upper and the lower two are given.
+#[inline]
+pub(super) fn quarter<S: Sample>(upper: [&Cell<S>; 2], lower: [&Cell<S>; 2]) -> i32 {
+    let [a, b] = upper.map(|sample| sample.get().number());
+    let [c, d] = lower.map(|sample| sample.get().number());
+    (a + b + c + d + 2) >> 2
 }
 
 /// A domain, halved and turned.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a, S: Sample> {
     pub(super) samples: &'a [Cell<S>],
-    /// Where the first sample is, and how far the next one and the next row.
+    /// Where the first sample is, and how far the next row.
     pub(super) start: u32,
-    pub(super) right: u32,
     pub(super) down: u32,
     /// How far the pixel below one is, where four of them are averaged; 0 where that was done.
     pub(super) lower: u32,
+    pub(super) isometry: u32,
 }
 
-impl<S: Sample> Source<'_, S> {
-    /// Turns a domain drawn with `2^drawn` samples a side by an isometry: where (i, j) goes as both grow.
-    #[inline]
-    pub(super) fn turned(mut self, isometry: u32, drawn: u32) -> Self {
-        let end = (1 << drawn) - 1;
-        let (down, right) = (self.down, self.right);
+/// Where a domain's samples go: the first, and how far the next one of its row and of its column, as places
+/// that wrap.
+#[derive(Debug, Clone, Copy)]
+struct Turned {
+    start: u32,
+    right: u32,
+    down: u32,
+}
+
+impl Turned {
+    /// Into a square of so many a side whose rows are `pitch` apart.
+    const fn new(isometry: u32, side: u32, pitch: u32) -> Self {
+        let (mut right, mut down) = if isometry & 4 == 0 { (1, pitch) } else { (pitch, 1) };
+        let mut start = 0_u32;
         if isometry & 1 != 0 {
-            self.start = self.start.wrapping_add(end * right);
-            self.right = right.wrapping_neg();
+            start = start.wrapping_add((side - 1) * right);
+            right = right.wrapping_neg();
         }
         if isometry & 2 != 0 {
-            self.start = self.start.wrapping_add(end * down);
-            self.down = down.wrapping_neg();
+            start = start.wrapping_add((side - 1) * down);
+            down = down.wrapping_neg();
         }
-        if isometry & 4 != 0 {
-            (self.down, self.right) = (self.right, self.down);
-        }
-        self
+        Self { start, right, down }
     }
 
+    /// Where a row begins.
     #[inline]
-    fn sample(&self, at: u32) -> i32 {
+    const fn at(&self, r: u32) -> u32 {
+        self.start.wrapping_add(r.wrapping_mul(self.down))
+    }
+}
+
+impl<'a, S: Sample> Source<'a, S> {
+    /// So many pixels from a place on.
+    #[inline]
+    fn pixels(&self, from: u32, count: u32) -> &'a [Cell<S>] {
+        self.samples.get(from as usize..).and_then(|rest| rest.get(..count as usize)).unwrap_or(&[])
+    }
+
+    /// Lays `count` samples of row `r`, from the `s`th on, into slots, `step` apart from `at` on, and tells
+    /// their sum.
+    #[inline(never)]
+    fn row(&self, [r, s, count]: [u32; 3], slots: &[Cell<S>], mut at: u32, step: u32) -> u32 {
+        let (mut sum, from) = (0_u32, self.start + r * self.down);
+        let mut lay = |value: i32| {
+            sum = sum.wrapping_add(value as u32);
+            let slot = slots.get(at as usize);
+            if let Some(slot) = slot {
+                slot.set(S::cut(value));
+            }
+            at = at.wrapping_add(step);
+            slot.is_some()
+        };
         if self.lower == 0 {
-            return self.samples.get(at as usize).map_or(0, |s| s.get().number());
+            self.pixels(from + s, count).iter().all(|sample| lay(sample.get().number()));
+            return sum;
         }
-        halved(self.samples, at, self.lower)
+        let rows = |from: u32| self.pixels(from + 2 * s, 2 * count).chunks_exact(2);
+        let mut lower = rows(from + self.lower);
+        for upper in rows(from) {
+            let ([a, b], Some([c, d])) = (upper, lower.next()) else { break };
+            if !lay(quarter([a, b], [c, d])) {
+                break;
+            }
+        }
+        sum
     }
 
     /// Lays the domain into a leaf and tells its mean, with 4 fractional bits.
     #[inline(never)]
     pub(super) fn lay(&self, leaf: &Area<'_, S>, drawn: u32) -> i32 {
-        let mut sum = 0_u32;
-        let m = 1 << drawn;
-        let mut start = self.start;
-        for i in 0..m {
-            let (row, mut at) = (leaf.row(i), start);
-            for j in 0..m {
-                let value = self.sample(at);
-                sum = sum.wrapping_add(value as u32);
-                if let Some(slot) = row.get(j as usize) {
-                    slot.set(S::cut(value));
-                }
-                at = at.wrapping_add(self.right);
-            }
-            start = start.wrapping_add(self.down);
+        let side = 1 << drawn;
+        if leaf.is_whole(side) {
+            let slots = leaf.picture.get(leaf.start as usize..).unwrap_or(&[]);
+            return self.turn(slots, drawn, leaf.columns);
+        }
+        // at the picture's edge each sample finds its own place
+        let (mut sum, turned) = (0_u32, Turned::new(self.isometry, side, side));
+        let blank = Cell::new(S::cut(0));
+        for k in 0..side << drawn {
+            let (r, s) = (k >> drawn, k & (side - 1));
+            let at = turned.at(r).wrapping_add(s.wrapping_mul(turned.right));
+            let slot = leaf.row(at >> drawn).get((at & (side - 1)) as usize).unwrap_or(&blank);
+            sum = sum.wrapping_add(self.row([r, s, 1], core::slice::from_ref(slot), 0, 0));
         }
         mean(sum, drawn)
     }
 
-    /// What the domain less its mean is at full contrast, with 7 fractional bits: for an encoder.
-    pub(super) fn copied(&self, drawn: u32, into: &mut [i32]) {
-        let (m, mut sum) = (1 << drawn, 0_u32);
-        for (i, row) in (0..m).zip(into.chunks_exact_mut(1 << drawn)) {
-            let mut at = self.start.wrapping_add(self.down.wrapping_mul(i));
-            for slot in row {
-                *slot = self.sample(at);
-                sum = sum.wrapping_add(*slot as u32);
-                at = at.wrapping_add(self.right);
-            }
+    /// Turns the domain into a square whose rows are `pitch` apart, and tells its mean.
+    fn turn(&self, slots: &[Cell<S>], drawn: u32, pitch: u32) -> i32 {
+        let (side, mut sum) = (1 << drawn, 0_u32);
+        let turned = Turned::new(self.isometry, side, pitch);
+        for r in 0..side {
+            sum = sum.wrapping_add(self.row([r, 0, side], slots, turned.at(r), turned.right));
         }
-        let mean = mean(sum, drawn);
-        into.iter_mut().take(1 << (2 * drawn)).for_each(|slot| *slot = 8 * ((*slot << 4) - mean));
+        mean(sum, drawn)
+    }
+
+    /// What the domain less its mean is at full contrast, with 7 fractional bits: for an encoder, whose leaves
+    /// are drawn in their own size, 32 at most.
+    pub(super) fn copied(&self, drawn: u32, into: &mut [i32]) {
+        let all = core::array::from_fn::<_, 1024, _>(|_| Cell::new(S::cut(0)));
+        let mean = self.turn(&all, drawn, 1 << drawn);
+        for (slot, sample) in into.iter_mut().zip(&all).take(1 << (2 * drawn)) {
+            *slot = 8 * ((sample.get().number() << 4) - mean);
+        }
     }
 }
 

@@ -6,23 +6,43 @@
 //! each is turned into its sample where it lies: no memory is needed for a domain, so it must not touch the
 //! leaf.
 
+use core::cell::Cell;
+
 use super::area::Area;
-use super::domain::{Source, halved};
+use super::domain::{Source, quarter};
 use super::leaf::{Domain, Leaf};
 use super::plane::{Plane, rounded};
 use super::sample::Sample;
 use super::shape::Place;
-use super::transform::{Inverse, Pair};
+use super::transform::{FREQUENCIES, Inverse, Term, pixels};
 
 impl<'a, S: Sample> Plane<'a, S> {
     /// A leaf's pixels, and what later leaves need to know of it. False if its domain may not lie there.
+    ///
+    /// Error: before it is rounded `p` is off from the same in exact numbers by at most
+    /// `e = 1/128 + E + |s| (d + mean d + 1/32)`: `E` is the transform's bound, `d` by how much the halved domain
+    /// is off, at most what the worst of its pixels is. Rounded, it is off by a whole number, and by nothing
+    /// where no half lies within `e`. So a pixel that `k` maps in a row lead to, in one sweep or in several, is
+    /// off by less than `(1 + e_0) (1 + 2 |s| + ... + (2 |s|)^k)`, `s` the largest contrast of them and `e_0` that
+    /// of a leaf with an exact domain. The base, on which means depend, is off by nothing: it is made of
+    /// integers by the format itself
+    /// (`samples_are_those_of_the_format_and_as_near_to_its_formulas_as_their_roundings_allow`).
     ///
     /// In sweeps a leaf is settled once it was drawn with a domain of which all is settled, or without
     /// one; then
     /// it stays as it is. The first sweep draws a leaf whose domain is not settled by then as if it had none.
     #[inline(never)]
     pub fn draw(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32) -> bool {
-        let stays = self.done > 0 && self.settled.has(x, y, 1);
+        let stays = self.done > 0 && self.settled.at(x, y);
+        if stays && self.shape.scale == 0 && leaf.domain.is_none() {
+            // what is settled shows its base
+            let area = self.area(x, y, size);
+            if area.is_whole(1 << size) {
+                self.mark(x, y, size, false);
+                self.recall(&area, x, y);
+                return true;
+            }
+        }
         let (mut source, mut settled) = (None, true);
         if let Some(domain) = leaf.domain.as_ref().filter(|_| !stays) {
             let Some(place) = self.shape.place(domain, x, y, size) else { return false };
@@ -95,19 +115,17 @@ impl<'a, S: Sample> Plane<'a, S> {
         source: Option<(Source<'a, S>, i32)>,
     ) {
         let drawn = self.shape.drawn(size);
-        let (m, edges, area) = (1_u32 << drawn, self.shape.scale == 0, self.area(x, y, size));
+        let (m, same, area) = (1_u32 << drawn, self.shape.scale == 0, self.area(x, y, size));
+        // where nothing is added and nothing cut off, the picture shows the base
+        let shown = same && source.is_none() && area.is_whole(m);
         // what a copied sample is multiplied by, and what is added
         let (gain, off) = match source {
             None => (0, mean + 64),
             Some((source, contrast)) => (contrast << 4, mean + 64 - contrast * source.lay(&area, drawn)),
         };
         if leaf.levels.is_empty() || drawn == 0 {
-            if edges {
-                let base = rounded(mean);
-                for k in 0..m {
-                    self.set_above(x + k, base);
-                    self.set_left(y + k, base);
-                }
+            if same {
+                self.level(x, y, m, rounded(mean));
             }
             for i in 0..area.high {
                 for slot in area.row(i) {
@@ -117,61 +135,74 @@ impl<'a, S: Sample> Plane<'a, S> {
             return;
         }
         let inverse = Inverse::new(&leaf.levels, self.shape.step, size, drawn);
-        let mut pair = Pair::default();
+        // most leaves have few frequencies: there is less to clear
+        let (mut few, mut all) = ([[0; 2]; 4], None);
+        let pair = if inverse.is_narrow() { &mut few[..] } else { all.insert([[0; 2]; FREQUENCIES]) };
         for i in 0..m / 2 {
-            let below = m - 1 - i;
-            inverse.rows::<S>(i, &mut pair);
-            let (upper, lower) = (area.row(i), area.row(below));
-            for j in 0..m / 2 {
-                let other = m - 1 - j;
-                let four = inverse.pixels::<S>(&pair, j);
-                if edges {
-                    let [_, upper, left, right] = four.map(|value| rounded(mean + value));
-                    if i == 0 {
-                        self.set_above(x + j, left);
-                        self.set_above(x + other, right);
-                    }
-                    if j == 0 {
-                        self.set_left(y + i, upper);
-                        self.set_left(y + below, right);
-                    }
-                }
-                let slots = [(upper, j), (upper, other), (lower, j), (lower, other)];
-                for ((slots, j), value) in slots.into_iter().zip(four) {
-                    if let Some(slot) = slots.get(j as usize) {
-                        slot.set(S::cut((off + value + gain * slot.get().number()) >> 7));
-                    }
-                }
+            inverse.rows::<S>(i, pair);
+            if same && !shown {
+                self.edge_rows(&inverse, pair, i, [x, y, size], mean);
             }
+            let rows = [area.row(i), area.row(m - 1 - i)];
+            paint(inverse.terms(pair), inverse.turn(0), rows, m, (off, gain));
+        }
+        if shown {
+            self.recall(&area, x, y);
         }
     }
 
     /// The base along the edges, where the leaf is not drawn, or not in its own size.
     #[inline(never)]
     fn edges(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32, mean: i32) {
-        let inverse = Inverse::new(&leaf.levels, self.shape.step, size, size);
-        let n = 1 << size;
-        let base = |v: i32| rounded(mean + v);
         if leaf.levels.is_empty() {
-            for k in 0..n {
-                self.set_above(x + k, base(0));
-                self.set_left(y + k, base(0));
-            }
+            self.level(x, y, 1 << size, rounded(mean));
             return;
         }
-        let mut pair = Pair::default();
-        for i in 0..n / 2 {
+        let inverse = Inverse::new(&leaf.levels, self.shape.step, size, size);
+        let mut pair = [[0; 2]; FREQUENCIES];
+        for i in 0..1 << (size - 1) {
             inverse.rows::<S>(i, &mut pair);
-            let [_, upper, _, lower] = inverse.pixels_apart::<S>(&pair, 0);
-            self.set_left(y + i, base(upper));
-            self.set_left(y + n - 1 - i, base(lower));
-            if i == 0 {
-                for j in 0..n / 2 {
-                    let [_, _, left, right] = inverse.pixels_apart::<S>(&pair, j);
-                    self.set_above(x + j, base(left));
-                    self.set_above(x + n - 1 - j, base(right));
-                }
+            self.edge_rows(&inverse, &pair, i, [x, y, size], mean);
+        }
+    }
+
+    /// The base along the edges of row `i` of a transform and the one that mirrors it.
+    #[inline(never)]
+    fn edge_rows(&mut self, inverse: &Inverse<'_>, pair: &[Term], i: u32, [x, y, size]: [u32; 3], mean: i32) {
+        let (n, base) = (1 << size, |value: i32| rounded(mean + value));
+        let mut j = 0;
+        loop {
+            let [_, upper, left, right] = inverse.pixels_apart::<S>(pair, j);
+            if j == 0 {
+                self.set_left(y + i, base(upper));
+                self.set_left(y + n - 1 - i, base(right));
             }
+            if i > 0 {
+                return;
+            }
+            self.set_above(x + j, base(left));
+            self.set_above(x + n - 1 - j, base(right));
+            j += 1;
+            if j == n / 2 {
+                return;
+            }
+        }
+    }
+
+    /// The base along the edges of a whole leaf whose pixels show it.
+    #[inline(never)]
+    fn recall(&mut self, area: &Area<'a, S>, x: u32, y: u32) {
+        let (x, n) = (x as usize, area.wide as usize);
+        let mut lowest = area.row(area.high - 1).iter();
+        for slot in self.above.get(x..x + n).unwrap_or(&[]) {
+            let Some(sample) = lowest.next() else { break };
+            slot.set(sample.get());
+        }
+        let (mut at, first) = (area.start + area.wide - 1, (y - self.band) as usize);
+        for slot in self.left.get_mut(first..first + n).unwrap_or(&mut []) {
+            let Some(sample) = area.picture.get(at as usize) else { return };
+            *slot = sample.get();
+            at += area.columns;
         }
     }
 
@@ -198,8 +229,11 @@ impl<'a, S: Sample> Plane<'a, S> {
             let from = (2 * y - band) * columns + 2 * x0;
             let at = ((y - (band >> 1) + offset) * width + x0) as usize;
             let Some(to) = self.half.get(at..at + n.min(width - x0) as usize) else { break };
-            for (to, k) in to.iter().zip(0..) {
-                to.set(S::cut(halved(self.picture, from + 2 * k, columns)));
+            let rows = |from: u32| self.picture.get(from as usize..).unwrap_or(&[]).chunks_exact(2);
+            let (mut upper, mut lower) = (rows(from), rows(from + columns));
+            for to in to {
+                let (Some([a, b]), Some([c, d])) = (upper.next(), lower.next()) else { break };
+                to.set(S::cut(quarter([a, b], [c, d])));
             }
         }
     }
@@ -219,12 +253,35 @@ impl<'a, S: Sample> Plane<'a, S> {
         }
         let y = if windowed { (place.y as i32 - self.half_top).max(0) as u32 } else { place.y };
         let (px, py) = (shape.scaled(place.x).min(width - m), shape.scaled(y).min(rows - m));
-        let source = if windowed {
-            Source { samples: self.half, start: py * width + px, right: 1, down: width, lower: 0 }
+        let isometry = domain.isometry;
+        Some(if windowed {
+            Source { samples: self.half, start: py * width + px, down: width, lower: 0, isometry }
         } else {
             let down = 2 * columns;
-            Source { samples: self.picture, start: py * down + 2 * px, right: 2, down, lower: columns }
-        };
-        Some(source.turned(domain.isometry, drawn))
+            Source { samples: self.picture, start: py * down + 2 * px, down, lower: columns, isometry }
+        })
+    }
+}
+
+/// Turns two rows of a leaf, copies of its domain, into its samples: what is added besides a transform's, and
+/// what a copy is multiplied by. `half` is the phase of frequency 1 in the first column.
+#[inline(never)]
+fn paint<S: Sample>(
+    terms: &[Term],
+    half: u32,
+    [upper, lower]: [&[Cell<S>]; 2],
+    m: u32,
+    (off, gain): (i32, i32),
+) {
+    let mut turn = half;
+    for j in 0..m / 2 {
+        let other = m - 1 - j;
+        let slots = [(upper, j), (upper, other), (lower, j), (lower, other)];
+        for ((row, j), value) in slots.into_iter().zip(pixels::<S>(terms, turn)) {
+            if let Some(slot) = row.get(j as usize) {
+                slot.set(S::cut((off + value + gain * slot.get().number()) >> 7));
+            }
+        }
+        turn += 2 * half;
     }
 }

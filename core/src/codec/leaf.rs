@@ -64,21 +64,16 @@ pub struct Setting {
 /// How many classes of frequencies there are.
 pub const CLASSES: usize = 13;
 
+/// Where each class ends along the scan.
+const ENDS: [u32; CLASSES] = [1, 2, 3, 4, 6, 10, 15, 21, 28, 45, 64, 128, u32::MAX];
+
 /// The class of the frequency at a place of the scan.
-#[inline]
 pub const fn class(i: u32) -> usize {
-    match i {
-        0..4 => i as usize,
-        4..6 => 4,
-        6..10 => 5,
-        10..15 => 6,
-        15..21 => 7,
-        21..28 => 8,
-        28..45 => 9,
-        45..64 => 10,
-        64..128 => 11,
-        _ => 12,
+    let mut class = 0;
+    while class < CLASSES - 1 && i >= ENDS[class] {
+        class += 1;
     }
+    class
 }
 
 /// A zigzag from the lowest frequency to the highest: `v` in the upper four bits, `u` in the lower.
@@ -135,9 +130,15 @@ impl Leaf {
         let scan = scan(size);
         let models = context::LAST + (plane * 4 + k) * NUMBER;
         self.last = number(coder, models, self.last).min(scan.len() as u32 - 1);
-        for (i, place) in (1..=self.last).zip(scan.iter().skip(1)) {
+        // models of the class that a place is in, and where it ends
+        let (mut models, mut ends) = (k * CLASSES, ENDS.iter());
+        let mut end = ends.next().map_or(u32::MAX, |end| *end);
+        for (i, place) in (1..).zip(scan.get(1..=self.last as usize).unwrap_or(&[])) {
+            if i >= end {
+                models += 1;
+                end = ends.next().map_or(u32::MAX, |end| *end);
+            }
             let level = self.levels.get(*place);
-            let models = k * CLASSES + class(i);
             let about = self.levels.about(*place);
             if i < self.last && !coder.bin(context::SIGNIFICANT + models * 3 + about, level != 0) {
                 continue;

@@ -9,8 +9,8 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Model(u16);
 
-/// Rates of a model's first bins, as shifts.
-const RATES: [u8; 8] = [2, 3, 3, 4, 4, 5, 5, 5];
+/// How many bins a model counts: then its rate does not change any more.
+const COUNTED: u16 = 6;
 
 impl Model {
     /// Nothing known: 1/2.
@@ -22,14 +22,13 @@ impl Model {
         (self.0 >> 3) as u32
     }
 
-    /// What it is after a bin.
+    /// What it is after a bin. Rates, as shifts, are 2, 3, 3, 4, 4, and 5 from then on.
     #[inline]
     pub const fn learn(self, bin: bool) -> Self {
         let (p, count) = (self.0 >> 3, self.0 & 7);
-        let rate = RATES[count as usize];
-        let p = if bin { p - (p >> rate) } else { p + ((8191 - p) >> rate) };
-        let count = if count < 7 { count + 1 } else { 7 };
-        Self(p << 3 | count)
+        let rate = (count + 5) >> 1;
+        let counted = self.0 + (count < COUNTED) as u16;
+        Self(if bin { counted - (p >> rate << 3) } else { counted + ((8191 - p) >> rate << 3) })
     }
 }
 

@@ -77,6 +77,7 @@ impl<I> Opened<I> {
     }
 
     /// How many samples a decoder of it borrows at a scale of `2^scale`, from -2 to 2.
+    #[inline(never)]
     pub fn samples(&self, scale: i32) -> usize {
         let planes = self.header.shapes(scale.clamp(-2, 2));
         // u8 and u16 take as many
@@ -89,6 +90,7 @@ impl<I> Opened<I> {
     }
 
     /// Refuses what a decoder with samples of this kind, for one pass or for sweeps, cannot decode.
+    #[inline(never)]
     pub(super) fn checked<S: Sample>(&self, one_pass: bool, scale: i32, given: usize) -> Result<(), Error> {
         if self.header.deep != (S::BITS == 16) {
             let allowed = if self.header.deep { "u16" } else { "u8" };
@@ -119,7 +121,7 @@ impl Header {
 
     /// A plane as it is drawn.
     #[inline(never)]
-    fn shape(&self, plane: u32, scale: i32) -> Shape {
+    pub(super) fn shape(&self, plane: u32, scale: i32) -> Shape {
         let there = plane < self.count();
         let halved = self.halved(plane);
         let size = self.plane_size(plane);

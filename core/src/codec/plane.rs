@@ -60,47 +60,35 @@ const fn cell(depth: u32, domain: bool) -> u8 {
 }
 
 impl<'a, S: Sample> Plane<'a, S> {
-    /// How many samples it borrows, for a window of rows or for all.
-    pub const fn samples(shape: &Shape) -> usize {
+    /// How many samples it borrows, for a window of rows or for all: of the picture, the halved picture, the
+    /// edges above, the cells above, and what is settled.
+    #[inline(never)]
+    const fn lengths(shape: &Shape) -> [usize; 5] {
         let columns = shape.columns() as usize;
-        let drawn = match shape.window {
+        let (rows, half, settled) = match shape.window {
             Some(_) => {
-                let half = (shape.columns() >> 1) as usize * shape.scaled(shape.half_rows()) as usize;
-                shape.scaled(shape.side()) as usize * columns + half
+                (shape.scaled(shape.side()), (columns >> 1) * shape.scaled(shape.half_rows()) as usize, 0)
             }
-            None => shape.rows() as usize * columns,
+            None => (shape.rows(), 0, Settled::<S>::samples(shape.width, shape.height)),
         };
-        let settled = match shape.window {
-            Some(_) => 0,
-            None => Settled::<S>::samples(shape.width, shape.height),
-        };
-        drawn + shape.padded() as usize + (shape.padded() >> 2) as usize + settled
+        let padded = shape.padded() as usize;
+        [rows as usize * columns, half, padded, padded >> 2, settled]
+    }
+
+    /// All of them.
+    pub const fn samples(shape: &Shape) -> usize {
+        let [picture, half, above, cells, settled] = Self::lengths(shape);
+        picture + half + above + cells + settled
     }
 
     /// Takes its memory from the front of `memory`.
     #[inline(never)]
     pub fn new(shape: Shape, memory: &mut &'a [Cell<S>]) -> Self {
-        let mut take = |length: usize| {
+        let [picture, half, above, cells, settled] = Self::lengths(&shape).map(|length| {
             let (taken, rest) = memory.split_at(length.min(memory.len()));
             *memory = rest;
             taken
-        };
-        let columns = shape.columns() as usize;
-        let (picture, half) = match shape.window {
-            Some(_) => (
-                take(shape.scaled(shape.side()) as usize * columns),
-                take((shape.columns() >> 1) as usize * shape.scaled(shape.half_rows()) as usize),
-            ),
-            None => (take(shape.rows() as usize * columns), take(0)),
-        };
-        let above = take(shape.padded() as usize);
-        let cells = take((shape.padded() >> 2) as usize);
-        let settled = take(match shape.window {
-            Some(_) => 0,
-            None => Settled::<S>::samples(shape.width, shape.height),
         });
-        let settled = Settled::new(settled, shape.width);
-        let left = [S::cut(0); 32];
         Self {
             shape,
             picture,
@@ -108,8 +96,8 @@ impl<'a, S: Sample> Plane<'a, S> {
             half_top: 0,
             above,
             cells,
-            settled,
-            left,
+            settled: Settled::new(settled, shape.width),
+            left: [S::cut(0); 32],
             left_cells: [0; 8],
             band: 0,
             done: 0,
@@ -142,8 +130,9 @@ impl<'a, S: Sample> Plane<'a, S> {
             if band > 0 {
                 // what leaves the window makes room at its end
                 let gone = (self.shape.columns() >> 1) * self.shape.scaled(self.shape.side() >> 1);
-                let kept = self.half.get(gone as usize..).unwrap_or(&[]);
-                for (to, from) in self.half.iter().zip(kept) {
+                let mut kept = self.half.iter().skip(gone as usize);
+                for to in self.half {
+                    let Some(from) = kept.next() else { break };
                     to.set(from.get());
                 }
             }
@@ -155,6 +144,7 @@ impl<'a, S: Sample> Plane<'a, S> {
 
     /// Decodes a band, all squares or until `stop` says so; `seen` is shown each leaf, how it was said, and
     /// where it is. False if a domain lies where nothing is decoded.
+    #[inline(never)]
     pub fn decode<C: Coder>(
         &mut self,
         coder: &mut C,
@@ -226,18 +216,15 @@ impl<'a, S: Sample> Plane<'a, S> {
     /// The mean along the neighbours' edges, with 7 fractional bits.
     #[inline(never)]
     pub fn expected(&self, x: u32, y: u32, size: u32) -> i32 {
-        let n = 1_usize << size;
+        let (n, left) = (1_usize << size, (y - self.band) as usize);
         let (mut sum, mut doubled) = (0, 0);
         if y > 0 {
-            for edge in self.above.iter().skip(x as usize).take(n) {
-                sum += edge.get().number();
-            }
+            let x = x as usize;
+            self.above.get(x..x + n).unwrap_or(&[]).iter().for_each(|edge| sum += edge.get().number());
             doubled += 1;
         }
         if x > 0 {
-            for edge in self.left.iter().skip((y - self.band) as usize).take(n) {
-                sum += edge.number();
-            }
+            self.left.get(left..left + n).unwrap_or(&[]).iter().for_each(|edge| sum += edge.number());
             doubled += 1;
         }
         match doubled {
@@ -252,21 +239,30 @@ impl<'a, S: Sample> Plane<'a, S> {
     pub fn skip(&mut self, x: u32, y: u32, size: u32) {
         let mean = rounded(self.expected(x, y, size));
         self.mark(x, y, size, false);
-        for k in 0..1 << size {
-            self.set_above(x + k, mean);
-            self.set_left(y + k, mean);
+        self.level(x, y, 1 << size, mean);
+    }
+
+    /// The same base all along the edges of a square.
+    #[inline(never)]
+    pub(super) fn level(&mut self, x: u32, y: u32, side: u32, base: S) {
+        let (x, y, side) = (x as usize, (y - self.band) as usize, side as usize);
+        for slot in self.above.get(x..x + side).unwrap_or(&[]) {
+            slot.set(base);
+        }
+        if let Some(slots) = self.left.get_mut(y..y + side) {
+            slots.fill(base);
         }
     }
 
     #[inline(never)]
     pub(super) fn mark(&mut self, x: u32, y: u32, size: u32, domain: bool) {
         let value = cell(5 - size, domain);
-        let cells = 1 << (size - 2);
-        for slot in self.cells.iter().skip(x as usize >> 2).take(cells) {
+        let (x, y, cells) = (x as usize >> 2, (y - self.band) as usize >> 2, 1 << (size - 2));
+        for slot in self.cells.get(x..x + cells).unwrap_or(&[]) {
             slot.set(S::cut(value.into()));
         }
-        for slot in self.left_cells.iter_mut().skip((y - self.band) as usize >> 2).take(cells) {
-            *slot = value;
+        if let Some(slots) = self.left_cells.get_mut(y..y + cells) {
+            slots.fill(value);
         }
     }
 

@@ -27,7 +27,8 @@ pub(super) struct Planes<'a, S: Sample> {
 impl<'a, S: Sample> Planes<'a, S> {
     /// In lent memory of the length that was checked.
     pub(super) fn new(header: Header, scale: i32, mut memory: &'a [Cell<S>]) -> Self {
-        let planes = header.shapes(scale).map(|shape| Plane::new(shape, &mut memory));
+        let mut plane = |index| Plane::new(header.shape(index, scale), &mut memory);
+        let planes = [plane(0), plane(1), plane(2)];
         Self { header, planes, leaf: Leaf::default() }
     }
 

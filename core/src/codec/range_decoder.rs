@@ -36,7 +36,7 @@ impl<I: Iterator<Item = u8>> RangeDecoder<I> {
         this
     }
 
-    #[inline]
+    #[inline(never)]
     fn byte(&mut self) -> u32 {
         if self.left == 0 || self.ended {
             return 0;
@@ -54,20 +54,15 @@ impl<I: Iterator<Item = u8>> RangeDecoder<I> {
         }
     }
 
-    #[inline]
-    fn normalise(&mut self) {
-        if self.range < 1 << 24 {
-            self.refill();
-        }
-    }
-
-    /// Apart, as few bins come here.
+    /// Takes bytes in where the range has become small, and says whether a bin was 1. Apart, as few bins come
+    /// here, and last, so that the others save no registers for it.
     #[inline(never)]
-    fn refill(&mut self) {
+    fn refill(&mut self, bin: u32) -> bool {
         while self.range < 1 << 24 {
             self.range <<= 8;
             self.code = self.code << 8 | self.byte();
         }
+        bin == 1
     }
 
     /// Whether the source ended too early.
@@ -104,8 +99,7 @@ impl<I: Iterator<Item = u8>> Coder for RangeDecoder<I> {
             self.range = bound;
         }
         *model = model.learn(bin);
-        self.normalise();
-        bin
+        if self.range < 1 << 24 { self.refill(bin.into()) } else { bin }
     }
 
     #[inline(never)]
@@ -117,9 +111,77 @@ impl<I: Iterator<Item = u8>> Coder for RangeDecoder<I> {
             if one {
                 self.code -= self.range;
             }
+            let one = if self.range < 1 << 24 { self.refill(one.into()) } else { one };
             bits = bits << 1 | u32::from(one);
-            self.normalise();
         }
         bits
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bins, raw where there is no context, of which the last is 1, and the least number that says so: by the
+    /// format's page, in integers that hold all of it. A decoder's `code` is its `bound` there.
+    fn least(seed: u32, bins: &[Option<usize>]) -> (std::vec::Vec<bool>, u128, usize) {
+        let (mut low, mut range, mut bytes) = (0_u128, u128::from(u32::MAX), 4);
+        let mut models = [(4096_u128, 0_usize); 8];
+        let mut said = std::vec::Vec::new();
+        for (i, bin) in bins.iter().enumerate() {
+            let one = i + 1 == bins.len() || seed >> i & 1 == 1;
+            let bound = match bin {
+                None => range / 2,
+                Some(context) => range / 8192 * models[*context].0,
+            };
+            // half of an odd range leaves one out
+            range = match (one, bin) {
+                (true, Some(_)) => range - bound,
+                _ => bound,
+            };
+            low += if one { bound } else { 0 };
+            if let Some(context) = bin {
+                let (p, count) = &mut models[*context];
+                let rate = [2, 3, 3, 4, 4, 5, 5, 5][*count];
+                *p = if one { *p - (*p >> rate) } else { *p + ((8191 - *p) >> rate) };
+                *count = (*count + 1).min(7);
+            }
+            while range < 1 << 24 {
+                (low, range, bytes) = (low << 8, range << 8, bytes + 1);
+            }
+            said.push(one);
+        }
+        (said, low, bytes)
+    }
+
+    fn heard(number: u128, bytes: usize, bins: &[Option<usize>]) -> std::vec::Vec<bool> {
+        let all = number.to_be_bytes();
+        let source = all[16 - bytes..].iter().copied();
+        let mut decoder = RangeDecoder::new(source, bytes as u32, Crc::NEW);
+        let mut hear = |bin: &Option<usize>| match bin {
+            Some(context) => decoder.bin(*context, false),
+            None => decoder.raw(1, 0) == 1,
+        };
+        bins.iter().map(&mut hear).collect()
+    }
+
+    #[test]
+    fn a_code_word_at_the_bound_is_a_1_and_the_one_below_it_a_0() {
+        assert_eq!(least(0, &[Some(0)]), (std::vec![true], 0x7fff_f000, 4));
+        assert_eq!(least(0, &[None]), (std::vec![true], 0x7fff_ffff, 4));
+        let (mut tried, mut longest) = (0, 0);
+        for seed in 1..2000_u32 {
+            let seed = seed.wrapping_mul(0x9e37_79b9);
+            let length = 1 + seed as usize % 31;
+            let kind = |i: usize| (seed.rotate_left(i as u32) % 5 != 0).then_some((seed as usize >> i) % 8);
+            let bins: std::vec::Vec<_> = (0..length).map(kind).collect();
+            let (mut said, number, bytes) = least(seed, &bins);
+            assert_eq!(heard(number, bytes, &bins), said, "{seed:x}");
+            // one less lies below the bound, and says the same until there
+            *said.last_mut().unwrap() = false;
+            assert_eq!(heard(number - 1, bytes, &bins), said, "{seed:x}, one below");
+            (tried, longest) = (tried + 1, longest.max(bytes));
+        }
+        assert!(tried == 1999 && longest >= 7, "{tried} {longest}");
     }
 }

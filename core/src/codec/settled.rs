@@ -30,28 +30,36 @@ impl<'a, S: Sample> Settled<'a, S> {
 
     /// Whether all cells that a square of pixels touches are settled.
     pub(super) fn has(&self, x: u32, y: u32, side: u32) -> bool {
-        self.bits.is_empty() || self.each(x, y, side, |bits, mask| bits.get().number() & mask == mask)
+        self.bits.is_empty() || self.each(x, y, side, false)
+    }
+
+    /// Whether the cell of a pixel is.
+    #[inline]
+    pub(super) fn at(&self, x: u32, y: u32) -> bool {
+        let bits = self.bits.get(((y >> 2) * self.across + (x >> 5)) as usize);
+        bits.is_none_or(|bits| bits.get().number() >> (x >> 2 & 7) & 1 == 1)
     }
 
     /// They are from now on.
     pub(super) fn add(&self, x: u32, y: u32, side: u32) {
-        self.each(x, y, side, |bits, mask| {
-            bits.set(S::cut(bits.get().number() | mask));
-            true
-        });
+        self.each(x, y, side, true);
     }
 
-    /// Shows the cells of a square, eight at a time, until one says no.
+    /// Goes through the cells of a square, eight at a time: whether all are settled, after they were, if so
+    /// wished.
     #[inline(never)]
-    fn each(&self, x: u32, y: u32, side: u32, mut seen: impl FnMut(&Cell<S>, i32) -> bool) -> bool {
+    fn each(&self, x: u32, y: u32, side: u32, settle: bool) -> bool {
         let (first, last) = (x >> 2, (x + side - 1) >> 2);
         for row in y >> 2..=(y + side - 1) >> 2 {
             for eight in first >> 3..=(last >> 3).min(self.across - 1) {
                 let low = first.saturating_sub(8 * eight);
                 let high = (last - 8 * eight).min(7);
                 let mask = (2 << high) - (1 << low);
-                let bits = self.bits.get((row * self.across + eight) as usize);
-                if bits.is_some_and(|bits| !seen(bits, mask)) {
+                let Some(bits) = self.bits.get((row * self.across + eight) as usize) else { break };
+                let there = bits.get().number();
+                if settle {
+                    bits.set(S::cut(there | mask));
+                } else if there & mask != mask {
                     return false;
                 }
             }

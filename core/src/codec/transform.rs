@@ -54,26 +54,29 @@ fn cosine(phase: u32) -> i32 {
     i32::from(COSINE[(phase & 511) as usize])
 }
 
+/// From a column of levels to the next.
+const STRIDE: usize = FREQUENCIES + 1;
+
 /// What a block's coefficients are.
 #[derive(Debug, Clone)]
 pub struct Levels {
-    /// `16 u + v`: a column of the transform lies together.
-    levels: [i16; FREQUENCIES * FREQUENCIES],
-    /// One more than the greatest `u` and `v` of a level that was set.
+    /// A column of the transform lies together; what is above it and before the first column is 0.
+    levels: [i16; STRIDE * STRIDE],
+    /// A bit for each `u` of a level that was set, and one more than the greatest `v`.
     columns: u32,
     rows: u32,
 }
 
 impl Default for Levels {
     fn default() -> Self {
-        Self { levels: [0; 256], columns: 0, rows: 0 }
+        Self { levels: [0; STRIDE * STRIDE], columns: 0, rows: 0 }
     }
 }
 
 /// Where a level is kept.
 #[inline]
 const fn at(place: u8) -> usize {
-    place.rotate_left(4) as usize
+    ((place & 15) as usize + 1) * STRIDE + (place >> 4) as usize
 }
 
 impl Levels {
@@ -86,132 +89,167 @@ impl Levels {
     /// Sets the level at `v`, `u`, a nibble each, cut off at [`LARGEST`].
     #[inline]
     pub fn set(&mut self, place: u8, level: i32) {
-        if let Some(slot) = self.levels.get_mut(at(place)) {
-            *slot = level.clamp(-LARGEST, LARGEST) as i16;
-            self.columns = self.columns.max((u32::from(place) & 15) + 1);
-            self.rows = self.rows.max((u32::from(place) >> 4) + 1);
-        }
+        self.levels[at(place)] = level.clamp(-LARGEST, LARGEST) as i16;
+        self.columns |= 1 << (place & 15);
+        self.rows = self.rows.max((u32::from(place) >> 4) + 1);
     }
 
     /// The level at a place.
     #[inline]
     pub fn get(&self, place: u8) -> i32 {
-        self.levels.get(at(place)).map_or(0, |level| i32::from(*level))
+        i32::from(self.levels[at(place)])
     }
 
-    /// How much is at the next lower frequencies along both axes: 0, 1, or 2 for more.
+    /// How much is at the next lower frequencies along both axes: 0, 1, or 2 for more. The mean, whose level
+    /// is not kept here, counts as 0.
     #[inline]
     pub fn about(&self, place: u8) -> usize {
-        // outside there is the mean, whose level is not kept here
-        let above = if place & 0xf0 != 0 { self.get(place - 16) } else { 0 };
-        let left = if place & 0x0f != 0 { self.get(place - 1) } else { 0 };
-        (above.unsigned_abs() + left.unsigned_abs()).min(2) as usize
+        let at = at(place);
+        let [above, left] = [self.levels[at - 1], self.levels[at - STRIDE]];
+        usize::from(above.unsigned_abs() + left.unsigned_abs()).min(2)
     }
 
-    /// Makes all 0.
-    #[inline]
+    /// Makes them all 0.
+    #[inline(never)]
     pub fn clear(&mut self) {
-        for column in self.levels.chunks_exact_mut(FREQUENCIES).take(self.columns as usize) {
-            for level in column.iter_mut().take(self.rows as usize) {
-                *level = 0;
+        while self.columns != 0 {
+            let column = (self.columns.trailing_zeros() as usize + 1) * STRIDE;
+            if let Some(levels) = self.levels.get_mut(column..column + FREQUENCIES) {
+                levels.fill(0);
             }
+            self.columns &= self.columns - 1;
         }
         (self.columns, self.rows) = (0, 0);
     }
 }
 
-/// The frequencies of a row of a block and of the one that mirrors it.
-pub(super) type Pair = [[i32; 2]; FREQUENCIES];
+/// A frequency of a row of a block, and of the row that mirrors it.
+pub(super) type Term = [i32; 2];
 
 /// A block's transform.
 #[derive(Debug)]
 pub(super) struct Inverse<'a> {
     levels: &'a Levels,
-    /// With 8 fractional bits.
-    step: i64,
-    /// What makes 4 fractional bits of a sum times the step.
-    shift: u32,
+    /// What makes 4 fractional bits, above 32 others, of a sum: the step's 8 bits and the block's size.
+    factor: i64,
     /// Phase of half a pixel for frequency 1.
     half: u32,
-    /// Of the frequencies, by twos.
+    /// How many frequencies there are at most.
     columns: usize,
     rows: usize,
 }
 
 impl<'a> Inverse<'a> {
     /// Of a block of `2^size` pixels a side, drawn with `2^drawn`.
-    #[inline]
+    #[inline(never)]
     pub(super) fn new(levels: &'a Levels, step: u32, size: u32, drawn: u32) -> Self {
         let drawn = drawn.min(7);
-        let pairs = |frequencies: u32| (frequencies.min(1 << drawn) as usize).div_ceil(2);
+        let drawn_of = |frequencies: u32| frequencies.min(1 << drawn) as usize;
         Self {
             levels,
-            step: i64::from(step),
-            shift: size.min(5) + 17,
+            factor: i64::from(step) << (15 - size.min(5)),
             half: 128 >> drawn,
-            columns: pairs(levels.columns),
-            rows: pairs(levels.rows),
+            columns: drawn_of(32 - levels.columns.leading_zeros()),
+            rows: drawn_of(levels.rows),
         }
     }
 
-    /// Row `i` and the one that mirrors it, into terms that were 0 before the block's first row.
+    /// Whether four terms are all.
+    pub(super) const fn is_narrow(&self) -> bool {
+        self.columns <= 4
+    }
+
+    /// Row `i` and the one that mirrors it, into as many terms as [`pixels`] takes.
     #[inline(never)]
-    pub(super) fn rows<S: Sample>(&self, i: u32, pair: &mut Pair) {
-        let turn = (2 * i + 1) * self.half;
-        let columns = self.levels.levels.chunks_exact(FREQUENCIES);
-        let mut norm = ROOT_HALF;
-        for (terms, column) in pair.iter_mut().zip(columns).take(2 * self.columns) {
-            let (mut even, mut odd, mut phase, mut c) = (0_i32, 0_i32, 0, ROOT_HALF);
-            for levels in column.chunks_exact(2).take(self.rows) {
-                if let [a, b] = levels {
-                    even += c * i32::from(*a);
-                    odd += cosine(phase + turn) * i32::from(*b);
+    pub(super) fn rows<S: Sample>(&self, i: u32, pair: &mut [Term]) {
+        let turn = self.turn(i);
+        let columns = self.levels.levels.chunks_exact(STRIDE).skip(1);
+        let mut there = self.levels.columns;
+        for (terms, column) in pair.iter_mut().zip(columns).take(self.columns) {
+            *terms = [0; 2];
+            if there & 1 == 1 {
+                let (mut even, mut odd, mut phase, mut c) = (0_i32, 0_i32, 0, ROOT_HALF);
+                let mut levels = column.iter().take(self.rows).map(|level| i32::from(*level));
+                while let Some(level) = levels.next() {
+                    even += c * level;
+                    phase += turn;
+                    let Some(level) = levels.next() else { break };
+                    odd += cosine(phase) * level;
+                    phase += turn;
+                    let Some(level) = levels.next() else { break };
+                    even += cosine(phase) * level;
+                    phase += turn;
+                    let Some(level) = levels.next() else { break };
+                    odd += cosine(phase) * level;
+                    phase += turn;
+                    c = cosine(phase);
                 }
-                phase += 2 * turn;
-                c = cosine(phase);
+                *terms = [self.term::<S>(even + odd), self.term::<S>(even - odd)];
             }
-            *terms = [self.term::<S>(even + odd), self.term::<S>(even - odd)];
-            if norm != 0 {
-                *terms = terms.map(|term| ((i64::from(term) * i64::from(norm) + (1 << 13)) >> 14) as i32);
-                norm = 0;
-            }
+            there >>= 1;
+        }
+        if let [first, ..] = pair {
+            *first = first.map(|term| ((i64::from(term) * i64::from(ROOT_HALF) + (1 << 13)) >> 14) as i32);
         }
     }
 
+    /// The upper word of a product of which 64 bits are kept, rounded.
     #[inline]
     fn term<S: Sample>(&self, sum: i32) -> i32 {
-        S::term(((i64::from(sum) * self.step + (1 << self.shift >> 1)) >> self.shift) as i32)
+        S::term((i64::from(sum).wrapping_mul(self.factor).wrapping_add(1 << 31) >> 32) as i32)
     }
 
-    /// [`Inverse::pixels`] where it is seldom asked for.
-    #[inline(never)]
-    pub(super) fn pixels_apart<S: Sample>(&self, pair: &Pair, j: u32) -> [i32; 4] {
-        self.pixels::<S>(pair, j)
-    }
-
-    /// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns`
-    /// those of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is
-    /// rounded to `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
-    ///
-    /// The pixels of a row and the one that mirrors it, at `j` and at the place that mirrors that, with 7
-    /// fractional bits: upper left, upper right, lower left, lower right.
+    /// Those of a row's frequencies that [`Inverse::rows`] has written.
     #[inline]
-    pub(super) fn pixels<S: Sample>(&self, pair: &Pair, j: u32) -> [i32; 4] {
-        let turn = (2 * j + 1) * self.half;
-        // half a unit of the result
-        let (mut even, mut odd) = ([S::Sum::from(1 << 10); 2], [S::Sum::from(0); 2]);
-        let mut phase = 0;
-        for terms in pair.chunks_exact(2).take(self.columns) {
-            if let [[a, b], [c, d]] = terms {
-                let (p, q) = (cosine(phase), cosine(phase + turn));
-                even = [even[0] + S::product(p, *a), even[1] + S::product(p, *b)];
-                odd = [odd[0] + S::product(q, *c), odd[1] + S::product(q, *d)];
-            }
-            phase += 2 * turn;
-        }
-        let ([e, f], [o, p]) = (even, odd);
-        [e + o, e - o, f + p, f - p].map(|sum| (sum.into() >> 11) as i32)
+    pub(super) fn terms<'p>(&self, pair: &'p [Term]) -> &'p [Term] {
+        pair.get(..self.columns).unwrap_or(&[])
     }
+
+    /// [`pixels`] where it is seldom asked for.
+    #[inline(never)]
+    pub(super) fn pixels_apart<S: Sample>(&self, pair: &[Term], j: u32) -> [i32; 4] {
+        pixels::<S>(self.terms(pair), self.turn(j))
+    }
+
+    /// The phase of frequency 1 in column `j`.
+    #[inline]
+    pub(super) const fn turn(&self, j: u32) -> u32 {
+        (2 * j + 1) * self.half
+    }
+}
+
+/// The pixels of a row and the one that mirrors it, where frequency 1 has a phase and at the place that
+/// mirrors that, with 7 fractional bits: upper left, upper right, lower left, lower right.
+///
+/// Error: where no term is cut off, below `1/256 + (columns + 1)/32 + A/16384` of a sample, `columns`
+/// those of `u` and `A = 2/n q sum |L|`: `a_transform_keeps_the_bound_of_its_arithmetic`. (A term is
+/// rounded to `1/32`, the first twice, each cosine to `2^-15`, the sum to `1/256`.)
+#[inline]
+pub(super) fn pixels<S: Sample>(terms: &[Term], turn: u32) -> [i32; 4] {
+    // half a unit of the result
+    let (mut even, mut odd) = ([S::Sum::from(1 << 10); 2], [S::Sum::from(0); 2]);
+    let (mut phase, mut p) = (0, 1 << 14);
+    let mut terms = terms.iter();
+    // four at a time, as many as there are: a compiler that unrolls it further pays more than it gains
+    while let Some([a, b]) = terms.next() {
+        even = [even[0] + S::product(p, *a), even[1] + S::product(p, *b)];
+        phase += turn;
+        let Some([a, b]) = terms.next() else { break };
+        let q = cosine(phase);
+        odd = [odd[0] + S::product(q, *a), odd[1] + S::product(q, *b)];
+        phase += turn;
+        let Some([a, b]) = terms.next() else { break };
+        let q = cosine(phase);
+        even = [even[0] + S::product(q, *a), even[1] + S::product(q, *b)];
+        phase += turn;
+        let Some([a, b]) = terms.next() else { break };
+        let q = cosine(phase);
+        odd = [odd[0] + S::product(q, *a), odd[1] + S::product(q, *b)];
+        phase += turn;
+        p = cosine(phase);
+    }
+    let ([e, f], [o, p]) = (even, odd);
+    [e + o, e - o, f + p, f - p].map(|sum| (sum.into() >> 11) as i32)
 }
 
 #[cfg(test)]
@@ -260,11 +298,11 @@ mod tests {
             }
             let bound = 1.0 / 256.0 + (columns + 1) as f64 / 32.0 + sum / 16384.0;
             let inverse = Inverse::new(&levels, step, size, size);
-            let mut pair = Pair::default();
+            let mut pair = [[0; 2]; FREQUENCIES];
             for i in 0..n / 2 {
                 inverse.rows::<S>(i as u32, &mut pair);
                 for j in 0..n / 2 {
-                    let four = inverse.pixels::<S>(&pair, j as u32);
+                    let four = pixels::<S>(inverse.terms(&pair), inverse.turn(j as u32));
                     let (below, right) = (n - 1 - i, n - 1 - j);
                     for ((i, j), got) in
                         [(i, j), (i, right), (below, j), (below, right)].into_iter().zip(four)
@@ -291,16 +329,16 @@ mod tests {
             }
             assert_eq!(levels.get(17).abs(), LARGEST);
             let inverse = Inverse::new(&levels, (511 << 23) >> 4, 2, 5);
-            let mut pair = Pair::default();
+            let mut pair = [[0; 2]; FREQUENCIES];
             for i in 0..16 {
                 inverse.rows::<u8>(i, &mut pair);
                 assert!(pair.as_flattened().iter().all(|term| (-8192..8192).contains(term)));
                 (0..16).for_each(|j| {
-                    inverse.pixels::<u8>(&pair, j);
+                    inverse.pixels_apart::<u8>(&pair, j);
                 });
                 inverse.rows::<u16>(i, &mut pair);
                 (0..16).for_each(|j| {
-                    inverse.pixels::<u16>(&pair, j);
+                    inverse.pixels_apart::<u16>(&pair, j);
                 });
             }
         }

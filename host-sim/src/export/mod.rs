@@ -6,6 +6,7 @@
 mod curve;
 mod escape;
 mod function;
+mod image;
 mod module;
 mod palette;
 mod patch;
@@ -22,6 +23,7 @@ use crate::builtin;
 use crate::cli::Export;
 use crate::fail::Fail;
 use crate::output::{self, Directory};
+use crate::scene::image::Shown;
 use crate::scene::{self, Kind, Scene};
 
 use module::{Module, comment};
@@ -34,8 +36,7 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
             return Err(Fail::new(format_args!("--output {}: {reason}", output.display())));
         }
         let scene = scene::load(name)?;
-        if !is_exported(&scene) {
-            let reason = "an elevation model has too many knots for a module: a window takes a part";
+        if let Some(reason) = refusal(&scene) {
             return Err(Fail::new(format_args!("{}: {reason}", scene.name)));
         }
         let text = source(&scene, args.gallery);
@@ -50,7 +51,7 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
     let mut files = Vec::new();
     for (name, _) in builtin::SCENES {
         let scene = scene::load(name)?;
-        if is_exported(&scene) {
+        if refusal(&scene).is_none() {
             files.push((identifier(name), source(&scene, args.gallery)));
         }
     }
@@ -68,11 +69,16 @@ pub(crate) fn run(args: &Export) -> Result<(), Fail> {
     Ok(())
 }
 
-/// Whether a module is not too long.
-fn is_exported(scene: &Scene) -> bool {
+/// Why there is no module of a scene.
+fn refusal(scene: &Scene) -> Option<&'static str> {
     match &scene.kind {
-        Kind::Terrain(scene) => scene.picture().knots.len() <= terrain::MOST,
-        _ => true,
+        Kind::Terrain(scene) if scene.picture().knots.len() > terrain::MOST => {
+            Some("an elevation model has too many knots for a module: a window takes a part")
+        }
+        Kind::Image(scene) if matches!(scene.shown, Shown::Still(_)) => {
+            Some("a PNG file is no constant for firmware: `attractor encode` makes a stream of it")
+        }
+        _ => None,
     }
 }
 
@@ -103,6 +109,7 @@ fn source(scene: &Scene, gallery: bool) -> String {
         Kind::PatchCurve(scene) => patch::curve(scene, &mut module, gallery),
         Kind::PatchSurface(scene) => patch::surface(scene, &mut module, gallery),
         Kind::Texture(scene) => texture::slice(scene, &mut module),
+        Kind::Image(scene) => image::image(scene, &mut module, gallery),
         Kind::Terrain(scene) => terrain::terrain(scene, &mut module, gallery),
         Kind::World(scene) => world::world(scene, &mut module),
     }

@@ -9,8 +9,9 @@ use attractor::fixed::traits::Fixed;
 use attractor::plane::Point2;
 
 /// Where the names come from that a module may use.
-const NAMES: [(&str, &str); 19] = [
+const NAMES: [(&str, &str); 20] = [
     ("attractor", "Error"),
+    ("attractor::codec", "Stream Sweeps open"),
     ("attractor::curve", "Elbow Generator LSystem LineToLine OneVariable Stop TwoVariable"),
     (
         "attractor::draw",
@@ -46,7 +47,7 @@ const NAMES: [(&str, &str); 19] = [
     ("attractor::trace::world", "Lamp Leaf Object Op World WorldCaster"),
     (
         "attractor_gallery",
-        "Floor Ground Lines Method Named PatchSurfacePicture Pencil Shading Standpoint TerrainPicture",
+        "Floor Ground ImagePicture Lines Method Named PatchSurfacePicture Pencil Shading Standpoint TerrainPicture Tones",
     ),
     ("attractor::curve", "catalogue"),
     ("embedded_graphics::geometry", "Size"),

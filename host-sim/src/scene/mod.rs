@@ -13,6 +13,7 @@ pub(crate) mod function;
 mod graph;
 mod halving;
 pub(crate) mod ifs;
+pub(crate) mod image;
 pub(crate) mod julia;
 pub(crate) mod julia_set;
 mod keys;
@@ -100,10 +101,11 @@ pub(crate) enum Kind {
     Terrain(Box<terrain::TerrainScene>),
     PatchCurve(Box<patch_curve::PatchCurve>),
     PatchSurface(Box<patch_surface::PatchSurfaceScene>),
+    Image(Box<image::ImageScene>),
 }
 
 /// What the key `kind` may say.
-const KINDS: [&str; 15] = [
+const KINDS: [&str; 16] = [
     "fif-curve",
     "fif-surface",
     "curve",
@@ -117,6 +119,7 @@ const KINDS: [&str; 15] = [
     "world",
     "terrain",
     "texture",
+    "image",
     "patch-curve",
     "patch-surface",
 ];
@@ -170,6 +173,7 @@ fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
         "patch-curve" => Kind::PatchCurve(Box::new(patch_curve::PatchCurve::load(source)?)),
         "patch-surface" => Kind::PatchSurface(Box::new(patch_surface::PatchSurfaceScene::load(source)?)),
         "texture" => Kind::Texture(Box::new(slice::SliceScene::load(source)?)),
+        "image" => Kind::Image(Box::new(image::ImageScene::load(source)?)),
         _ => {
             let reason = format!("allowed is {}", KINDS.join(", "));
             return Err(source.fail(named.span(), "kind", reason));
@@ -196,6 +200,7 @@ impl Scene {
             Kind::World(_) => "world",
             Kind::Terrain(_) => "terrain",
             Kind::Texture(_) => "texture",
+            Kind::Image(_) => "image",
             Kind::PatchCurve(_) => "patch-curve",
             Kind::PatchSurface(_) => "patch-surface",
         }
@@ -222,6 +227,11 @@ impl Scene {
             }
             Kind::PatchCurve(_) | Kind::PatchSurface(_) => {
                 return Err(Fail::new("curves and surfaces by control points are not measured"));
+            }
+            Kind::Image(_) => {
+                return Err(Fail::new(
+                    "an image is not measured; `attractor inspect` says what it is made of",
+                ));
             }
             Kind::LSystem(_) => {
                 let reason = "an L-system tends to no one set: its picture grows with the order; write it as a curve, a copier or an ifs";
@@ -293,6 +303,7 @@ impl Scene {
             Kind::World(scene) => scene.draw(request, target, watch),
             Kind::Terrain(scene) => scene.draw(request, target, watch),
             Kind::Texture(scene) => scene.draw(request, target, watch),
+            Kind::Image(scene) => scene.draw(request, target, watch),
             Kind::PatchCurve(scene) => scene.draw(request, target, watch),
             Kind::PatchSurface(scene) => scene.draw(request, target, watch),
         }
@@ -331,6 +342,7 @@ impl Scene {
             Kind::World(scene) => world::sample(scene, request, question, points, &mut stdout().lock()),
             Kind::Texture(scene) => scene.sample(request, question, &mut stdout().lock()),
             Kind::PatchCurve(scene) => scene.sample(points, out),
+            Kind::Image(scene) => scene.sample(points, out),
             Kind::PatchSurface(scene) => scene.sample(points, out),
         }
     }

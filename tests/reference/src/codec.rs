@@ -1,5 +1,6 @@
 //! The image format, decoded in f64 from docs/IMAGE-FORMAT.md: what is said is read exactly, what is shown is
-//! computed as the formulas have it, with cosines instead of tables, and rounded to samples once.
+//! computed as the formulas have it, with cosines instead of tables, and rounded to samples once. What later
+//! means depend on, the base along edges, is in the integers that the page states.
 
 use std::f64::consts::PI;
 
@@ -8,11 +9,20 @@ use std::f64::consts::PI;
 pub struct Decoded {
     /// Width, height and samples, row after row.
     pub planes: Vec<(usize, usize, Vec<f64>)>,
+    /// The samples in the integers of the format, every rounding as its page states it.
+    pub exact: Vec<Vec<i64>>,
+    /// Of each sample, by how much a decoder may be off that rounds where the format says so: a whole number.
+    /// What is off by `e` before it is rounded may be rounded otherwise only within `e` of a half; in sweeps
+    /// what is copied is off by the contrast times what its domain was off.
+    pub off: Vec<Vec<f64>>,
     /// 255 or 65535.
     pub peak: f64,
     /// The leaves of the first plane, in their order.
     pub leaves: Vec<Leaf>,
 }
+
+/// Half of the last of 7 fractional bits.
+const HALF_BIT: f64 = 1.0 / 256.0;
 
 struct Reader<'a> {
     bytes: &'a [u8],
@@ -84,6 +94,11 @@ impl Reader<'_> {
     }
 }
 
+/// `v / 2^bits`, to nearest, halves upwards.
+fn rounded(v: i64, bits: usize) -> i64 {
+    if bits == 0 { v } else { (v + (1 << (bits - 1))) >> bits }
+}
+
 /// A leaf of the partition: a map, and what is added.
 #[derive(Debug, Clone)]
 pub struct Leaf {
@@ -97,8 +112,10 @@ pub struct Leaf {
     pub domain: Option<(usize, usize, usize, f64)>,
     /// Mean.
     pub mean: f64,
-    /// `(v, u)` and value.
-    pub coefficients: Vec<(usize, usize, f64)>,
+    /// `(v, u)`, level and value.
+    pub coefficients: Vec<(usize, usize, i64, f64)>,
+    /// The mean in the format's `2^-7`.
+    whole: i64,
 }
 
 struct Plane {
@@ -107,10 +124,15 @@ struct Plane {
     largest: usize,
     chroma: usize,
     q: f64,
+    q8: i64,
     peak: f64,
     samples: Vec<f64>,
-    /// Base of what was decoded, the depth and whether there is a domain, by pixel.
-    base: Vec<f64>,
+    exact: Vec<i64>,
+    /// By how much each may be off.
+    off: Vec<f64>,
+    /// Base of what was decoded, in the integers of the format, as later means depend on it to the bit; the
+    /// depth and whether there is a domain, by pixel.
+    base: Vec<i64>,
     seen: Vec<Option<(usize, bool)>>,
     across: usize,
     /// By cell of 4 x 4: no sweep changes it any more.
@@ -198,11 +220,18 @@ impl Plane {
                 let large = reader.bin("large", of, 0);
                 let size = if large { 2 + reader.number("magnitude", 0) } else { 1 }.min(8191);
                 sizes[*v + 1][*u + 1] = size;
-                let value = if reader.raw(1) == 1 { -size } else { size } as f64 * self.q;
-                coefficients.push((*v, *u, value));
+                let level = if reader.raw(1) == 1 { -size } else { size };
+                coefficients.push((*v, *u, level, level as f64 * self.q));
             }
         }
-        // what the neighbours' edges let expect
+        let (mean, whole) = self.expected(x, y, n);
+        let moved = rounded(steps * self.q8, 1 + k).clamp(-(1 << 25), 1 << 25);
+        let mean = mean + steps as f64 * self.q / n as f64;
+        self.keep(Leaf { x, y, n, domain, mean, coefficients, whole: whole + moved });
+    }
+
+    /// What the neighbours' edges let expect, and the same in the format's `2^-7`.
+    fn expected(&self, x: usize, y: usize, n: usize) -> (f64, i64) {
         let mut edge = Vec::new();
         if y > 0 {
             edge.extend((0..n).map(|j| self.base[self.at(x + j, y - 1)]));
@@ -210,60 +239,80 @@ impl Plane {
         if x > 0 {
             edge.extend((0..n).map(|i| self.base[self.at(x - 1, y + i)]));
         }
-        let expected = if edge.is_empty() {
-            (self.peak + 1.0) / 2.0
-        } else {
-            edge.iter().sum::<f64>() / edge.len() as f64
-        };
-        let leaf = Leaf { x, y, n, domain, mean: expected + steps as f64 * self.q / n as f64, coefficients };
-        self.keep(leaf);
+        if edge.is_empty() {
+            let half = (self.peak + 1.0) / 2.0;
+            return (half, 128 * half as i64);
+        }
+        let sum: i64 = edge.iter().sum();
+        (sum as f64 / edge.len() as f64, rounded(128 * sum, edge.len().ilog2() as usize))
+    }
+
+    /// By how much a value is off that is rounded to a sample, where before it was by `off`.
+    fn rounded_off(&self, value: f64, off: f64) -> f64 {
+        let sample = |value: f64| (value + 0.5).floor().clamp(0.0, self.peak);
+        let here = sample(value);
+        (sample(value + off) - here).max(here - sample(value - off))
     }
 
     fn keep(&mut self, leaf: Leaf) {
-        for i in 0..leaf.n {
-            for j in 0..leaf.n {
-                let at = self.at(leaf.x + j, leaf.y + i);
-                self.base[at] = (leaf.mean + leaf.pixel(i, j)).round().clamp(0.0, self.peak);
-                self.seen[at] = Some((leaf.n, leaf.domain.is_some()));
-            }
+        let values = leaf.values(self.q8, self.peak as i64);
+        for (k, value) in values.into_iter().enumerate() {
+            let at = self.at(leaf.x + k % leaf.n, leaf.y + k / leaf.n);
+            self.base[at] = rounded(value, 7).clamp(0, self.peak as i64);
+            self.seen[at] = Some((leaf.n, leaf.domain.is_some()));
         }
         self.leaves.push(leaf);
     }
 
-    fn halved(&self, x: usize, y: usize) -> f64 {
-        let four =
-            [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(a, b)| self.samples[(2 * y + b) * self.width + 2 * x + a]);
-        (four.iter().sum::<f64>() / 4.0 + 0.5).floor()
+    /// A sample of the halved picture, by how much it is off, and the same in integers.
+    fn halved(&self, x: usize, y: usize) -> (f64, f64, i64) {
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(a, b)| (2 * y + b) * self.width + 2 * x + a);
+        let sum: f64 = four.iter().map(|at| self.samples[*at]).sum();
+        let off: f64 = four.iter().map(|at| self.off[*at]).sum();
+        let exact: i64 = four.iter().map(|at| self.exact[*at]).sum();
+        let quarter = |sum: f64| (sum / 4.0 + 0.5).floor();
+        let off = (quarter(sum + off) - quarter(sum)).max(quarter(sum) - quarter(sum - off));
+        (quarter(sum), off, (exact + 2) >> 2)
     }
 
     /// Draws a leaf, with its domain or as if it had none.
     fn draw(&mut self, leaf: &Leaf, with_domain: bool) {
         let n = leaf.n;
-        let domain = leaf.domain.filter(|_| with_domain);
-        let copy: Vec<f64> = match domain {
-            None => vec![0.0; n * n],
-            Some((px, py, isometry, contrast)) => {
-                let mean =
-                    (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).sum::<f64>() / (n * n) as f64;
-                let turned = |k: usize| {
-                    let (i, j) = (k / n, k % n);
-                    let (mut row, mut column) = if isometry & 4 == 0 { (i, j) } else { (j, i) };
-                    if isometry & 1 != 0 {
-                        column = n - 1 - column;
-                    }
-                    if isometry & 2 != 0 {
-                        row = n - 1 - row;
-                    }
-                    contrast * (self.halved(px + column, py + row) - mean)
-                };
-                (0..n * n).map(turned).collect()
+        let values = leaf.values(self.q8, self.peak as i64);
+        // what is added, by how much that is off, and the same in the format's 2^-7
+        let mut copy = vec![(0.0, 0.0, 0); n * n];
+        if let Some((px, py, isometry, contrast)) = leaf.domain.filter(|_| with_domain) {
+            let square: Vec<_> = (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).collect();
+            let (mut sum, mut off, mut whole) = (0.0, 0.0, 0);
+            for (d, e, exact) in &square {
+                (sum, off, whole) = (sum + d, off + e, whole + exact);
             }
-        };
-        for (k, copied) in copy.into_iter().enumerate() {
+            // the mean is rounded to 2^-4
+            let (mean, mean_off) = (sum / (n * n) as f64, off / (n * n) as f64 + 1.0 / 32.0);
+            let whole = rounded(16 * whole, 2 * n.ilog2() as usize);
+            for (k, copied) in copy.iter_mut().enumerate() {
+                let (i, j) = (k / n, k % n);
+                let (mut row, mut column) = if isometry & 4 == 0 { (i, j) } else { (j, i) };
+                if isometry & 1 != 0 {
+                    column = n - 1 - column;
+                }
+                if isometry & 2 != 0 {
+                    row = n - 1 - row;
+                }
+                let (d, off, exact) = square[row * n + column];
+                let eighths = (8.0 * contrast) as i64;
+                let (value, off) = (contrast * (d - mean), contrast.abs() * (off + mean_off));
+                *copied = (value, off, eighths * (16 * exact - whole));
+            }
+        }
+        let off: Vec<f64> = (0..n).map(|j| leaf.off(j)).collect();
+        for (k, (copied, copied_off, whole)) in copy.into_iter().enumerate() {
             let (x, y) = (leaf.x + k % n, leaf.y + k / n);
             if x < self.width && y < self.height {
-                let value = leaf.mean + leaf.pixel(k / n, k % n) + copied;
-                self.samples[y * self.width + x] = (value + 0.5).floor().clamp(0.0, self.peak);
+                let (at, value) = (y * self.width + x, leaf.mean + leaf.pixel(k / n, k % n) + copied);
+                self.samples[at] = (value + 0.5).floor().clamp(0.0, self.peak);
+                self.off[at] = self.rounded_off(value, off[k % n] + copied_off);
+                self.exact[at] = rounded(values[k] + whole, 7).clamp(0, self.peak as i64);
             }
         }
     }
@@ -300,15 +349,8 @@ impl Plane {
     ) {
         let n = 1 << k;
         if x >= self.width || y >= self.height {
-            let mut empty = Leaf { x, y, n, domain: None, mean: 0.0, coefficients: Vec::new() };
-            let mut edge = Vec::new();
-            if y > 0 {
-                edge.extend((0..n).map(|j| self.base[self.at(x + j, y - 1)]));
-            }
-            if x > 0 {
-                edge.extend((0..n).map(|i| self.base[self.at(x - 1, y + i)]));
-            }
-            empty.mean = edge.iter().sum::<f64>() / edge.len() as f64;
+            let (mean, whole) = self.expected(x, y, n);
+            let empty = Leaf { x, y, n, domain: None, mean, coefficients: Vec::new(), whole };
             self.keep(empty);
             return;
         }
@@ -333,6 +375,32 @@ impl Plane {
 }
 
 impl Leaf {
+    /// Mean and transform in `2^-7`, row by row, by the format's three steps.
+    fn values(&self, q8: i64, peak: i64) -> Vec<i64> {
+        let (n, k) = (self.n, self.n.ilog2() as usize);
+        let cosine = |turn: usize| match turn % (4 * n) {
+            0 => 1 << 14,
+            turn => (16384.0 * (PI * turn as f64 / (2 * n) as f64).cos()).round() as i64,
+        };
+        // a constant for frequency 0 down
+        let down = |v: usize, i: usize| if v == 0 { 11585 } else { cosine((2 * i + 1) * v) };
+        let most = if peak > 255 { 1 << 23 } else { 1 << 13 };
+        let mut values = Vec::new();
+        for i in 0..n {
+            let mut terms = [0; 16];
+            for (v, u, level, _) in &self.coefficients {
+                terms[*u] += down(*v, i) * level;
+            }
+            let mut terms = terms.map(|t| i64::from(rounded(t * q8, 17 + k) as i32).clamp(-most, most - 1));
+            terms[0] = rounded(11585 * terms[0], 14);
+            for j in 0..n {
+                let sum: i64 = (0..16).map(|u| cosine((2 * j + 1) * u) * terms[u]).sum();
+                values.push(self.whole + rounded(sum, 11));
+            }
+        }
+        values
+    }
+
     /// The transform at row `i` and column `j`.
     fn pixel(&self, i: usize, j: usize) -> f64 {
         let n = self.n as f64;
@@ -340,7 +408,30 @@ impl Leaf {
             let scale = if k == 0 { 0.5_f64.sqrt() } else { 1.0 };
             scale * (PI * (2 * i + 1) as f64 * k as f64 / (2.0 * n)).cos()
         };
-        self.coefficients.iter().map(|(v, u, value)| 2.0 / n * value * wave(*v, i) * wave(*u, j)).sum()
+        self.coefficients.iter().map(|(v, u, _, value)| 2.0 / n * value * wave(*v, i) * wave(*u, j)).sum()
+    }
+
+    /// By how much mean and transform are off in column `j` where they are computed as the format has it: the
+    /// mean of the edges and the steps by `2^-8` each; each cosine by `2^-15`, a column's term by `2^-5`, the
+    /// first of them twice, the sum by `2^-8`.
+    fn off(&self, j: usize) -> f64 {
+        let n = self.n as f64;
+        let (table, term) = (0.5_f64.powi(15), 1.0 / 32.0);
+        let mut off = if self.coefficients.is_empty() { 2.0 * HALF_BIT } else { 3.0 * HALF_BIT };
+        for u in 0..16 {
+            let column = self.coefficients.iter().filter(|(_, of, ..)| *of == u);
+            let largest = column.map(|(.., value)| 2.0 / n * value.abs()).sum::<f64>();
+            if largest == 0.0 {
+                continue;
+            }
+            let mut column_off = largest * table + term;
+            if u == 0 {
+                column_off = column_off * 0.5_f64.sqrt() + largest * table + term;
+            }
+            let wave = (PI * ((2 * j + 1) * u) as f64 / (2.0 * n)).cos().abs();
+            off += (wave + table) * column_off + largest * table;
+        }
+        off
     }
 }
 
@@ -374,9 +465,12 @@ pub fn decode(file: &[u8]) -> Decoded {
                 largest,
                 chroma: usize::from(plane > 0),
                 q: q8 as f64 / 256.0,
+                q8: q8 as i64,
                 peak,
                 samples: vec![start; width * height],
-                base: vec![0.0; all],
+                exact: vec![start as i64; width * height],
+                off: vec![0.0; width * height],
+                base: vec![0; all],
                 seen: vec![None; all],
                 settled: vec![false; all / 16],
                 across,
@@ -406,6 +500,8 @@ pub fn decode(file: &[u8]) -> Decoded {
     }
     Decoded {
         leaves: planes.first().map(|plane| plane.leaves.clone()).unwrap_or_default(),
+        exact: planes.iter().map(|plane| plane.exact.clone()).collect(),
+        off: planes.iter().map(|plane| plane.off.clone()).collect(),
         planes: planes.into_iter().map(|plane| (plane.width, plane.height, plane.samples)).collect(),
         peak,
     }

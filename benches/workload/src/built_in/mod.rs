@@ -8,6 +8,7 @@
 mod rows;
 mod escape;
 mod fif;
+mod image;
 mod patches;
 mod paths;
 mod seed;
@@ -112,4 +113,14 @@ pub(crate) const IN_MONO: &[Scene] = &[
     both_roomy(patch_surface!("patch-rock", patch_rock))[1],
     both_roomy(patch_surface!("patch-diagonal", patch_diagonal))[1],
     both_roomy(patch_surface!("patch-mountain", patch_mountain))[1],
+];
+
+/// Encoded pictures, which have an image of their own: their decoders take more flash than that of the others
+/// has left.
+pub(crate) const IMAGES: &[[Scene; 2]] = &[
+    both_roomy(image!("photograph", photograph)),
+    both_roomy(image!("photograph-colour", photograph_colour)),
+    both_roomy(image!("regeneration", regeneration)),
+    both_roomy(image!("maps-alone", maps_alone)),
+    both_roomy(image!("elevation", elevation)),
 ];

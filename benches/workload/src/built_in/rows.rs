@@ -281,6 +281,17 @@ macro_rules! lines {
     };
 }
 
+/// An encoded picture.
+macro_rules! image {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| image::decoded::<
+            C,
+            of::$scene::Sample,
+            { image::samples(of::$scene::SAMPLES, of::$scene::SIZE, S, of::$scene::PICTURE.sweeps.len()) },
+        >(stage, &of::$scene::PICTURE))
+    };
+}
+
 /// A curve by control points.
 macro_rules! patch_curve {
     ($name:literal, $scene:ident) => {
