@@ -60,6 +60,9 @@ fn weights(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 4] {
     // (1 + 3 s + 3 s^2 - 3 s^3) / 6
     let c = (SIXTHS[1] >> 1) + high_u(s, ONE + (s - ss));
     let b = ONE - a - c - d;
+    if !(is_first || is_last) {
+        return [a, b, c, d].map(|c| c as i32);
+    }
     // beyond the rim a vertex is the mirror image of its inner neighbour
     let (b, a_in_c) = if is_first { (b + 2 * a, a) } else { (b, 0) };
     let (c, d_in_b) = if is_last { (c + 2 * d, d) } else { (c, 0) };

@@ -75,7 +75,7 @@ impl Bicubic {
 
 /// The greatest second differences along rows, the greatest mixed ones, and those along columns.
 #[inline(always)]
-pub(super) fn differences(points: &[[i32; 4]; 4]) -> [u32; 3] {
+pub(crate) fn differences(points: &[[i32; 4]; 4]) -> [u32; 3] {
     let across = points.map(|[a, b, c, d]| [b.wrapping_sub(a), c.wrapping_sub(b), d.wrapping_sub(c)]);
     let (mut ss, mut st, mut tt) = (0, 0, 0);
     let greatest = |most: &mut u32, c: i32| *most = (*most).max(c.unsigned_abs());

@@ -38,6 +38,7 @@ mod rows;
 mod seam;
 mod triangles;
 
+pub(crate) use bicubic::differences;
 pub(crate) use bilinear::Bilinear;
 pub(crate) use cell::{Cell, Middles};
 pub use edge_level::{EdgeLevel, Magnification};

@@ -112,6 +112,16 @@ impl Patch {
         slopes.map(Real::from_bits)
     }
 
+    /// Its Bezier points as of a bicubic patch, row by row, to within two units.
+    pub(crate) fn points(&self) -> [[Q24; 4]; 4] {
+        const THIRDS: [Q30; 4] = [0, 357_913_941, 715_827_883, 1 << 30];
+        match &self.0 {
+            Form::Bilinear(patch) => THIRDS.map(|t| THIRDS.map(|s| patch.height(s, t))),
+            Form::Bicubic(patch) => patch.points,
+            Form::BSpline(patch) => patch.bezier().points,
+        }
+    }
+
     /// Rigorous bounds of its heights.
     pub fn range(&self) -> [Real; 2] {
         let range: [Q24; 2] = match &self.0 {

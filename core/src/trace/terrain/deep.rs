@@ -11,10 +11,10 @@ use core::ops::ControlFlow;
 
 use super::super::ray::{Footprint, Ray};
 use super::super::surface::{Crossing, Extent, Surface, SurfacePoint};
-use super::meet::{CROSSINGS, crossings, error, extent, point, value};
+use super::leaf::{Frame, Place};
+use super::meet::{CROSSINGS, error, extent, handed, point, value};
 use super::plot::Rule;
-use super::ranges::depth;
-use super::walk::{Frame, LEVELS, Place, Tree};
+use super::walk::{LEVELS, Tree, walk};
 use crate::Error;
 use crate::num::formats::Q24;
 use crate::num::{RandomField, Real, Unit, Vec3, Wide};
@@ -80,7 +80,8 @@ impl<'a, R: Randomness> DeepTerrain<'a, R> {
         let [low, high] = knots.range().map(|h| i64::from(h.to_bits()));
         let bits = |c: i64| c.clamp(-(64 << 24), 64 << 24) as i32;
         let heights = [bits(low - whole - (1 << 6)), bits(high + whole + (1 << 6))];
-        let depth = (finest + depth(across, down)).min(LEVELS);
+        // the level with one node
+        let depth = (finest + 32 - (across.max(down) - 1).leading_zeros()).min(LEVELS);
         Ok(Self { function: terrain, finest, reach, frame: Frame { rules, heights, depth } })
     }
 
@@ -146,8 +147,9 @@ impl<R: Randomness> Tree for Seen<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn patch(&self, _: Place, cell: &Cell) -> Form {
-        Form::Bilinear(Bilinear { corners: cell.corners })
+    fn patch(&self, _: Place, cell: &Cell) -> (Form, u32) {
+        let patch = Bilinear { corners: cell.corners };
+        (Form::Bilinear(patch), patch.twist() << 5)
     }
 
     #[inline(always)]
@@ -180,7 +182,7 @@ impl<R: Randomness> Surface for DeepTerrain<'_, R> {
         let [columns, rows] = &self.frame.rules;
         let width = columns.width().max(rows.width());
         let seen = Seen { terrain: self, footprint: Footprint::new(cone), width };
-        let _ = crossings(&seen, &self.frame, &ray.axes(), found);
+        let _ = walk(&seen, &self.frame, &ray.axes(), &mut handed(found));
     }
 
     fn value(&self, place: Vec3) -> Wide {
