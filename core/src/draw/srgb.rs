@@ -35,18 +35,36 @@ const FROM: [u16; 255] = [
     59564, 60118, 60675, 61236, 61799, 62366, 62935, 63508, 64083, 64662, 65244,
 ];
 
-/// The code whose light is the nearest as codes go: 8 comparisons.
+/// The codes of dark light, one for each 32, and of all light, one for each 256.
+static BEGINS: [[u8; 256]; 2] = [begins(5), begins(8)];
+
+/// Below this light is dark: 256 times 32.
+const DARK: u16 = 1 << 13;
+
+/// The code of each light whose last bits, so many, are 0.
+const fn begins(bits: u32) -> [u8; 256] {
+    let mut codes = [0; 256];
+    let (mut place, mut code) = (0, 0_u8);
+    while place < 256 {
+        while (code as usize) < FROM.len() && ((place as u32) << bits) >= FROM[code as usize] as u32 {
+            code += 1;
+        }
+        codes[place] = code;
+        place += 1;
+    }
+    codes
+}
+
+/// The code whose light is the nearest as codes go: a table, and two comparisons, as no more than two codes
+/// begin between two of its entries.
 #[inline]
 pub(super) fn encoded(light: u16) -> u8 {
-    let mut code = 0_u8;
-    let mut step = 128_u8;
-    while step > 0 {
-        // `code + step` is at most 255, its entry the one before
-        let begins = FROM.get(usize::from(code | step).wrapping_sub(1)).copied().unwrap_or(u16::MAX);
-        if light >= begins {
-            code |= step;
-        }
-        step >>= 1;
+    let [dark, all] = &BEGINS;
+    let (codes, place) = if light < DARK { (dark, light >> 5) } else { (all, light >> 8) };
+    let mut code = codes.get(usize::from(place)).copied().unwrap_or(0);
+    for _ in 0..2 {
+        let is_next = FROM.get(usize::from(code)).is_some_and(|begins| light >= *begins);
+        code = code.wrapping_add(u8::from(is_next));
     }
     code
 }

@@ -18,7 +18,7 @@ use super::walk::{LEVELS, Tree, walk};
 use crate::Error;
 use crate::num::formats::Q24;
 use crate::num::{RandomField, Real, Unit, Vec3, Wide};
-use crate::terrain::{Bilinear, Cell, Form, Middles, PlaneToLine, Randomness};
+use crate::terrain::{Bilinear, Cell, Form, Grid, PlaneToLine, Randomness};
 
 /// A surface by subdivision over a rectangle of the world.
 ///
@@ -101,14 +101,13 @@ impl<'a, R: Randomness> DeepTerrain<'a, R> {
 /// A ray with its width.
 struct Seen<'b, 'a, R> {
     terrain: &'b DeepTerrain<'a, R>,
-    footprint: Footprint,
-    /// How wide the finest cells are, 24 fractional bits.
-    width: Q24,
+    /// From where on it is wider than the finest cells.
+    wide_from: Q24,
 }
 
 impl<R: Randomness> Tree for Seen<'_, '_, R> {
     type Node = Cell;
-    type Middle = Option<Middles>;
+    type Middle = Grid;
 
     fn root(&self) -> Cell {
         if self.terrain.frame.depth == self.terrain.finest {
@@ -129,20 +128,22 @@ impl<R: Randomness> Tree for Seen<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn middle(&self, place: Place, cell: &Cell) -> Option<Middles> {
-        let level = self.terrain.finest.checked_sub(place.level)?;
-        Some(cell.halved(level, self.terrain.function.law(), self.terrain.function.random()))
+    fn middle(&self, place: Place, cell: &Cell) -> Grid {
+        match self.terrain.finest.checked_sub(place.level) {
+            Some(level) => cell.grid(level, self.terrain.function.law(), self.terrain.function.random()),
+            None => Grid::default(),
+        }
     }
 
     #[inline(always)]
-    fn part(&self, place: Place, cell: &Cell, middles: &Option<Middles>) -> Cell {
-        let level = self.terrain.finest.saturating_sub(place.level);
-        match middles {
-            Some(middles) => cell.part(level - 1, middles, place.column & 1 > 0, place.row & 1 > 0),
-            None if level == 0 && place.level == self.terrain.finest => {
-                self.terrain.function.knot_cell(place.column, place.row)
-            }
-            None => Cell::default(),
+    fn part(&self, place: Place, cell: &Cell, grid: &Grid) -> Cell {
+        let finest = self.terrain.finest;
+        if place.level < finest {
+            cell.quarter(finest - place.level - 1, grid, [place.column & 1, place.row & 1])
+        } else if place.level == finest {
+            self.terrain.function.knot_cell(place.column, place.row)
+        } else {
+            Cell::default()
         }
     }
 
@@ -156,7 +157,8 @@ impl<R: Randomness> Tree for Seen<'_, '_, R> {
     fn is_leaf(&self, place: Place, t: Q24) -> bool {
         place.level == 0
             || place.level <= self.terrain.finest
-                && self.footprint.reaches(self.width << place.level) <= i64::from(t)
+                // twice as far for cells twice as wide
+                && t >> (place.level & 31) >= self.wide_from
     }
 }
 
@@ -181,7 +183,8 @@ impl<R: Randomness> Surface for DeepTerrain<'_, R> {
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
         let [columns, rows] = &self.frame.rules;
         let width = columns.width().max(rows.width());
-        let seen = Seen { terrain: self, footprint: Footprint::new(cone), width };
+        let reached = Footprint::new(cone).reaches(width);
+        let seen = Seen { terrain: self, wide_from: reached.min(i64::from(i32::MAX)) as i32 };
         let _ = walk(&seen, &self.frame, &ray.axes(), &mut handed(found));
     }
 

@@ -88,7 +88,7 @@ impl Chord<'_> {
 }
 
 /// Where the ray changes sides inside a leaf, for an eighth of how much its patch bends.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn cross_leaf(
     frame: &Frame,
     [x, y, z]: &[Axis; 3],

@@ -7,7 +7,7 @@
 
 use crate::Error;
 use crate::num::formats::{Q14, Q24, Q28, Q30};
-use crate::num::{Real, Wide, high};
+use crate::num::{Real, Wide, high, product};
 
 /// Columns or rows of cells along an axis.
 #[derive(Debug, Clone, Copy)]
@@ -90,9 +90,10 @@ impl Rule {
     /// How far into a cell that is `size` columns wide a coordinate lies, from 0 to 1.
     #[inline(always)]
     pub(super) fn inside(&self, c: Q24, index: u32, size_log: u32) -> Q30 {
-        let along = i64::from(c.wrapping_sub(self.plane(index)).max(0));
-        // along is at most a cell and its rounding: 47 fractional bits of a cell
-        ((along * (self.density >> (size_log & 31))) >> 17).min(1 << 30) as i32
+        let along = c.wrapping_sub(self.plane(index)).max(0);
+        // along is at most a node and its rounding; an exponent from -38 to -16
+        let part = product(along, self.mantissa) as u64 >> ((size_log as i32 - 6 - self.exponent) & 63);
+        (part as i32).min(1 << 30)
     }
 
     /// The cell at a coordinate, those outside being the first or the last.

@@ -31,6 +31,8 @@ const NEAR: Q24 = 1 << 6;
 pub(super) struct Levels<'a> {
     ranges: &'a [HeightRange],
     begins: [u32; LEVELS],
+    /// Where the coarsest begins.
+    start: u32,
     /// The unit of heights, as a power of two of 2^-24.
     unit: u32,
     /// Along both axes the coarsest level that has two nodes, and how wide they are.
@@ -44,7 +46,9 @@ impl<'a> Levels<'a> {
             let level = top(columns, rows).min(31 - (rule.count | 1).leading_zeros());
             (level, rule.width_of(1 << level))
         });
-        Self { ranges, begins: begins(columns, rows), unit, widest }
+        let begins = begins(columns, rows);
+        let start = begins.get((top(columns, rows) / STEP) as usize).copied().unwrap_or(0);
+        Self { ranges, begins, start, unit, widest }
     }
 }
 
@@ -158,7 +162,7 @@ pub(super) fn walk(
         let corner = |index: u32| (index << size) as i32;
         let height = scaled(z.at(t), 14 - levels.unit as i32);
         Open {
-            index: levels.index(columns.count, level, [i, j]),
+            index: levels.start.wrapping_add(j.wrapping_mul(nodes(columns.count, level))).wrapping_add(i),
             next: [a.plane(level, a.behind(i)).max(t), b.plane(level, b.behind(j)).max(t)],
             end,
             here: [here[0].wrapping_sub(corner(i)), here[1].wrapping_sub(corner(j)), height],

@@ -47,7 +47,7 @@ const MARGIN: Q24 = 1 << 9;
 /// To which power of 1/2 of a cell places along a ray are known: `2^-16`, and what 14 bits tell.
 fn loose(rules: &[Rule; 2]) -> u32 {
     let width = rules.iter().fold(i32::MAX, |least, rule| least.min(rule.width()));
-    (22 - width.leading_zeros().min(22)).min(10)
+    (22 - width.leading_zeros().min(22)).min(11)
 }
 
 impl<'a> Terrain<'a> {

@@ -155,15 +155,17 @@ pub(super) fn walk<T: Tree>(
             let _ = path.push(Open { node, middle, first, halves, ends });
         } else {
             if passes {
-                let other = above.replace(passes_above).is_some_and(|before| before != passes_above);
-                if other {
-                    // between two nodes: the cell where that is
-                    let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
-                    changed((t, Place { level: 0, column, row }, passes_above))?;
+                if above != Some(passes_above) {
+                    if above.is_some() {
+                        // between two nodes: the cell where that is
+                        let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
+                        changed((t, Place { level: 0, column, row }, passes_above))?;
+                    }
+                    above = Some(passes_above);
                 }
             } else {
                 let (patch, eighth) = tree.patch(place, &node);
-                cross_leaf(frame, axes, place, (t, out), (&patch, eighth), &mut above, changed)?;
+                leaf(frame, axes, place, (t, out), (&patch, eighth), &mut above, changed)?;
             }
             (t, z_in) = (out, z_out);
             while path.last().is_some_and(|open| t >= open.ends[0].min(open.ends[1])) {
@@ -180,4 +182,18 @@ pub(super) fn walk<T: Tree>(
         place = Place { level, column: part(open.first[0], second[0]), row: part(open.first[1], second[1]) };
         node = tree.part(place, &open.node, &open.middle);
     }
+}
+
+/// As [`cross_leaf`], beside the walk: most of it is about nodes.
+#[inline(never)]
+fn leaf(
+    frame: &Frame,
+    axes: &[Axis; 3],
+    place: Place,
+    piece: (Q24, Q24),
+    patch: (&Form, u32),
+    above: &mut Above,
+    changed: &mut impl FnMut(Change) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    cross_leaf(frame, axes, place, piece, patch, above, changed)
 }

@@ -55,7 +55,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     /// share it with is told to `shared`.
     pub(super) fn light<const E: usize, const R: usize>(
         &self,
-        ray: Ray,
+        mut ray: Ray,
         start: &Start,
         depth: Depth,
         surroundings: &impl Surroundings,
@@ -63,24 +63,25 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     ) -> Rgb {
         let mut waiting = Vec::<Waiting, R>::new();
         let mut light = Rgb::BLACK;
-        let mut now = Waiting { ray, start: *start, weight: Rgb::WHITE, width: 0, level: 0 };
+        // the first ray stays where it is
+        let (mut spawned, mut weight, mut width, mut level) = (None, Rgb::WHITE, 0, 0_u8);
         loop {
-            let direction = now.ray.unit_direction();
-            let weighted = |light: Rgb| if now.level == 0 { light } else { now.weight.through(light) };
-            let is_cast = now.level <= depth.0 && now.weight.brightest() >= FAINT;
-            let met = if is_cast { self.met::<E>(&now.ray, &now.start) } else { None };
+            let (ray_now, start) = (&ray, spawned.as_ref().unwrap_or(start));
+            let direction = ray_now.unit_direction();
+            let weighted = |light: Rgb| if level == 0 { light } else { weight.through(light) };
+            let is_cast = level <= depth.0 && weight.brightest() >= FAINT;
+            let met = if is_cast { self.met::<E>(ray_now, start) } else { None };
             let is_seen = met.as_ref().is_some_and(|met| {
                 let Some((leaf, material, crossing)) = self.hit(met) else { return false };
-                let mut point = leaf.surface.point(&now.ray, now.start.cone, crossing, material.is_charted());
+                let mut point = leaf.surface.point(ray_now, start.cone, crossing, material.is_charted());
                 if !lies_in_the_world(point.position) {
                     return false;
                 }
                 if point.normal.dot(direction) > 0 {
                     (point.normal, point.inward) = (negated(point.normal), true);
                 }
-                let grown = (i64::from(crossing.t.to_bits()) * i64::from(now.start.cone.to_bits())) >> 30;
-                point.width =
-                    Real::from_bits(i32::try_from(grown + i64::from(now.width)).unwrap_or(i32::MAX));
+                let grown = (i64::from(crossing.t.to_bits()) * i64::from(start.cone.to_bits())) >> 30;
+                point.width = Real::from_bits(i32::try_from(grown + i64::from(width)).unwrap_or(i32::MAX));
                 let point = &point;
                 let states =
                     [met.before, met.behind].map(|all| self.states_at(all, met.unknown, point.position));
@@ -88,7 +89,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                 if let (true, (Some((other, _)), Some(one))) = (M::MAY_BE_CLEAR, self.within(behind.inside)) {
                     shared(Interpenetration { objects: [one, other], place: point.position });
                 }
-                let stay = Start { states: before, departed: Some(met.event.leaf), ..now.start };
+                let stay = Start { states: before, departed: Some(met.event.leaf), ..*start };
                 let response = self.response::<E>(point, material, direction, &stay);
                 light = light.plus(weighted(response.light));
                 if response.reflected != Rgb::BLACK || response.refracted != Rgb::BLACK {
@@ -96,11 +97,11 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                     let parts = self.bounced(point, material, direction, &response, states_inside);
                     for (part, states) in parts.into_iter().zip(states) {
                         let Some((direction, part)) = part else { continue };
-                        let weight = now.weight.through(part);
+                        let weight = weight.through(part);
                         if weight != Rgb::BLACK {
                             let (ray, start) =
                                 (Ray::unit(point.position, direction), Start { states, ..stay });
-                            let (width, level) = (point.width.to_bits(), now.level.saturating_add(1));
+                            let (width, level) = (point.width.to_bits(), level.saturating_add(1));
                             // there is room: `WorldCaster::with_depth` sees to it
                             let _ = waiting.push(Waiting { ray, start, weight, width, level });
                         }
@@ -109,12 +110,11 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
                 true
             });
             if !is_seen {
-                light = light.plus(weighted(surroundings.light(direction, now.start.cone)));
+                light = light.plus(weighted(surroundings.light(direction, start.cone)));
             }
-            match waiting.pop() {
-                Some(next) => now = next,
-                None => return light,
-            }
+            let Some(next) = waiting.pop() else { return light };
+            (ray, spawned, weight, width, level) =
+                (next.ray, Some(next.start), next.weight, next.width, next.level);
         }
     }
 

@@ -302,9 +302,55 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         object(met.before) != object(met.behind)
     }
 
+    /// The first change of an opaque leaf that is an object of its own, up to `limit`: nothing has to be
+    /// sorted.
+    #[inline(never)]
+    fn change_of(&self, (object, number): (u8, u8), ray: &Ray, start: &Start, limit: i32) -> Option<Met> {
+        let surface = &self.leaf(number)?.surface;
+        let States { inside, unknown } = start.states;
+        let mut is_inside = has(inside, number);
+        let mut own = -Real::DELTA;
+        let mut is_undecided = start.departed != Some(number);
+        if !is_undecided {
+            if is_left(surface)[usize::from(is_inside)] {
+                return None;
+            }
+            own = surface.error();
+        } else if surface.is_closed() {
+            is_undecided = has(unknown, number);
+        }
+        let mut first = None;
+        surface.cross(ray, start.cone, &mut |crossing| {
+            if is_undecided {
+                (is_inside, is_undecided) = (!crossing.enters, false);
+            }
+            if crossing.t.to_bits() > limit {
+                return ControlFlow::Break(());
+            }
+            if crossing.t <= own || crossing.enters == is_inside {
+                return ControlFlow::Continue(());
+            }
+            first = Some(crossing);
+            ControlFlow::Break(())
+        });
+        let (crossing, bit) = (first?, bit(number));
+        let (before, behind) =
+            if is_inside { (inside | bit, inside & !bit) } else { (inside & !bit, inside | bit) };
+        let event = Event { crossing, leaf: number, object };
+        Some(Met { event, before, behind, unknown: 0 })
+    }
+
     /// What a ray meets first.
     #[inline(never)]
     pub(super) fn met<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Met> {
+        if let [object] = self.objects
+            && let Some(leaf) = object.only()
+            && self.media() == 0
+        {
+            let is_missed =
+                object.is_left_by(start.departed, start.states.inside) || object.ball.is_passed_by(ray);
+            return if is_missed { None } else { self.change_of((0, leaf), ray, start, i32::MAX) };
+        }
         let mut search = Search::<E>::new(ray, start, i32::MAX);
         if self.media() != 0 {
             for number in self.transparent() {
@@ -361,18 +407,28 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     /// How much light comes along a ray from beyond `limit`: what the things on the way let pass.
     pub(super) fn passed<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32) -> Rgb {
         // what is opaque needs no more than to be met
-        for (number, object) in (0..).zip(self.objects) {
+        let mut next = 0_u8;
+        for object in self.objects {
+            let number = next;
+            next = next.wrapping_add(1);
             let is_missed = self.is_transparent(number)
                 || object.is_left_by(start.departed, start.states.inside)
                 || object.ball.is_passed_by(ray);
-            if !is_missed && self.is_met::<E>(ray, start, limit, number, object) {
+            if is_missed {
+                continue;
+            }
+            let is_met = match object.only() {
+                Some(leaf) => self.change_of((number, leaf), ray, start, limit).is_some(),
+                None => self.is_met::<E>(ray, start, limit, number, object),
+            };
+            if is_met {
                 return Rgb::BLACK;
             }
         }
         if self.media() == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit) }
     }
 
-    /// Whether a ray meets an opaque object up to `limit`.
+    /// Whether a ray meets an opaque object of several leaves up to `limit`.
     #[inline(never)]
     fn is_met<const E: usize>(
         &self,
