@@ -63,14 +63,6 @@ impl Bicubic {
     pub(crate) fn range(&self) -> [Q24; 2] {
         self.points.iter().flatten().fold([i32::MAX, i32::MIN], |[low, high], h| [low.min(*h), high.max(*h)])
     }
-
-    /// Bounds of `|h_ss|`, `|h_st|` and `|h_tt|`, 16 fractional bits: they lie in the hulls of differences of
-    /// the points.
-    #[inline(always)]
-    pub(crate) fn bends(&self) -> [u32; 3] {
-        let [ss, st, tt] = differences(&self.points).map(|c| (c >> 8) + 1);
-        [6 * ss, 9 * st, 6 * tt]
-    }
 }
 
 /// The greatest second differences along rows, the greatest mixed ones, and those along columns.
