@@ -27,6 +27,7 @@ pub type Scaling = fixed::types::I1F31;
 /// Abscissae and descriptions: 48 fractional bits, `-32768 .. 32768`.
 pub type Wide = fixed::types::I16F48;
 
+pub(crate) type Q14 = i32;
 pub(crate) type Q16 = i32;
 pub(crate) type Q17 = i32;
 pub(crate) type Q18 = i32;

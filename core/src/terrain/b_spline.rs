@@ -9,7 +9,7 @@
 //! Source: L. C. Carpenter, "Computer rendering of fractal curves and surfaces", 1980, figure 10; G. Farin,
 //! "Curves and surfaces for CAGD", 1988, section 7.4.
 
-use super::bicubic::{Bicubic, differences};
+use super::bicubic::Bicubic;
 use super::heights::Heights;
 use crate::num::formats::{Q24, Q30};
 use crate::num::{high_u, product};
@@ -60,6 +60,9 @@ fn weights(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 4] {
     // (1 + 3 s + 3 s^2 - 3 s^3) / 6
     let c = (SIXTHS[1] >> 1) + high_u(s, ONE + (s - ss));
     let b = ONE - a - c - d;
+    if !(is_first || is_last) {
+        return [a, b, c, d].map(|c| c as i32);
+    }
     // beyond the rim a vertex is the mirror image of its inner neighbour
     let (b, a_in_c) = if is_first { (b + 2 * a, a) } else { (b, 0) };
     let (c, d_in_b) = if is_last { (c + 2 * d, d) } else { (c, 0) };
@@ -121,12 +124,6 @@ impl BSpline {
         // slopes can be twice as great as heights
         let sum = along_s.into_iter().zip(w_t).map(|(h, w)| product(h, w)).sum::<i64>();
         [(sum.wrapping_add(1 << 30) >> 31) as i32, slope(across, q_t)]
-    }
-
-    /// Bounds of `|h_ss|`, `|h_st|` and `|h_tt|`, 16 fractional bits: means of differences of the vertices.
-    #[inline(always)]
-    pub(crate) fn bends(&self) -> [u32; 3] {
-        differences(&self.vertices).map(|c| (c >> 9) + 1)
     }
 
     /// Bounds of the heights: those of its Bezier points, and what rounding adds.

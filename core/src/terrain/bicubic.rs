@@ -63,19 +63,11 @@ impl Bicubic {
     pub(crate) fn range(&self) -> [Q24; 2] {
         self.points.iter().flatten().fold([i32::MAX, i32::MIN], |[low, high], h| [low.min(*h), high.max(*h)])
     }
-
-    /// Bounds of `|h_ss|`, `|h_st|` and `|h_tt|`, 16 fractional bits: they lie in the hulls of differences of
-    /// the points.
-    #[inline(always)]
-    pub(crate) fn bends(&self) -> [u32; 3] {
-        let [ss, st, tt] = differences(&self.points).map(|c| (c >> 8) + 1);
-        [6 * ss, 9 * st, 6 * tt]
-    }
 }
 
 /// The greatest second differences along rows, the greatest mixed ones, and those along columns.
 #[inline(always)]
-pub(super) fn differences(points: &[[i32; 4]; 4]) -> [u32; 3] {
+pub(crate) fn differences(points: &[[i32; 4]; 4]) -> [u32; 3] {
     let across = points.map(|[a, b, c, d]| [b.wrapping_sub(a), c.wrapping_sub(b), d.wrapping_sub(c)]);
     let (mut ss, mut st, mut tt) = (0, 0, 0);
     let greatest = |most: &mut u32, c: i32| *most = (*most).max(c.unsigned_abs());

@@ -15,6 +15,9 @@ pub(crate) struct Cell {
     pub(crate) v: i32,
 }
 
+/// The nine heights of a cell that is halved, row by row from south-west.
+pub(crate) type Grid = [Q24; 9];
+
 /// The five new heights of a cell that is halved: south, north, west, east, centre.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Middles {
@@ -53,6 +56,26 @@ impl Cell {
             edge(b, d, offset, east),
         ];
         Middles { edges, centre: centre(edges, offset, at(half, half)) }
+    }
+
+    /// All heights when a cell at this level is halved.
+    #[inline(always)]
+    pub(crate) fn grid(&self, level: u32, law: &Law, random: &impl Randomness) -> Grid {
+        let ([a, b, c, d], Middles { edges: [s, n, w, e], centre }) =
+            (self.corners, self.halved(level, law, random));
+        [a, s, b, w, centre, e, c, n, d]
+    }
+
+    /// One of its quarters, by these heights.
+    #[inline(always)]
+    pub(crate) fn quarter(&self, level: u32, grid: &Grid, [east, north]: [u32; 2]) -> Self {
+        let corners = match grid.get((east + 3 * north) as usize..) {
+            Some([sw, se, _, nw, ne, ..]) => [*sw, *se, *nw, *ne],
+            _ => self.corners,
+        };
+        let half = Self::half(level);
+        let moved = |c: i32, far: u32| c.wrapping_add(half.wrapping_mul(far as i32));
+        Self { corners, u: moved(self.u, east), v: moved(self.v, north) }
     }
 
     /// One of its quarters.

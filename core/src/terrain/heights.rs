@@ -120,12 +120,12 @@ impl<'a> Heights<'a> {
             return self.around_at_the_rim(i, j);
         }
         let first = (j - 1).wrapping_mul(columns).wrapping_add(i - 1);
-        let (mut rest, mut from) = (self.heights, first);
-        [(); 4].map(|()| {
-            rest = rest.get(from as usize..).unwrap_or_default();
-            from = columns;
+        let row = |from: u32| {
+            let rest = self.heights.get(from as usize..).unwrap_or_default();
             rest.first_chunk::<4>().map_or([0; 4], |row| row.map(Real::to_bits))
-        })
+        };
+        let (second, third) = (first.wrapping_add(columns), first.wrapping_add(2 * columns));
+        [row(first), row(second), row(third), row(second.wrapping_add(2 * columns))]
     }
 
     #[inline(never)]

@@ -17,7 +17,7 @@
 
 use crate::Error;
 use crate::num::formats::{Q24, Q28};
-use crate::num::{Deviate, Real, Unit, Wide, checked_offset, decay, offsets, product};
+use crate::num::{Deviate, Real, Unit, Wide, checked_offset, decay, offsets, product, product_u};
 
 /// How often a cell between four knots can be halved: coordinates have 16 fractional bits.
 pub const LEVELS: u32 = 16;
@@ -75,13 +75,32 @@ impl Law {
     }
 
     /// How far heights inside a cell at one level can lie outside those of its corners, down to another
-    /// level, as an upper bound (`the_reach_of_a_law_is_an_upper_bound`): an edge's middle lies outside by
-    /// `o_k R`, the centre, which is the mean of four of these, by three times as much.
+    /// level, as an upper bound (`the_reach_of_a_law_is_an_upper_bound`).
+    ///
+    /// No surface is higher than that of four corners at 0 whose displacements are all the largest one `R`,
+    /// and that one is known: a level adds `o_k R (a + b + a b)`, where `a` and `b` are how far a place is
+    /// from the edges of the level's cells, 1 in the middle. Since `2 a b <= a^2 + b^2` it is highest where
+    /// `a = b`, and at the next level `a` is `2 min(a, 1 - a)`. The maximum over all `a` is taken over
+    /// intervals of 1/128.
     pub fn reach(&self, from: u32, to: u32) -> Wide {
-        let sum: i64 = (from..to.min(LEVELS)).map(|level| i64::from(self.at(level))).sum();
-        // below 2^33 times 3 2^29.8, of 56 fractional bits; a unit of a height a level for rounding
-        let reach = ((i128::from(sum) * i128::from(3 * LARGEST)) >> 8) as i64;
-        Wide::from_bits(reach.saturating_add(i64::from(to.saturating_sub(from).min(LEVELS)) << 25))
+        const COUNT: u32 = 128;
+        let to = to.min(LEVELS);
+        // 20 fractional bits, rounded up: below 2^28
+        let mut highest = [0_u32; COUNT as usize];
+        for level in (from..to).rev() {
+            let (offset, below) = (self.at(level).unsigned_abs(), highest);
+            for (i, height) in (0..COUNT).zip(&mut highest) {
+                // 2 a + a^2 at the end of the interval, 14 fractional bits
+                let end = i + 1;
+                let own = (product_u(offset, end * (end + 2 * COUNT)) >> 22) as u32 + 1;
+                let first = 2 * i.min(COUNT - 1 - i);
+                let at = |k: u32| below.get(k as usize).copied().unwrap_or(0);
+                *height = own + at(first).max(at(first + 1));
+            }
+        }
+        let sum = i64::from(highest.into_iter().fold(0, u32::max));
+        // below 2^28 times 2^29.8; a unit of a height a level for rounding
+        Wide::from_bits(sum * LARGEST + (i64::from(to.saturating_sub(from)) << 25))
     }
 }
 

@@ -38,8 +38,9 @@ mod rows;
 mod seam;
 mod triangles;
 
+pub(crate) use bicubic::differences;
 pub(crate) use bilinear::Bilinear;
-pub(crate) use cell::{Cell, Middles};
+pub(crate) use cell::{Cell, Grid};
 pub use edge_level::{EdgeLevel, Magnification};
 pub use extrapolate::Side;
 pub use heights::Heights;

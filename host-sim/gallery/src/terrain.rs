@@ -207,9 +207,9 @@ impl TerrainPicture<'_> {
         let mut extents = [Extent::NOTHING];
         let objects = [Object::new(&[Op::Leaf(0)], surface, &mut extents)?];
         let lamps = [Lamp::distant(self.sun.0, self.sun.1)?];
-        let world = World::new(&leaves, &objects, &stuff)?.with_lamps(&lamps);
+        let world = World::of_leaves(&leaves, &objects, &stuff)?.with_lamps(&lamps);
         let camera = Camera::new(eye, look_at, Vec3::Z, field_of_view)?;
-        let caster = WorldCaster::<_, _, _, 9, 4>::new(world, self.sky, camera, size)?;
+        let caster = WorldCaster::<_, _, _, 9, 4, _>::new(world, self.sky, camera, size)?;
         let sampling = match self.samples {
             1 => Sampling::Centre,
             n => Sampling::Jittered { n, seed },

@@ -59,6 +59,9 @@ impl<M: Material> Material for Hazy<M> {
 
     fn respond(&self, point: &SurfacePoint, view: Vec3<Unit>, lights: impl Iterator<Item = Lit>) -> Response {
         let Response { light, reflected, refracted } = self.material.respond(point, view, lights);
+        if self.density <= 0 {
+            return Response { light, reflected, refracted };
+        }
         let clarity = self.clarity(point.position);
         Response {
             light: self.air.mixed(light, clarity),

@@ -11,14 +11,14 @@ use core::ops::ControlFlow;
 
 use super::super::ray::{Footprint, Ray};
 use super::super::surface::{Crossing, Extent, Surface, SurfacePoint};
-use super::meet::{CROSSINGS, crossings, error, extent, point, value};
+use super::leaf::{Frame, Place};
+use super::meet::{CROSSINGS, error, extent, handed, point, value};
 use super::plot::Rule;
-use super::ranges::depth;
-use super::walk::{Frame, LEVELS, Place, Tree};
+use super::walk::{LEVELS, Tree, walk};
 use crate::Error;
 use crate::num::formats::Q24;
 use crate::num::{RandomField, Real, Unit, Vec3, Wide};
-use crate::terrain::{Bilinear, Cell, Form, Middles, PlaneToLine, Randomness};
+use crate::terrain::{Bilinear, Cell, Form, Grid, PlaneToLine, Randomness};
 
 /// A surface by subdivision over a rectangle of the world.
 ///
@@ -80,7 +80,8 @@ impl<'a, R: Randomness> DeepTerrain<'a, R> {
         let [low, high] = knots.range().map(|h| i64::from(h.to_bits()));
         let bits = |c: i64| c.clamp(-(64 << 24), 64 << 24) as i32;
         let heights = [bits(low - whole - (1 << 6)), bits(high + whole + (1 << 6))];
-        let depth = (finest + depth(across, down)).min(LEVELS);
+        // the level with one node
+        let depth = (finest + 32 - (across.max(down) - 1).leading_zeros()).min(LEVELS);
         Ok(Self { function: terrain, finest, reach, frame: Frame { rules, heights, depth } })
     }
 
@@ -100,14 +101,14 @@ impl<'a, R: Randomness> DeepTerrain<'a, R> {
 /// A ray with its width.
 struct Seen<'b, 'a, R> {
     terrain: &'b DeepTerrain<'a, R>,
-    footprint: Footprint,
-    /// How wide the finest cells are, 24 fractional bits.
-    width: Q24,
+    /// How far from the tip of its cone it is as wide as the finest cells, and where it starts from there.
+    wide_from: Q24,
+    begin: Q24,
 }
 
 impl<R: Randomness> Tree for Seen<'_, '_, R> {
     type Node = Cell;
-    type Middle = Option<Middles>;
+    type Middle = Grid;
 
     fn root(&self) -> Cell {
         if self.terrain.frame.depth == self.terrain.finest {
@@ -128,33 +129,37 @@ impl<R: Randomness> Tree for Seen<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn middle(&self, place: Place, cell: &Cell) -> Option<Middles> {
-        let level = self.terrain.finest.checked_sub(place.level)?;
-        Some(cell.halved(level, self.terrain.function.law(), self.terrain.function.random()))
-    }
-
-    #[inline(always)]
-    fn part(&self, place: Place, cell: &Cell, middles: &Option<Middles>) -> Cell {
-        let level = self.terrain.finest.saturating_sub(place.level);
-        match middles {
-            Some(middles) => cell.part(level - 1, middles, place.column & 1 > 0, place.row & 1 > 0),
-            None if level == 0 && place.level == self.terrain.finest => {
-                self.terrain.function.knot_cell(place.column, place.row)
-            }
-            None => Cell::default(),
+    fn middle(&self, place: Place, cell: &Cell) -> Grid {
+        match self.terrain.finest.checked_sub(place.level) {
+            Some(level) => cell.grid(level, self.terrain.function.law(), self.terrain.function.random()),
+            None => Grid::default(),
         }
     }
 
     #[inline(always)]
-    fn patch(&self, _: Place, cell: &Cell) -> Form {
-        Form::Bilinear(Bilinear { corners: cell.corners })
+    fn part(&self, place: Place, cell: &Cell, grid: &Grid) -> Cell {
+        let finest = self.terrain.finest;
+        if place.level < finest {
+            cell.quarter(finest - place.level - 1, grid, [place.column & 1, place.row & 1])
+        } else if place.level == finest {
+            self.terrain.function.knot_cell(place.column, place.row)
+        } else {
+            Cell::default()
+        }
+    }
+
+    #[inline(always)]
+    fn patch(&self, _: Place, cell: &Cell) -> (Form, u32) {
+        let patch = Bilinear { corners: cell.corners };
+        (Form::Bilinear(patch), patch.twist() << 5)
     }
 
     #[inline(always)]
     fn is_leaf(&self, place: Place, t: Q24) -> bool {
         place.level == 0
             || place.level <= self.terrain.finest
-                && self.footprint.reaches(self.width << place.level) <= i64::from(t)
+                // twice as far for cells twice as wide
+                && t.saturating_add(self.begin) >> (place.level & 31) >= self.wide_from
     }
 }
 
@@ -179,9 +184,11 @@ impl<R: Randomness> Surface for DeepTerrain<'_, R> {
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
         let [columns, rows] = &self.frame.rules;
         let width = columns.width().max(rows.width());
-        let footprint = Footprint::new(cone).with_width(ray.width);
-        let seen = Seen { terrain: self, footprint, width };
-        let _ = crossings(&seen, &self.frame, &ray.axes(), found);
+        let word = |t: i64| t.min(i64::from(i32::MAX)) as i32;
+        let wide_from = word(Footprint::new(cone).reaches(width));
+        let begin = word(Footprint::new(cone).with_width(ray.width).begin());
+        let seen = Seen { terrain: self, wide_from, begin };
+        let _ = walk(&seen, &self.frame, &ray.axes(), &mut handed(found));
     }
 
     fn value(&self, place: Vec3) -> Wide {

@@ -2,11 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::super::ray::{Axis, Ray};
+use super::super::ray::Ray;
 use super::super::surface::{Chart, Crossing, Extent, SurfacePoint};
+use super::leaf::{Change, Frame, Place};
 use super::plot::Rule;
-use super::sides::Above;
-use super::walk::{Frame, Place, Tree, walk};
 use crate::num::formats::Q24;
 use crate::num::{Real, Unit, Vec3, Wide, product, unit};
 use crate::terrain::{Form, Patch};
@@ -28,22 +27,19 @@ pub(super) fn error(frame: &Frame) -> Real {
     Real::from_bits((columns.width().min(rows.width()) >> 7).max(1 << 4))
 }
 
-/// Hands over the crossings; unless it broke off, where the ray is in the end.
+/// Hands changes of sides over as crossings, so many at most.
 #[inline(always)]
-pub(super) fn crossings<T: Tree>(
-    tree: &T,
-    frame: &Frame,
-    axes: &[Axis; 3],
+pub(super) fn handed(
     found: &mut impl FnMut(Crossing) -> ControlFlow<()>,
-) -> ControlFlow<(), Above> {
+) -> impl FnMut(Change) -> ControlFlow<()> {
     let mut left = CROSSINGS;
-    walk(tree, frame, axes, &mut |(t, place, above)| {
+    move |(t, place, above)| {
         left -= 1;
         // columns and rows are below 2^16, levels below 2^8
         let memo = [place.column << 16 | place.row & 0xffff, place.level];
         found(Crossing { t: Real::from_bits(t), enters: !above, face: 0, memo })?;
         if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    })
+    }
 }
 
 /// The patch of a leaf and a place on it.

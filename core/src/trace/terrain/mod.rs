@@ -1,10 +1,13 @@
 //! Terrain under a ray caster: heights over a rectangle, exactly where they are.
 
+mod course;
 mod deep;
+mod leaf;
 mod meet;
 mod plot;
 mod ranges;
 mod sides;
+mod steps;
 mod stored;
 mod walk;
 

@@ -6,18 +6,28 @@
 //! Formats: lengths 24 fractional bits, pitches 40, places inside a cell 30.
 
 use crate::Error;
-use crate::num::formats::{Q24, Q30};
-use crate::num::{Real, Wide};
+use crate::num::formats::{Q14, Q24, Q28, Q30};
+use crate::num::{Real, Wide, high, product};
 
 /// Columns or rows of cells along an axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rule {
     origin: Q24,
+    end: Q24,
     /// How wide a cell is, 40 fractional bits.
     pitch: i64,
     /// Cells a unit, 23 fractional bits.
     density: i64,
+    /// The same as a number of 31 bits and a power of two.
+    mantissa: i32,
+    exponent: i32,
     pub(super) count: u32,
+}
+
+/// `c 2^exponent`, rounded down; the caller knows that it is a word.
+#[inline(always)]
+pub(super) fn scaled(c: i32, exponent: i32) -> i32 {
+    if exponent < 0 { c >> (-exponent).min(31) } else { c << exponent.min(31) }
 }
 
 impl Rule {
@@ -34,7 +44,12 @@ impl Rule {
         if pitch < 1 << 27 {
             return Err(Error::Degenerate { what });
         }
-        Ok(Self { origin: from.to_bits(), pitch, density: i64::MAX.checked_div(pitch).unwrap_or(0), count })
+        let density = i64::MAX.checked_div(pitch).unwrap_or(0);
+        // 17 bits to 37 of them
+        let zeros = density.leading_zeros();
+        let mantissa = ((density << (zeros.wrapping_sub(1) & 63)) >> 32) as i32;
+        let end = from.to_bits().wrapping_add(((i64::from(count) * pitch) >> 16) as i32);
+        Ok(Self { origin: from.to_bits(), end, pitch, density, mantissa, exponent: 10 - zeros as i32, count })
     }
 
     /// The plane before a cell, or behind the last.
@@ -45,7 +60,7 @@ impl Rule {
 
     /// The first and the last plane.
     pub(super) fn ends(&self) -> [Q24; 2] {
-        [self.origin, self.plane(self.count)]
+        [self.origin, self.end]
     }
 
     /// How wide a cell is, 24 fractional bits.
@@ -53,12 +68,32 @@ impl Rule {
         (self.pitch >> 16) as i32
     }
 
+    /// How many columns a direction (28 fractional bits) crosses in a unit of the parameter, times
+    /// `2^(shift + 14 - 24)`; the caller knows that it is a word.
+    #[inline(always)]
+    pub(super) fn columns_along(&self, direction: Q28, shift: i32) -> i32 {
+        scaled(high(direction, self.mantissa), self.exponent - 28 - 24 + 14 + 32 + shift)
+    }
+
+    /// How many columns lie before a coordinate, 14 fractional bits; 0 before the first.
+    #[inline(always)]
+    pub(super) fn columns_before(&self, c: Q24) -> Q14 {
+        scaled(high(c.wrapping_sub(self.origin).max(0), self.mantissa), self.exponent - 24 + 14 + 32)
+    }
+
+    /// How wide so many cells are, which are there, 24 fractional bits.
+    #[inline(always)]
+    pub(super) fn width_of(&self, count: u32) -> Q24 {
+        ((i64::from(count) * self.pitch) >> 16) as i32
+    }
+
     /// How far into a cell that is `size` columns wide a coordinate lies, from 0 to 1.
     #[inline(always)]
     pub(super) fn inside(&self, c: Q24, index: u32, size_log: u32) -> Q30 {
-        let along = i64::from(c.wrapping_sub(self.plane(index)).max(0));
-        // along is at most a cell and its rounding: 47 fractional bits of a cell
-        ((along * (self.density >> (size_log & 31))) >> 17).min(1 << 30) as i32
+        let along = c.wrapping_sub(self.plane(index)).max(0);
+        // along is at most a node and its rounding; an exponent from -38 to -16
+        let part = product(along, self.mantissa) as u64 >> ((size_log as i32 - 6 - self.exponent) & 63);
+        (part as i32).min(1 << 30)
     }
 
     /// The cell at a coordinate, those outside being the first or the last.

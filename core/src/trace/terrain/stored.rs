@@ -5,10 +5,11 @@ use core::ops::ControlFlow;
 use super::super::ball::Ball;
 use super::super::ray::{Axis, Ray};
 use super::super::surface::{Crossing, Extent, SAME, Surface, SurfacePoint};
-use super::meet::{crossings, extent, level_point, point, value};
+use super::leaf::{Frame, Place};
+use super::meet::{extent, handed, level_point, point, value};
 use super::plot::Rule;
-use super::ranges::{HeightRange, begins, count, depth, fill};
-use super::walk::{Frame, LEVELS, Place, Tree};
+use super::ranges::{HeightRange, count, fill, top, unit, whole};
+use super::steps::{Levels, walk};
 use crate::Error;
 use crate::num::formats::Q24;
 use crate::num::{Real, Unit, Vec3, Wide};
@@ -33,12 +34,20 @@ use crate::terrain::{Form, Heights, InnerGeometry};
 pub struct Terrain<'a> {
     heights: Heights<'a>,
     inner: InnerGeometry,
-    ranges: &'a [HeightRange],
-    begins: [u32; 17],
+    levels: Levels<'a>,
     frame: Frame,
     land: Ball,
     /// The height of the plain.
     plain: Option<Q24>,
+}
+
+/// How far the box of a terrain goes beyond its heights, more than what a ray's parameters are known to.
+const MARGIN: Q24 = 1 << 9;
+
+/// To which power of 1/2 of a cell places along a ray are known: `2^-16`, and what 14 bits tell.
+fn loose(rules: &[Rule; 2]) -> u32 {
+    let width = rules.iter().fold(i32::MAX, |least, rule| least.min(rule.width()));
+    (22 - width.leading_zeros().min(22)).min(11)
 }
 
 impl<'a> Terrain<'a> {
@@ -66,21 +75,19 @@ impl<'a> Terrain<'a> {
         }
         let rule = |what, [from, to]: [Real; 2], count| Rule::new(what, from, to, count);
         let rules = [rule("extent along x", along_x, columns)?, rule("extent along y", along_y, rows)?];
-        if let Err(value) = fill(&heights, inner, memory) {
+        let [low, high] = whole(&heights, inner).map_err(|value| {
             let (min, max) = (Wide::from_num(-64), Wide::from_num(64));
-            return Err(Error::OutOfRange {
-                what: "height of a patch",
-                index: None,
-                value: value.into(),
-                min,
-                max,
-            });
-        }
-        let top = memory.get(needed - 1).copied().unwrap_or_default();
-        let frame = Frame { rules, heights: top.heights(), depth: depth(columns, rows).min(LEVELS) };
+            Error::OutOfRange { what: "height of a patch", index: None, value: value.into(), min, max }
+        })?;
+        let unit = unit([low, high]);
+        fill(&heights, inner, (unit, loose(&rules)), memory);
+        let levels = Levels::new(&rules, unit, memory);
+        // a ray enters above the highest place, and leaves below the lowest
+        let heights_of_box = [low.saturating_sub(MARGIN), high.saturating_add(MARGIN)];
+        let frame = Frame { rules, heights: heights_of_box, depth: top(columns, rows) };
         let Extent { low, high } = extent(&frame);
-        let (begins, land) = (begins(columns, rows), Ball::round(low, high));
-        Ok(Self { heights, inner, ranges: memory, begins, frame, land, plain: None })
+        let land = Ball::round(low, high);
+        Ok(Self { heights, inner, levels, frame, land, plain: None })
     }
 
     /// On a plain or a sea at this height that goes on all round, as a second face: the surface is the higher
@@ -104,38 +111,15 @@ impl<'a> Terrain<'a> {
         is_there.then_some(crossing)
     }
 
-    /// The heights.
-    pub const fn heights(&self) -> &Heights<'a> {
-        &self.heights
-    }
-}
-
-impl Tree for Terrain<'_> {
-    type Node = ();
-    type Middle = ();
-
-    fn root(&self) {}
-
+    /// The patch of a cell that is there.
     #[inline(always)]
-    fn range(&self, place: Place, _: &()) -> [Q24; 2] {
-        let across = ((self.heights.columns() - 2) >> place.level) + 1;
-        let begin = self.begins.get(place.level as usize).copied().unwrap_or(0);
-        let index = begin.wrapping_add(place.row.wrapping_mul(across)).wrapping_add(place.column);
-        self.ranges.get(index as usize).copied().unwrap_or_default().heights()
-    }
-
-    fn middle(&self, _: Place, _: &()) {}
-
-    fn part(&self, _: Place, _: &(), _: &()) {}
-
-    #[inline(always)]
-    fn patch(&self, place: Place, _: &()) -> Form {
+    fn patch(&self, place: Place) -> Form {
         self.inner.form(&self.heights, place.column, place.row)
     }
 
-    #[inline(always)]
-    fn is_leaf(&self, place: Place, _: Q24) -> bool {
-        place.level == 0
+    /// The heights.
+    pub const fn heights(&self) -> &Heights<'a> {
+        &self.heights
     }
 }
 
@@ -187,14 +171,20 @@ impl Surface for Terrain<'_> {
             let _ = found(crossing);
             return;
         }
-        let walked = crossings(self, &self.frame, &axes, &mut |crossing| {
-            if let Some(first) = before.take()
-                && crossing.enters
-            {
-                found(first)?;
-            }
-            found(crossing)
-        });
+        let walked = walk(
+            &self.levels,
+            |place| self.patch(place),
+            &self.frame,
+            &axes,
+            &mut handed(&mut |crossing: Crossing| {
+                if let Some(first) = before.take()
+                    && crossing.enters
+                {
+                    found(first)?;
+                }
+                found(crossing)
+            }),
+        );
         if let (ControlFlow::Continue(above), Some(crossing)) = (walked, plain)
             && above != Some(false)
             && (crossing.enters || before.is_some())
@@ -204,7 +194,7 @@ impl Surface for Terrain<'_> {
     }
 
     fn value(&self, place: Vec3) -> Wide {
-        let above = value(&self.frame, place, |place| self.patch(place, &()));
+        let above = value(&self.frame, place, |place| self.patch(place));
         let [columns, rows] = &self.frame.rules;
         let is_over = |rule: &Rule, c: Real| {
             let [from, to] = rule.ends();
@@ -221,6 +211,6 @@ impl Surface for Terrain<'_> {
         if crossing.face > 0 {
             return level_point(&self.frame, ray, cone, crossing, charted);
         }
-        point(&self.frame, ray, cone, crossing, charted, |place| self.patch(place, &()))
+        point(&self.frame, ray, cone, crossing, charted, |place| self.patch(place))
     }
 }

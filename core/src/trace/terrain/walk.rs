@@ -15,24 +15,16 @@ use core::ops::ControlFlow;
 use heapless::Vec;
 
 use super::super::ray::Axis;
+use super::leaf::{Change, Frame, Place, cross_leaf};
 use super::plot::Rule;
-use super::sides::{Above, sides};
-use crate::num::formats::{Q24, Q30};
-use crate::num::{product, product_u};
+use super::sides::Above;
+use crate::num::formats::Q24;
 use crate::terrain::Form;
 
 /// The most levels of a tree: a side has at most 2^16 cells.
 pub(super) const LEVELS: u32 = 16;
 /// Every node on the way down to a cell.
 const PATH: usize = LEVELS as usize;
-
-/// A square of `2^level` cells a side, by its column and row among those.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Place {
-    pub(super) level: u32,
-    pub(super) column: u32,
-    pub(super) row: u32,
-}
 
 /// What is known of the heights of nodes and cells.
 pub(super) trait Tree {
@@ -53,8 +45,8 @@ pub(super) trait Tree {
     /// A part, which is there, at its own place.
     fn part(&self, place: Place, node: &Self::Node, middle: &Self::Middle) -> Self::Node;
 
-    /// The patch that spans a leaf.
-    fn patch(&self, place: Place, node: &Self::Node) -> Form;
+    /// The patch that spans a leaf, and an eighth of how much it bends.
+    fn patch(&self, place: Place, node: &Self::Node) -> (Form, u32);
 
     /// Whether a node is a leaf where the ray comes to it at `t`.
     fn is_leaf(&self, place: Place, t: Q24) -> bool;
@@ -120,20 +112,6 @@ struct Open<N, M> {
     ends: [Q24; 2],
 }
 
-/// The box and the cells of a terrain.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Frame {
-    /// Columns and rows.
-    pub(super) rules: [Rule; 2],
-    /// Bounds of all heights.
-    pub(super) heights: [Q24; 2],
-    /// The level of the root.
-    pub(super) depth: u32,
-}
-
-/// A change of sides: parameter, the leaf, and whether the ray is above from there on.
-pub(super) type Change = (Q24, Place, bool);
-
 /// Hands over where a ray changes sides, in order, until `changed` breaks off; in the end on which side it
 /// is.
 #[inline(never)]
@@ -145,8 +123,7 @@ pub(super) fn walk<T: Tree>(
 ) -> ControlFlow<(), Above> {
     let [x, y, z] = axes;
     let [columns, rows] = &frame.rules;
-    let ([x_0, x_1], [y_0, y_1], [low, high]) = (columns.ends(), rows.ends(), frame.heights);
-    let (mut t, end) = z.clip(low, high, y.clip(y_0, y_1, x.clip(x_0, x_1, (0, i32::MAX))));
+    let (mut t, end) = frame.clip(axes);
     if t >= end {
         return ControlFlow::Continue(None);
     }
@@ -178,15 +155,17 @@ pub(super) fn walk<T: Tree>(
             let _ = path.push(Open { node, middle, first, halves, ends });
         } else {
             if passes {
-                let other = above.replace(passes_above).is_some_and(|before| before != passes_above);
-                if other {
-                    // between two nodes: the cell where that is
-                    let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
-                    changed((t, Place { level: 0, column, row }, passes_above))?;
+                if above != Some(passes_above) {
+                    if above.is_some() {
+                        // between two nodes: the cell where that is
+                        let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
+                        changed((t, Place { level: 0, column, row }, passes_above))?;
+                    }
+                    above = Some(passes_above);
                 }
             } else {
-                let patch = tree.patch(place, &node);
-                cross_leaf(frame, axes, place, (t, out), &patch, &mut above, changed)?;
+                let (patch, eighth) = tree.patch(place, &node);
+                leaf(frame, axes, place, (t, out), (&patch, eighth), &mut above, changed)?;
             }
             (t, z_in) = (out, z_out);
             while path.last().is_some_and(|open| t >= open.ends[0].min(open.ends[1])) {
@@ -205,56 +184,16 @@ pub(super) fn walk<T: Tree>(
     }
 }
 
-/// A ray above a patch, from where it comes over its cell to where it leaves it.
-struct Chord<'a> {
-    patch: &'a Form,
-    from: [Q30; 2],
-    to: [Q30; 2],
-    heights: [Q24; 2],
-}
-
-impl Chord<'_> {
-    /// How high above the patch it is.
-    #[inline(never)]
-    fn over(&self, part: Q30) -> Q24 {
-        let along = |a: i32, b: i32| a.wrapping_add((product(b.wrapping_sub(a), part) >> 30) as i32);
-        let ([s_0, t_0], [s_1, t_1], [z_0, z_1]) = (self.from, self.to, self.heights);
-        along(z_0, z_1).saturating_sub(self.patch.height(along(s_0, s_1), along(t_0, t_1)))
-    }
-
-    /// An eighth of a bound of its second derivative, `|h_ss| ds^2 + 2 |h_st ds dt| + |h_tt| dt^2`, rounded
-    /// up.
-    #[inline(always)]
-    fn bend(&self) -> u32 {
-        let ([s_0, t_0], [s_1, t_1]) = (self.from, self.to);
-        let (s, t) = (s_0.abs_diff(s_1), t_0.abs_diff(t_1));
-        let [ss, st, tt] = self.patch.bends();
-        // 28 fractional bits, and of the sum 44
-        let part = |a: u32, b: u32, bend: u32| product_u((product_u(a, b) >> 32) as u32 + 1, bend);
-        let eighth = (part(s, s, ss) + 2 * part(s, t, st) + part(t, t, tt)) >> 23;
-        u32::try_from(eighth).map_or(u32::MAX, |eighth| eighth.saturating_add(1))
-    }
-}
-
-/// Where the ray changes sides inside a leaf.
-#[inline(always)]
-fn cross_leaf(
+/// As [`cross_leaf`], beside the walk: most of it is about nodes.
+#[inline(never)]
+fn leaf(
     frame: &Frame,
-    [x, y, z]: &[Axis; 3],
+    axes: &[Axis; 3],
     place: Place,
-    (t_in, t_out): (Q24, Q24),
-    patch: &Form,
+    piece: (Q24, Q24),
+    patch: (&Form, u32),
     above: &mut Above,
     changed: &mut impl FnMut(Change) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    let [columns, rows] = &frame.rules;
-    let level = place.level;
-    let (column, row) = (place.column << level, place.row << level);
-    let inside = |t: Q24| [columns.inside(x.at(t), column, level), rows.inside(y.at(t), row, level)];
-    let heights = [t_in, t_out].map(|t| z.at(t));
-    let chord = Chord { patch, from: inside(t_in), to: inside(t_out), heights };
-    sides(|part| chord.over(part), chord.bend(), above, &mut |part, is_above| {
-        let along = product(t_out.wrapping_sub(t_in), part) >> 30;
-        changed((t_in.wrapping_add(along as i32), place, is_above))
-    })
+    cross_leaf(frame, axes, place, piece, patch, above, changed)
 }

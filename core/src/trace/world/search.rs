@@ -357,9 +357,47 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         object(met.before) != object(met.behind)
     }
 
+    /// The first change of an opaque leaf that is an object of its own, up to `limit`: nothing has to be
+    /// sorted.
+    #[inline(never)]
+    fn change_of(&self, [number, object]: [u8; 2], ray: &Ray, start: &Start, limit: i32) -> Option<Met> {
+        let surface = &self.leaf(number)?.surface;
+        let States { inside, unknown } = start.states;
+        let mut is_inside = has(inside, number);
+        let mut is_undecided =
+            start.departed != Some(number) && (has(unknown, number) || !surface.is_closed());
+        let mut first = None;
+        surface.cross(ray, start.cone, &mut |crossing| {
+            if is_undecided {
+                (is_inside, is_undecided) = (!crossing.enters, false);
+            }
+            if crossing.t.to_bits() > limit {
+                return ControlFlow::Break(());
+            }
+            // a crossing into what the ray is in already is that from which it starts
+            if crossing.enters == is_inside {
+                return ControlFlow::Continue(());
+            }
+            first = Some(crossing);
+            ControlFlow::Break(())
+        });
+        let (crossing, bit) = (first?, bit(number));
+        let (before, behind) =
+            if is_inside { (inside | bit, inside & !bit) } else { (inside & !bit, inside | bit) };
+        let event = Event { crossing, leaf: number, object };
+        Some(Met { event, before, behind, unknown: 0 })
+    }
+
     /// What a ray meets first.
     #[inline(never)]
     pub(super) fn met<const E: usize>(&self, ray: &Ray, start: &Start) -> Option<Met> {
+        if let [object] = self.objects
+            && let Some(leaf) = object.only()
+            && self.media() == 0
+        {
+            let is_missed = self.is_missed(0, object, ray, start, &mut 0);
+            return if is_missed { None } else { self.change_of([leaf, 0], ray, start, i32::MAX) };
+        }
         let mut search = Search::<E>::new(ray, start, i32::MAX);
         if M::MAY_BE_CLEAR {
             let near = self.near(ray, start, &mut search.untried);
@@ -447,6 +485,9 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         number: u8,
         object: &Object<'_>,
     ) -> bool {
+        if let Some(leaf) = object.only() {
+            return self.change_of([leaf, number], ray, start, limit).is_some();
+        }
         let mut search = Search::<E>::new(ray, start, limit);
         self.first(&mut search, number, object);
         search.found.is_some()
