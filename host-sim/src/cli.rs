@@ -59,6 +59,8 @@ pub(crate) enum Command {
     Sample(Sample),
     /// Write a scene of any kind as a Rust module of constants, for firmware
     Export(Export),
+    /// Write how a height field leans as a table of slopes: a material, constants, a picture
+    Brdf(crate::brdf::Brdf),
     /// Compress a PNG file into a stream that core's codec decodes
     Encode(Encode),
     /// Write what a stream shows as a PNG file
