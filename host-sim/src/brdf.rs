@@ -1,16 +1,16 @@
 //! `attractor brdf`: how much of a height field leans which way, as a table for a material, and as a picture.
 
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use attractor::draw::{Level, Palette as _};
 use attractor::fif::{Sum, Sums};
 use attractor::num::{Real, Wide};
 use attractor::trace::material::Tabulated;
-use clap::Args;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor as _};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::Brdf;
 use crate::fail::Fail;
 use crate::output;
 use crate::palette::Named;
@@ -23,66 +23,6 @@ use crate::still::{Pixels, Still};
 const CELLS: usize = 1 << 11;
 /// The side of a picture in pixels, at least.
 const PICTURE: u32 = 256;
-
-#[derive(Debug, Args)]
-#[command(after_help = "The table holds `side x side` squares of slopes (p, q) of the surface around their mean, from -reach to reach along each axis,
-alike for opposite slopes. In a world it is a material of any shape: [material.NAME] distribution = \"FILE.toml\".
-The picture shows it: p to the right, q upwards, brightness the square root of the weight.
-
-Examples:
-  attractor brdf figure-6-gg -o gg.toml                 for a scene
-  attractor brdf figure-6-gg -o gg.rs -o gg.png         for firmware, and a picture
-  attractor brdf figure-6-gg --region 0,0.5,0,0.5 -o corner.toml
-
-Each file written is named on standard output. A file is complete or not there at all.")]
-pub(crate) struct Brdf {
-    /// Name of a built-in scene, or path of a TOML file, of kind fif-surface
-    #[arg(value_name = "SCENE")]
-    scene: String,
-    /// What is written, by its ending: a table .toml, a table as Rust .rs, a picture .png; as often as one likes
-    #[arg(short, long, value_name = "FILE", required = true)]
-    output: Vec<PathBuf>,
-    /// Squares along a side
-    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 32,
-          value_parser = clap::value_parser!(u16).range(2..=i64::from(Tabulated::MOST)))]
-    side: u16,
-    /// The largest slope, 1/8 to 8, in 256ths: steeper ones count where the table ends
-    #[arg(long, allow_hyphen_values = true, value_name = "SLOPE", default_value = "2", value_parser = parse_reach)]
-    reach: u16,
-    /// Places along each axis, by which slopes are counted
-    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 4096,
-          value_parser = clap::value_parser!(u32).range(64..=16384))]
-    points: u32,
-    /// The part of the surface that counts; else all of it
-    #[arg(long, allow_hyphen_values = true, value_name = "x0,x1,y0,y1", value_parser = parse_region)]
-    region: Option<[Wide; 4]>,
-    /// Colours of a picture
-    #[arg(long, value_name = "PALETTE", default_value = "fire", value_parser = parse_palette)]
-    palette: Named,
-}
-
-/// A slope in 256ths.
-fn parse_reach(text: &str) -> Result<u16, String> {
-    let refused = || format!("`{text}` is no slope from 0.125 to 8");
-    let slope = text.parse::<f64>().map_err(|_| refused())?;
-    let words = (slope * 256.0).round();
-    if (32.0..=2048.0).contains(&words) { Ok(words as u16) } else { Err(refused()) }
-}
-
-fn parse_region(text: &str) -> Result<[Wide; 4], String> {
-    let refused = || "a region is x0,x1,y0,y1 with x0 < x1 and y0 < y1, for example 0,0.5,0,0.5".to_owned();
-    let numbers = text.split(',').map(|number| crate::number::nearest::<Wide>(number.trim()));
-    let numbers = numbers.collect::<Result<Vec<_>, _>>().map_err(|_| refused())?;
-    let region: [Wide; 4] = numbers.try_into().map_err(|_| refused())?;
-    let [x0, x1, y0, y1] = region;
-    if x0 < x1 && y0 < y1 { Ok(region) } else { Err(refused()) }
-}
-
-fn parse_palette(text: &str) -> Result<Named, String> {
-    use serde::Deserialize as _;
-    use serde::de::IntoDeserializer as _;
-    Named::deserialize(text.into_deserializer()).map_err(|error: serde::de::value::Error| error.to_string())
-}
 
 /// What a file holds, by its ending.
 #[derive(Debug, Clone, Copy)]

@@ -27,7 +27,10 @@ fn a_part_of_a_surface_is_a_table_constants_and_a_picture() {
     let said = good(path, &[&["brdf", "figure-6-gg"], &part[..], &files].concat());
     assert_eq!(said, "part.toml\npart.rs\npart.png\n");
     let table = fs::read_to_string(path.join("part.toml")).unwrap();
-    assert!(table.starts_with("# The slopes of figure-6-gg above [0, 0.5] x [1, 2]: 8 x 8 squares"), "{table}");
+    assert!(
+        table.starts_with("# The slopes of figure-6-gg above [0, 0.5] x [1, 2]: 8 x 8 squares"),
+        "{table}"
+    );
     let rust = fs::read_to_string(path.join("part.rs")).unwrap();
     assert!(rust.contains("pub static SLOPES: [u16; 67] = [\n    1, 8, 384,\n"), "{rust}");
     let numbers = |text: &str| -> Vec<u32> {

@@ -4,14 +4,15 @@
 //! Branch and bound over boxes of slopes. Both domains are cut into cells; over a pair of cells `f` and `g`
 //! are independent, and `F` and `G` nearly constant: a square of slopes is a box of `f` and `g`, known to
 //! within the ranges of `F` and `G`, whose share is the product of two distribution functions. That of `f`
-//! over a cell is the one of `A (f + l u) + C` over the whole, `u` from 0 to 1 along it, because
-//! `f(L_j u) = a_j f(u) + c_j + d_j u`: a function `f + l u` is over each part such a function again, with
-//! `l' = (d_j + l w_j) / a_j`, which stays bounded where `|a_j| > w_j`, the width of the part. Its distribution
-//! lies between two tables over `l` and the value, which begin as what the range of `f` says and are replaced
-//! by the means of what they say of the parts of parts: what is not known shrinks by `|a_j|` each time. Every
-//! rounding goes outwards. Beside the bounds stands an estimate, by the middles of all that is known, which is off
-//! by the square of what is not. Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface", section 6.1;
-//! J. Hutchinson, "Fractals and self similarity", 1981, section 4.4 (the measure as a fixed point).
+//! over a cell is the one of `A (f + l u) + C` over the whole, `u` from 0 to 1 along it, because `f(L_j u) =
+//! a_j f(u) + c_j + d_j u`: a function `f + l u` is over each part such a function again, with `l' = (d_j +
+//! l w_j) / a_j`, which stays bounded where `|a_j| > w_j`, the width of the part. Its distribution lies
+//! between two tables over `l` and the value, which begin as what the range of `f` says and are replaced by
+//! the means of what they say of the parts of parts: what is not known shrinks by `|a_j|` each time. Every
+//! rounding goes outwards. Beside the bounds stands an estimate, by the middles of all that is known, which
+//! is off by the square of what is not. Source: Cochran, Lewis and Hart, "The Normal of a Fractal Surface",
+//! section 6.1; J. Hutchinson, "Fractals and self similarity", 1981, section 4.4 (the measure as a fixed
+//! point).
 
 use crate::fif::Fif;
 use crate::surface::Factor;
@@ -66,7 +67,8 @@ impl Maps {
         };
         let maps: Vec<[f64; 5]> = fif.affine().into_iter().map(map).collect();
         let steepest = maps.iter().fold(0.0_f64, |most, map| most.max(map[0].abs()));
-        let largest = maps.iter().fold(0.0_f64, |most, map| most.max(map[1].abs()).max((map[1] + map[2]).abs()));
+        let largest =
+            maps.iter().fold(0.0_f64, |most, map| most.max(map[1].abs()).max((map[1] + map[2]).abs()));
         let crude = largest / (1.0 - steepest);
         let mut this = Self { maps, range: [-crude, crude] };
         // the range of the cells of a fine level, a few times over
@@ -159,7 +161,8 @@ impl Tables {
         self.maps.each(whole, levels, &mut |part| {
             let share = part.width / whole.width;
             let [low, high] = self.maps.reach(&part).map(|value| (value - from) / step);
-            let (first, end) = ((low.floor().max(0.0) as usize).min(count), (high.ceil() as usize).min(count));
+            let end = (libm::floor(high + 1.0).max(0.0) as usize).min(count);
+            let first = (libm::ceil(low).max(0.0) as usize).min(end);
             for (k, sum) in (first..end).zip(&mut all[first..end]) {
                 let [below, above] = self.at(&part, from + k as f64 * step);
                 *sum = [sum[0] + share * below, sum[1] + share * above];
@@ -177,7 +180,7 @@ impl Tables {
         all
     }
 
-    /// The bounds of one state at a value within its reach or next to it.
+    /// The bounds of one state at a value within its reach.
     fn at(&self, part: &State, value: f64) -> [f64; 2] {
         if self.rows.is_empty() {
             return [0.0, 1.0];

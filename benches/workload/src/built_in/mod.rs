@@ -95,7 +95,6 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(world!("bowl", bowl)),
     both_roomy(world!("rocket", rocket)),
     both_roomy(world!("orange", orange)),
-    both_roomy(world!("brdf-spheres", brdf_spheres)),
     both_roomy(world!("parcel", parcel)),
     both_roomy(field_world!("figure-7", figure_7)),
     both_roomy(texture!("clouds", clouds)),

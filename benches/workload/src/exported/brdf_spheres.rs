@@ -1,42 +1,94 @@
-//! Two spheres: the left one shines as the surface G x G leans, the right one by Phong.
+//! Two spheres that shine as surfaces lean: the left one as G x G, the right one as F x F.
 //!
 //! Written by `attractor export --gallery brdf-spheres`.
 
 use attractor::Error;
 use attractor::num::{Affine3, Angle, Lumen, Real, Rgb, Unit, Vec3};
-use attractor::trace::material::{Mixture, Phong, Tabulated};
-use attractor::trace::solid::{Placed, Plane, Sphere};
+use attractor::trace::material::{Mixture, Tabulated};
+use attractor::trace::solid::{Placed, Sphere};
 use attractor::trace::world::{Lamp, Leaf, Object, Op, World, WorldCaster};
 use attractor::trace::{Camera, Extent, Filter, Sampling, Sky};
 use embedded_graphics::geometry::Size;
 
-attractor::surfaces! {
-    /// What stands in it.
-    #[derive(Debug, Clone, Copy)]
-    pub enum Thing {
-        /// `Placed<Plane>`.
-        Plane(Placed<Plane>),
-        /// `Placed<Sphere>`.
-        Sphere(Placed<Sphere>),
-    }
-}
+/// What stands in it.
+pub type Thing = Placed<Sphere>;
 
-attractor::materials! {
-    /// What things are made of.
-    #[derive(Debug, Clone, Copy)]
-    pub enum Stuff {
-        /// `Mixture`.
-        Plain(Mixture),
-        /// `Mixture<Rgb, Phong>`.
-        PlainPhong(Mixture<Rgb, Phong>),
-        /// `Mixture<Rgb, Tabulated<'static>>`.
-        PlainTabulated(Mixture<Rgb, Tabulated<'static>>),
-    }
-}
+/// What things are made of.
+pub type Stuff = Mixture<Rgb, Tabulated<'static>>;
 
 /// A table of slopes: version, side, reach in 256ths, weights.
 #[rustfmt::skip]
 pub static SLOPES_0: [u16; 1027] = [
+    1, 32, 512,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 128, 748, 938, 1958, 2930, 2369, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1176,
+    2675, 2413, 2661, 4435, 6366, 5638, 3955, 2542, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 433, 1492, 2874, 3590,
+    2602, 2770, 4720, 6343, 4139, 3031, 1861, 1030, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 910, 3216, 3695, 2684, 1568,
+    1319, 5221, 5270, 3230, 2817, 2165, 1495, 830, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 313, 3351, 3372, 2934, 2665, 1136,
+    3595, 4586, 4571, 3689, 2623, 2110, 1959, 2980, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 341, 460, 2981, 3921, 2612, 2676, 4069, 2795,
+    6242, 4237, 3820, 2954, 2954, 2454, 6324, 3663, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 341, 65535, 25906, 23142, 17884, 14887, 13558, 12425, 14304,
+    9097, 9110, 7816, 7214, 5260, 6957, 5956, 4167, 3663, 2980, 830, 1030, 2542, 2369, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 460, 25906, 14870, 10517, 7957, 6400, 5591, 7239, 10167,
+    8041, 6071, 5576, 4727, 5606, 7854, 6781, 5956, 6324, 1959, 1495, 1861, 3955, 2930, 0, 0,
+    0, 0, 0, 0, 0, 0, 313, 2981, 23142, 10517, 7614, 6227, 5993, 4459, 6098, 5826,
+    6318, 5738, 5078, 5115, 5524, 6547, 7854, 6957, 2454, 2110, 2165, 3031, 5638, 1958, 0, 0,
+    0, 0, 0, 0, 0, 910, 3351, 3921, 17884, 7957, 6227, 6540, 5276, 5420, 5573, 4880,
+    5127, 6219, 5268, 5282, 6512, 5524, 5606, 5260, 2954, 2623, 2817, 4139, 6366, 938, 0, 0,
+    0, 0, 0, 0, 433, 3216, 3372, 2612, 14887, 6400, 5993, 5276, 8661, 5935, 4543, 3863,
+    4401, 4273, 7460, 5814, 5282, 5115, 4727, 7214, 2954, 3689, 3230, 6343, 4435, 748, 0, 0,
+    0, 0, 0, 0, 1492, 3695, 2934, 2676, 13558, 5591, 4459, 5420, 5935, 8333, 4276, 3493,
+    4024, 4654, 5606, 7460, 5268, 5078, 5576, 7816, 3820, 4571, 5270, 4720, 2661, 128, 0, 0,
+    0, 0, 0, 1, 2874, 2684, 2665, 4069, 12425, 7239, 6098, 5573, 4543, 4276, 4450, 5369,
+    5149, 4777, 4654, 4273, 6219, 5738, 6071, 9110, 4237, 4586, 5221, 2770, 2413, 0, 0, 0,
+    0, 0, 0, 1176, 3590, 1568, 1136, 2795, 14304, 10167, 5826, 4880, 3863, 3493, 5369, 5857,
+    3729, 5149, 4024, 4401, 5127, 6318, 8041, 9097, 6242, 3595, 1319, 2602, 2675, 0, 0, 0,
+    0, 0, 0, 2675, 2602, 1319, 3595, 6242, 9097, 8041, 6318, 5127, 4401, 4024, 5149, 3729,
+    5857, 5369, 3493, 3863, 4880, 5826, 10167, 14304, 2795, 1136, 1568, 3590, 1176, 0, 0, 0,
+    0, 0, 0, 2413, 2770, 5221, 4586, 4237, 9110, 6071, 5738, 6219, 4273, 4654, 4777, 5149,
+    5369, 4450, 4276, 4543, 5573, 6098, 7239, 12425, 4069, 2665, 2684, 2874, 1, 0, 0, 0,
+    0, 0, 128, 2661, 4720, 5270, 4571, 3820, 7816, 5576, 5078, 5268, 7460, 5606, 4654, 4024,
+    3493, 4276, 8333, 5935, 5420, 4459, 5591, 13558, 2676, 2934, 3695, 1492, 0, 0, 0, 0,
+    0, 0, 748, 4435, 6343, 3230, 3689, 2954, 7214, 4727, 5115, 5282, 5814, 7460, 4273, 4401,
+    3863, 4543, 5935, 8661, 5276, 5993, 6400, 14887, 2612, 3372, 3216, 433, 0, 0, 0, 0,
+    0, 0, 938, 6366, 4139, 2817, 2623, 2954, 5260, 5606, 5524, 6512, 5282, 5268, 6219, 5127,
+    4880, 5573, 5420, 5276, 6540, 6227, 7957, 17884, 3921, 3351, 910, 0, 0, 0, 0, 0,
+    0, 0, 1958, 5638, 3031, 2165, 2110, 2454, 6957, 7854, 6547, 5524, 5115, 5078, 5738, 6318,
+    5826, 6098, 4459, 5993, 6227, 7614, 10517, 23142, 2981, 313, 0, 0, 0, 0, 0, 0,
+    0, 0, 2930, 3955, 1861, 1495, 1959, 6324, 5956, 6781, 7854, 5606, 4727, 5576, 6071, 8041,
+    10167, 7239, 5591, 6400, 7957, 10517, 14870, 25906, 460, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 2369, 2542, 1030, 830, 2980, 3663, 4167, 5956, 6957, 5260, 7214, 7816, 9110, 9097,
+    14304, 12425, 13558, 14887, 17884, 23142, 25906, 65535, 341, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 3663, 6324, 2454, 2954, 2954, 3820, 4237, 6242,
+    2795, 4069, 2676, 2612, 3921, 2981, 460, 341, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 2980, 1959, 2110, 2623, 3689, 4571, 4586, 3595,
+    1136, 2665, 2934, 3372, 3351, 313, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 830, 1495, 2165, 2817, 3230, 5270, 5221, 1319,
+    1568, 2684, 3695, 3216, 910, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 1030, 1861, 3031, 4139, 6343, 4720, 2770, 2602,
+    3590, 2874, 1492, 433, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 2542, 3955, 5638, 6366, 4435, 2661, 2413, 2675,
+    1176, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 2369, 2930, 1958, 938, 748, 128, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+];
+
+/// A table of slopes: version, side, reach in 256ths, weights.
+#[rustfmt::skip]
+pub static SLOPES_1: [u16; 1027] = [
     1, 32, 512,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
@@ -109,14 +161,12 @@ pub static SLOPES_0: [u16; 1027] = [
 /// # Errors
 /// None: the command has built them.
 #[rustfmt::skip]
-pub fn materials() -> Result<[Stuff; 3], Error> {
+pub fn materials() -> Result<[Stuff; 2], Error> {
     Ok([
-        // fractal
-        Stuff::PlainTabulated(Mixture::matt(const { Rgb::new(Lumen::lit("0.08022"), Lumen::lit("0.01161"), Lumen::lit("0.00699")) }).with_parts(const { Unit::lit("0.3") }, const { Unit::lit("0.5") })?.with_highlight(const { Rgb::new(Lumen::lit("1"), Lumen::lit("0.82"), Lumen::lit("0.52")) }, Tabulated::new(&SLOPES_0, const { Unit::lit("1") })?)),
-        // plain
-        Stuff::PlainPhong(Mixture::matt(const { Rgb::new(Lumen::lit("0.08022"), Lumen::lit("0.01161"), Lumen::lit("0.00699")) }).with_parts(const { Unit::lit("0.3") }, const { Unit::lit("0.5") })?.with_highlight(const { Rgb::new(Lumen::lit("1"), Lumen::lit("0.82"), Lumen::lit("0.52")) }, Phong { shininess: 24 })),
-        // table
-        Stuff::Plain(Mixture::matt(const { Rgb::new(Lumen::lit("0.03955"), Lumen::lit("0.03189"), Lumen::lit("0.02519")) }).with_parts(const { Unit::lit("0.25") }, const { Unit::lit("0.75") })?),
+        // f-x-f
+        Mixture::matt(const { Rgb::new(Lumen::lit("0.00699"), Lumen::lit("0.02122"), Lumen::lit("0.07227")) }).with_parts(const { Unit::lit("0.3") }, const { Unit::lit("0.5") })?.with_highlight(const { Rgb::new(Lumen::lit("0.72"), Lumen::lit("0.86"), Lumen::lit("1")) }, Tabulated::new(&SLOPES_0, const { Unit::lit("1") })?),
+        // g-x-g
+        Mixture::matt(const { Rgb::new(Lumen::lit("0.08022"), Lumen::lit("0.01161"), Lumen::lit("0.00699")) }).with_parts(const { Unit::lit("0.3") }, const { Unit::lit("0.5") })?.with_highlight(const { Rgb::new(Lumen::lit("1"), Lumen::lit("0.82"), Lumen::lit("0.52")) }, Tabulated::new(&SLOPES_1, const { Unit::lit("1") })?),
     ])
 }
 
@@ -125,14 +175,12 @@ pub fn materials() -> Result<[Stuff; 3], Error> {
 /// # Errors
 /// None: the command has built them.
 #[rustfmt::skip]
-pub fn leaves() -> Result<[Leaf<'static, Thing>; 3], Error> {
+pub fn leaves() -> Result<[Leaf<'static, Thing>; 2], Error> {
     Ok([
-        // table
-        Leaf { surface: Thing::Plane(Placed::new(Plane, &Affine3::IDENTITY)?), materials: &[2] },
-        // fractal
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::rotate(const { Vec3::lit("1", "0", "0") }, const { Angle::lit("0.95") })?.then(&Affine3::translate(const { Vec3::lit("-1.1", "0", "1") })))?), materials: &[0] },
-        // plain
-        Leaf { surface: Thing::Sphere(Placed::new(Sphere, &Affine3::translate(const { Vec3::lit("1.1", "0", "1") }))?), materials: &[1] },
+        // rough
+        Leaf { surface: Placed::new(Sphere, &Affine3::rotate(const { Vec3::lit("1", "0", "0") }, const { Angle::lit("0.95") })?.then(&Affine3::translate(const { Vec3::lit("-1.1", "0", "1") })))?, materials: &[1] },
+        // smooth
+        Leaf { surface: Placed::new(Sphere, &Affine3::rotate(const { Vec3::lit("1", "0", "0") }, const { Angle::lit("0.95") })?.then(&Affine3::translate(const { Vec3::lit("1.1", "0", "1") })))?, materials: &[0] },
     ])
 }
 
@@ -152,14 +200,13 @@ pub fn lamps() -> Result<[Lamp; 2], Error> {
 
 /// Of which shapes each object is made, in reverse Polish.
 #[rustfmt::skip]
-pub static PROGRAMS: [&[Op]; 3] = [
+pub static PROGRAMS: [&[Op]; 2] = [
     &[Op::Leaf(0)],
     &[Op::Leaf(1)],
-    &[Op::Leaf(2)],
 ];
 
 /// How many boxes the objects borrow.
-pub const BOXES: usize = 3;
+pub const BOXES: usize = 2;
 
 /// The objects.
 ///
@@ -169,15 +216,13 @@ pub const BOXES: usize = 3;
 pub fn objects<'a>(
     leaves: &[Leaf<'static, Thing>],
     boxes: &'a mut [Extent; BOXES],
-) -> Result<[Object<'a>; 3], Error> {
+) -> Result<[Object<'a>; 2], Error> {
     let surface = |leaf: usize| leaves.get(leaf).map(|leaf| &leaf.surface);
     let (one_0, boxes) = boxes.split_at_mut(1);
-    let (one_1, boxes) = boxes.split_at_mut(1);
-    let (one_2, _) = boxes.split_at_mut(1);
+    let (one_1, _) = boxes.split_at_mut(1);
     Ok([
         Object::new(PROGRAMS[0], surface, one_0)?,
         Object::new(PROGRAMS[1], surface, one_1)?,
-        Object::new(PROGRAMS[2], surface, one_2)?,
     ])
 }
 
@@ -185,7 +230,7 @@ pub fn objects<'a>(
 pub const EYE: Vec3 = Vec3::lit("0", "-6.4", "2.6");
 
 /// What it looks at.
-pub const LOOK_AT: Vec3 = Vec3::lit("0", "0", "0.85");
+pub const LOOK_AT: Vec3 = Vec3::lit("0", "0", "0.95");
 
 /// Which way is up.
 pub const UP: Vec3 = Vec3::lit("0", "0", "1");
@@ -202,7 +247,7 @@ pub fn camera() -> Result<Camera, Error> {
 }
 
 /// The picture of the world.
-pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 5, 7>;
+pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 4, 7>;
 
 /// The picture of the world; the command's seed is 1.
 ///
@@ -210,6 +255,6 @@ pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 5, 7>;
 /// Those of [`WorldCaster::new`].
 #[rustfmt::skip]
 pub fn caster<'a>(world: World<'a, Thing, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
-    let caster = Caster::new(world, Sky { zenith: const { Rgb::new(Lumen::lit("0.02956"), Lumen::lit("0.0648"), Lumen::lit("0.16203")) }, horizon: const { Rgb::new(Lumen::lit("0.57758"), Lumen::lit("0.60382"), Lumen::lit("0.68669")) }, nadir: const { Rgb::new(Lumen::lit("0.02122"), Lumen::lit("0.01764"), Lumen::lit("0.01445")) } }, camera()?, size)?;
+    let caster = Caster::new(world, Sky { zenith: const { Rgb::new(Lumen::lit("0.00914"), Lumen::lit("0.02122"), Lumen::lit("0.0648")) }, horizon: const { Rgb::new(Lumen::lit("0.13843"), Lumen::lit("0.18782"), Lumen::lit("0.2789")) }, nadir: const { Rgb::new(Lumen::lit("0.00914"), Lumen::lit("0.00699"), Lumen::lit("0.00519")) } }, camera()?, size)?;
     caster.with_sampling(Sampling::Jittered { n: 3, seed }, Filter::Box)
 }

@@ -110,7 +110,10 @@ fn material(scene: &WorldScene, matter: &Matter) -> Material {
         specular: match matter.gloss {
             Gloss::Tabulated { ref slopes, reflectance } => Specular::Tabulated {
                 colour,
-                slopes: Slopes::new(slopes.reach(), slopes.rows().map(|row| row.iter().copied().map(f64::from))),
+                slopes: Slopes::new(
+                    slopes.reach(),
+                    slopes.rows().map(|row| row.iter().copied().map(f64::from)),
+                ),
                 reflectance: unit(reflectance),
             },
             Gloss::None => Specular::None,

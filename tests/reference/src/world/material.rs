@@ -8,7 +8,7 @@
 //!   `G = min(1, 2 (n . h) (n . v) / (v . h), 2 (n . h) (n . l) / (v . h))`, those not in the shade of
 //!   others;
 //!   `F = f + (1 - f) (1 - v . h)^5`;
-//! - a table of slopes: the same with `D = pi P / cos^4 a`, `P` the density of the slopes `-(h . T) / (n . h)`
+//! - a table of slopes: so with `D = pi P / cos^4 a`, `P` the density of the slopes `-(h . T) / (n . h)`
 //!   and `-(h . B) / (n . h)`, 0 where `cos^2 a` is below 1/32;
 //! - Ward, with a frame `T, B`:
 //!   `sqrt((n . l) / (n . v)) exp(-((h . T / s)^2 + (h . B / q)^2) / (h . n)^2) / (4 s q)`.
