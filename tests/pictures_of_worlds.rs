@@ -34,7 +34,7 @@ surfaces! {
     }
 }
 
-type Stuff = Mixture<Rgb, Highlight, Option<Clear>>;
+type Stuff = Mixture<Rgb, Highlight<'static>, Option<Clear>>;
 
 #[derive(Debug, Clone, Copy)]
 enum Kind {

@@ -98,7 +98,7 @@ as_debug! {
     [] trace::material::Lit;
     [] trace::material::Medium;
     [] trace::material::Response;
-    [] trace::material::Highlight;
+    [] trace::material::Highlight<'_>;
     [] trace::material::TorranceSparrow;
     [] trace::material::Phong;
     [] trace::texture::Turbulence;

@@ -74,6 +74,7 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "marble",
     "cloth",
     "orange",
+    "brdf-spheres",
     "parcel",
     "figure-7",
     "figure-7-jittered",
@@ -131,6 +132,15 @@ pub(crate) const STREAMS: [(&str, &[u8]); 5] = [
 pub(crate) fn bytes(file: &str) -> Option<&'static [u8]> {
     match file {
         "../data/jacksboro-elevation-m.png" => Some(include_bytes!("../data/jacksboro-elevation-m.png")),
+        _ => None,
+    }
+}
+
+/// The table of slopes of a built-in surface.
+pub(crate) fn distribution(name: &str) -> Option<&'static str> {
+    match name {
+        "f-x-f" => Some(include_str!("../data/slopes-f-x-f.toml")),
+        "g-x-g" => Some(include_str!("../data/slopes-g-x-g.toml")),
         _ => None,
     }
 }

@@ -4,12 +4,16 @@ use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use attractor::num::Wide;
 use attractor::plane::MAX_SIDE;
+use attractor::trace::material::Tabulated;
+use attractor_gallery::Named;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use embedded_graphics::geometry::Size;
 use embedded_graphics::pixelcolor::Rgb888;
 
 use crate::color::ColorDepth;
+use crate::number::nearest;
 
 /// The most points of a sample or of a chaos game.
 pub(crate) use attractor_gallery::MAX_POINTS;
@@ -59,6 +63,8 @@ pub(crate) enum Command {
     Sample(Sample),
     /// Write a scene of any kind as a Rust module of constants, for firmware
     Export(Export),
+    /// Write how a height field leans as a table of slopes: a material, constants, a picture
+    Brdf(Brdf),
     /// Compress a PNG file into a stream that core's codec decodes
     Encode(Encode),
     /// Write what a stream shows as a PNG file
@@ -189,6 +195,47 @@ pub(crate) struct Export {
     /// Also what the crate attractor-gallery draws the scene with, as the command shows it
     #[arg(long)]
     pub(crate) gallery: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The table holds `side x side` squares of slopes (p, q) of the surface around their mean, from -reach to reach along each axis,
+alike for opposite slopes. In a world it is a material of any shape: [material.NAME] distribution = \"FILE.toml\".
+The picture shows it: p to the right, q upwards, brightness the square root of the weight.
+
+Examples:
+  attractor brdf figure-6-gg -o gg.toml                 for a scene
+  attractor brdf figure-6-gg -o gg.rs -o gg.png         for firmware, and a picture
+  attractor brdf figure-6-gg --region 0,0.5,0,0.5 -o corner.toml
+
+Each file written is named on standard output. A file is complete or not there at all."
+)]
+pub(crate) struct Brdf {
+    /// Name of a built-in scene, or path of a TOML file, of kind fif-surface
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: String,
+    /// What is written, by its ending: a table .toml, a table as Rust .rs, a picture .png; several times, if
+    /// one likes
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Squares along a side
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 32,
+          value_parser = clap::value_parser!(u16).range(2..=i64::from(Tabulated::MOST)))]
+    pub(crate) side: u16,
+    /// The largest slope, 1/8 to 8, in 256ths: steeper ones count where the table ends
+    #[arg(long, allow_hyphen_values = true, value_name = "SLOPE", default_value = "2",
+          value_parser = parse_reach)]
+    pub(crate) reach: u16,
+    /// Places along each axis, by which slopes are counted
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 4096,
+          value_parser = clap::value_parser!(u32).range(64..=16384))]
+    pub(crate) points: u32,
+    /// The part of the surface that counts; else all of it
+    #[arg(long, allow_hyphen_values = true, value_name = "x0,x1,y0,y1", value_parser = parse_region)]
+    pub(crate) region: Option<[Wide; 4]>,
+    /// Colours of a picture
+    #[arg(long, value_name = "PALETTE", default_value = "fire", value_parser = parse_palette)]
+    pub(crate) palette: Named,
 }
 
 #[derive(Debug, Args)]
@@ -371,6 +418,29 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
         _ => Err(format!("`{text}` is no number above 0")),
     }
+}
+
+/// A slope in 256ths.
+fn parse_reach(text: &str) -> Result<u16, String> {
+    let refused = || format!("`{text}` is no slope from 0.125 to 8");
+    let slope = text.parse::<f64>().map_err(|_| refused())?;
+    let words = (slope * 256.0).round();
+    if (32.0..=2048.0).contains(&words) { Ok(words as u16) } else { Err(refused()) }
+}
+
+fn parse_region(text: &str) -> Result<[Wide; 4], String> {
+    let refused = || "a region is x0,x1,y0,y1 with x0 < x1 and y0 < y1, for example 0,0.5,0,0.5".to_owned();
+    let numbers = text.split(',').map(|number| nearest::<Wide>(number.trim()));
+    let numbers = numbers.collect::<Result<Vec<_>, _>>().map_err(|_| refused())?;
+    let region: [Wide; 4] = numbers.try_into().map_err(|_| refused())?;
+    let [x0, x1, y0, y1] = region;
+    if x0 < x1 && y0 < y1 { Ok(region) } else { Err(refused()) }
+}
+
+fn parse_palette(text: &str) -> Result<Named, String> {
+    use serde::Deserialize as _;
+    use serde::de::IntoDeserializer as _;
+    Named::deserialize(text.into_deserializer()).map_err(|error: serde::de::value::Error| error.to_string())
 }
 
 /// A power of two from 1/4 to 4, as its logarithm.

@@ -37,8 +37,8 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
                \"tapered-cylinder\" ([cap]) | \"torus\" (tube) | \"superellipsoid\" (n, m) | \"height-field\" (f, g) |
                \"union\" | \"intersection\" | \"difference\" (of = [names]);
                [scale], [rotate = [[x, y, z, degrees], ...]], [translate] or [matrix] of 12 numbers, [material = name or list, one a face];
-               [material.NAME] color or texture, [ambient], [diffuse], [specular], [model = \"phong\" | \"torrance-sparrow\" | \"anisotropic\"],
-               [shininess] | [roughness], [reflectance] | [roughness], [across]; [reflect]; [index], [transmit], [fresnel], [priority];
+               [material.NAME] color or texture, [ambient], [diffuse], [specular], [model = \"phong\" | \"torrance-sparrow\" | \"anisotropic\" | \"tabulated\"],
+               [shininess] | [roughness], [reflectance] | [roughness], [across] | distribution = \"g-x-g\" | \"f-x-f\" | \"FILE.toml\", [reflectance]; [reflect]; [index], [transmit], [fresnel], [priority];
                [bump] and [frame] = { texture, strength }; [texture.NAME] as below; [environment] kind = \"plain\" | \"sky\" | \"checkerboard\" | \"image\";
                [samples = 1], [filter = \"box\" | \"gaussian\"], [seed], [depth = 5], [interpenetration = \"refuse\" | \"priority\"]; colours \"#rrggbb\" or [r, g, b]
   terrain      knots (rows from south to north) or [elevation] png, step, [window = [column, row, columns, rows]], [base], [void], [voids = \"refuse\" | \"fill\"];
@@ -58,6 +58,7 @@ Commands
   attractor dump [SCENE...] [-o FILE.png|DIR|-] [--size WxH] [--color rgb565|rgb888|gray8|gray4|gray2|mono] [--scale N]
   attractor sample SCENE --points N       the numbers as CSV, fixed point beside the f64 reference
   attractor export SCENE [--gallery]      the scene as a Rust module of constants, for firmware
+  attractor brdf SCENE -o FILE.toml|.rs|.png  how a height field leans, as a material of a world, for firmware, as a picture
   attractor accuracy [--csv]              errors measured beside the bounds promised
   attractor dimension SCENE [--boundary]  the dimension of attractors, curves and graphs, theory beside it
   attractor spectrum SCENE                the spectral exponent of graphs and random curves, theory beside it

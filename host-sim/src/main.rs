@@ -4,6 +4,7 @@
 
 mod accuracy;
 mod boxes;
+mod brdf;
 mod builtin;
 mod canvas;
 mod cli;
@@ -25,6 +26,7 @@ mod palette;
 mod reconstruction;
 mod sample;
 mod scene;
+mod slopes;
 mod source;
 mod spectrum;
 mod still;
@@ -50,6 +52,7 @@ fn main() -> ExitCode {
         Some(Command::Dump(args)) => dump::run(args),
         Some(Command::Sample(args)) => sample::run(args),
         Some(Command::Export(args)) => export::run(args),
+        Some(Command::Brdf(args)) => brdf::run(args),
         Some(Command::Encode(args)) => encode::run(args),
         Some(Command::Decode(args)) => decode::run(args),
         Some(Command::Inspect(args)) => inspect::run(args),

@@ -17,11 +17,11 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Fail> {
     written.map_err(|error| refused(path, &error))
 }
 
-/// Whether a file that is there may be written, before anything is computed for it.
+/// Whether a file that is there may be written, or there is a directory for it, before anything is computed.
 pub(crate) fn check(path: &Path) -> Result<(), Fail> {
     match fs::metadata(path) {
         Ok(_) => OpenOptions::new().write(true).open(path).map(|_| ()).map_err(|error| refused(path, &error)),
-        Err(_) => Ok(()),
+        Err(_) => directory_of(path).map(|_| ()).map_err(|error| refused(path, &error)),
     }
 }
 
@@ -38,10 +38,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// A new file, with the permissions of another.
 fn create(path: &Path, bytes: &[u8], like: Option<&File>) -> io::Result<()> {
-    let directory = parent(path);
-    if !directory.is_dir() {
-        return Err(io::Error::other(format!("there is no directory {}", directory.display())));
-    }
+    let directory = directory_of(path)?;
     let mut builder = tempfile::Builder::new();
     builder.prefix(".attractor-").suffix(".part");
     #[cfg(unix)]
@@ -57,6 +54,14 @@ fn create(path: &Path, bytes: &[u8], like: Option<&File>) -> io::Result<()> {
     file.write_all(bytes)?;
     file.persist(path)?;
     Ok(())
+}
+
+fn directory_of(path: &Path) -> io::Result<&Path> {
+    let directory = parent(path);
+    if directory.is_dir() {
+        return Ok(directory);
+    }
+    Err(io::Error::other(format!("there is no directory {}", directory.display())))
 }
 
 /// The directory in which a file lies.

@@ -56,6 +56,11 @@ impl Source {
         Self { name: format!("{name} (built in)"), text: text.to_owned(), directory: None }
     }
 
+    /// A text that another names.
+    pub(crate) fn named(name: String, text: String) -> Self {
+        Self { name, text, directory: None }
+    }
+
     /// A file.
     pub(crate) fn read(path: &Path) -> Result<Self, Fail> {
         let name = path.display().to_string();
@@ -65,19 +70,19 @@ impl Source {
     }
 
     /// The name and the text of a data file that the scene names.
-    pub(crate) fn data(&self, file: &Spanned<String>) -> Result<(String, String), Fail> {
+    pub(crate) fn data(&self, file: &Spanned<String>, key: &str) -> Result<(String, String), Fail> {
         match &self.directory {
             Some(directory) => {
                 let path = directory.join(file.get_ref());
                 let text = read_text(&path).map_err(|fail| match fail {
-                    Fail::Message(message) => self.fail(file.span(), "csv", message),
+                    Fail::Message(message) => self.fail(file.span(), key, message),
                     pipe => pipe,
                 })?;
                 Ok((path.display().to_string(), text))
             }
             None => match builtin::data(file.get_ref()) {
                 Some(text) => Ok((format!("{} (built in)", file.get_ref()), text.to_owned())),
-                None => Err(self.fail(file.span(), "csv", "no such data is built in")),
+                None => Err(self.fail(file.span(), key, "no such data is built in")),
             },
         }
     }

@@ -5,6 +5,7 @@ mod bad_curves;
 mod bad_input;
 mod bad_terrain;
 mod bad_world;
+mod brdf;
 mod common;
 mod encode;
 mod export;

@@ -156,7 +156,7 @@ fn any_ray(shape: &impl Shape, ray: &NearRay, from: Near, place: Vec3, on: Vec3<
     shape.chart(place, 0);
 }
 
-fn highlight() -> impl Strategy<Value = Highlight> {
+fn highlight() -> impl Strategy<Value = Highlight<'static>> {
     (0..4_u8, unit(), unit(), any::<u16>()).prop_map(|(kind, a, b, shininess)| match kind {
         0 => Highlight::None,
         1 => Highlight::Phong(Phong { shininess }),
@@ -165,7 +165,7 @@ fn highlight() -> impl Strategy<Value = Highlight> {
     })
 }
 
-fn material() -> impl Strategy<Value = Mixture<Rgb, Highlight, Option<Clear>>> {
+fn material() -> impl Strategy<Value = Mixture<Rgb, Highlight<'static>, Option<Clear>>> {
     let medium =
         (prop_oneof![(1 << 21..=10 << 24).prop_map(Real::from_bits), real()], 0..3_u8, any::<bool>());
     (rgb(), (unit(), unit()), (rgb(), highlight()), rgb(), proptest::option::of((medium, rgb()))).prop_map(

@@ -42,6 +42,6 @@ pub use graph::Graph;
 pub use moments::{Moments, Spread};
 pub use pyramid::{Cell, Pyramid};
 pub use stretch::Stretch;
-pub(crate) use sums::Width;
+pub(crate) use sums::{Course, Width};
 pub use sums::{Sum, Sums, Trend};
 pub use surface::{Factor, Surface};

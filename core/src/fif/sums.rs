@@ -54,6 +54,26 @@ pub struct Trend {
     pub covariance: Real,
 }
 
+/// The same before what is derived from it: 24 fractional bits.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Course {
+    /// Mean slope, mean value, mean square of the slope.
+    pub(crate) slope: i32,
+    pub(crate) value: i32,
+    pub(crate) squares: i32,
+    /// The mean of the values at both ends: times the mean slope, the mean of slope times value.
+    pub(crate) middle: i32,
+}
+
+impl Course {
+    /// The variance of the slope, and the covariance of slope and value.
+    #[inline(always)]
+    pub(crate) fn spread(&self) -> [i32; 2] {
+        let variance = self.squares.wrapping_sub(times(self.slope, self.slope)).max(0);
+        [variance, times(self.slope, self.middle.wrapping_sub(self.value))]
+    }
+}
+
 /// The running sums of a differentiable function, in memory lent by the caller.
 ///
 /// ```
@@ -218,7 +238,10 @@ impl<'a> Sums<'a> {
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
-        Some(self.between(&self.at(from), &self.at(to), &width))
+        let course = self.between(&self.at(from), &self.at(to), &width);
+        let [slope, value] = [course.slope, course.value].map(Real::from_bits);
+        let [variance, covariance] = course.spread().map(Real::from_bits);
+        Some(Trend { slope, value, variance, covariance })
     }
 
     /// Slopes and values that stand for the function above `[from, to]`: of each of half as many equal parts
@@ -300,17 +323,13 @@ impl<'a> Sums<'a> {
 
     /// What it does between two places of this width.
     #[inline(always)]
-    pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Trend {
+    pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Course {
         // means of what is inside the format
-        let slope = over(b.value.wrapping_sub(a.value), width.slope);
-        let value = over(b.area.wrapping_sub(a.area), width.area);
-        let squares = over(b.squares.wrapping_sub(a.squares), width.squares);
-        let lift = (a.value >> 1).wrapping_add(b.value >> 1).wrapping_sub(value);
-        Trend {
-            slope: Real::from_bits(slope),
-            value: Real::from_bits(value),
-            variance: Real::from_bits(squares.wrapping_sub(times(slope, slope)).max(0)),
-            covariance: Real::from_bits(times(slope, lift)),
+        Course {
+            slope: over(b.value.wrapping_sub(a.value), width.slope),
+            value: over(b.area.wrapping_sub(a.area), width.area),
+            squares: over(b.squares.wrapping_sub(a.squares), width.squares),
+            middle: (a.value >> 1).wrapping_add(b.value >> 1),
         }
     }
 }

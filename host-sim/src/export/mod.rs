@@ -26,7 +26,8 @@ use crate::output::{self, Directory};
 use crate::scene::image::Shown;
 use crate::scene::{self, Kind, Scene};
 
-use module::{Module, comment};
+use module::Module;
+pub(crate) use module::comment;
 
 /// Prints the module of one scene, or writes those of all built-in ones.
 pub(crate) fn run(args: &Export) -> Result<(), Fail> {

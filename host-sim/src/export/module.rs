@@ -34,7 +34,7 @@ const NAMES: [(&str, &str); 20] = [
         "attractor::trace",
         "Camera Environment Extent Filter HeightField Light Finish Panorama Quality RayCaster Sampling Sky Tiles",
     ),
-    ("attractor::trace::material", "Anisotropic Clear Medium Mixture Phong TorranceSparrow"),
+    ("attractor::trace::material", "Anisotropic Clear Medium Mixture Phong Tabulated TorranceSparrow"),
     (
         "attractor::trace::solid",
         "Cube HalfSpace Moved Placed Plane Polygon Polyhedron Sphere Square Superellipsoid TaperedCylinder Torus",

@@ -15,6 +15,7 @@ use super::surface::{SIDE, camera};
 use super::texture::{self, color, constant, vector};
 use crate::scene::function::Function;
 use crate::scene::world::{Around, Colored, Figure, Gloss, Light, Matter, Stand, Step, WorldScene};
+use crate::slopes::Slopes;
 
 /// The map of a part.
 fn map(steps: &[Step]) -> String {
@@ -192,6 +193,19 @@ impl Choice {
     }
 }
 
+/// The tables of slopes, each once.
+fn tables(scene: &WorldScene) -> Vec<&Slopes> {
+    let mut tables = Vec::new();
+    for matter in &scene.world.materials {
+        if let Gloss::Tabulated { slopes, .. } = &matter.gloss
+            && !tables.contains(&slopes)
+        {
+            tables.push(slopes);
+        }
+    }
+    tables
+}
+
 /// Variant and type of a pigment with a highlight.
 fn kind(scene: &WorldScene, matter: &Matter) -> (String, String) {
     let (pigment, pigment_kind) = match matter.pigment {
@@ -203,6 +217,7 @@ fn kind(scene: &WorldScene, matter: &Matter) -> (String, String) {
         Gloss::Phong { .. } => ("Phong", "Phong"),
         Gloss::TorranceSparrow { .. } => ("Rough", "TorranceSparrow"),
         Gloss::Anisotropic { .. } => ("Grained", "Anisotropic"),
+        Gloss::Tabulated { .. } => ("Tabulated", "Tabulated<'static>"),
     };
     let (clear, inside) = if matter.medium.is_some() { ("Clear", "Clear") } else { ("", "()") };
     let kind = match (pigment_kind.as_str(), gloss_kind, inside) {
@@ -233,6 +248,10 @@ fn mixture(scene: &WorldScene, matter: &Matter) -> String {
     let mut code =
         format!("Mixture::matt({pigment}).with_parts({}, {})?", unit(matter.ambient), unit(matter.diffuse));
     let model = match matter.gloss {
+        Gloss::Tabulated { ref slopes, reflectance } => {
+            let k = tables(scene).iter().position(|known| *known == slopes).unwrap_or_default();
+            Some(format!("Tabulated::new(&SLOPES_{k}, {})?", unit(reflectance)))
+        }
         Gloss::None => None,
         Gloss::Phong { shininess } => Some(format!("Phong {{ shininess: {shininess} }}")),
         Gloss::TorranceSparrow { roughness, reflectance } => {
@@ -309,6 +328,16 @@ pub(super) fn world(scene: &WorldScene, module: &mut Module) {
     shapes.write("What stands in it.", "surfaces", life, module);
     let stuffs = Choice::new("Stuff", world.materials.iter().map(|matter| kind(scene, matter)));
     stuffs.write("What things are made of.", "materials", "", module);
+    for (k, slopes) in tables(scene).into_iter().enumerate() {
+        module.item(
+            "A table of slopes: version, side, reach in 256ths, weights.",
+            &format!(
+                "#[rustfmt::skip]\npub static SLOPES_{k}: [u16; {}] = [\n{}];\n",
+                slopes.words().len(),
+                slopes.code()
+            ),
+        );
+    }
     let materials: Vec<_> = world
         .materials
         .iter()

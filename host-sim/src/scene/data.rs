@@ -45,7 +45,7 @@ impl Table {
             }
             None => 1.0,
         };
-        let (name, text) = source.data(&self.csv)?;
+        let (name, text) = source.data(&self.csv, "csv")?;
         let malformed = |error: csv::Error| Fail::new(format_args!("{name}: {error}"));
         let mut table = ReaderBuilder::new().flexible(true).trim(Trim::All).from_reader(text.as_bytes());
         let header = table.headers().map_err(malformed)?.clone();

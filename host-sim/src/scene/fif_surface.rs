@@ -91,6 +91,11 @@ impl Profile {
         let scalings = source.place(given.vertical_scaling.span(), &format!("{prefix}vertical_scaling"));
         Ok(Self { function: given.compile(source, prefix)?, scalings })
     }
+
+    /// A complaint about how rough it is.
+    pub(crate) fn fail(&self, reason: impl std::fmt::Display) -> Fail {
+        self.scalings.fail(reason)
+    }
 }
 
 /// A surface ready to be drawn.

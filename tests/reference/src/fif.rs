@@ -137,6 +137,20 @@ impl Fif {
         (sum + product * DoubleDouble::from(end)).value()
     }
 
+    /// Number, scaling, constant and slope of each map in the unit abscissa.
+    ///
+    /// # Panics
+    /// When a map is of a higher degree.
+    pub(crate) fn affine(&self) -> Vec<(usize, f64, f64, f64)> {
+        let map = |(j, q): (usize, &Polynomial)| {
+            let q = q.coefficients();
+            assert!(q.len() <= 2, "an affine map");
+            let coefficient = |k: usize| q.get(k).copied().unwrap_or(0.0);
+            (j, self.maps[j].vertical_scaling, coefficient(0), coefficient(1))
+        };
+        self.unit_q.iter().enumerate().map(map).collect()
+    }
+
     /// The points `(x_j, y_j)` that the function passes through.
     pub fn knots(&self) -> Vec<(f64, f64)> {
         let last = DoubleDouble::from(self.last);

@@ -27,6 +27,7 @@ pub mod projected;
 pub mod random_curve;
 mod sampling;
 mod shade;
+pub mod slopes;
 mod surface;
 pub mod terrain;
 pub mod texture;

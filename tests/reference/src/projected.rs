@@ -11,7 +11,7 @@
 //! of a height field, defined"; Cochran, Lewis and Hart, eq. 52 with the weight 1 over the pixel.
 
 use crate::camera::Camera;
-use crate::shade::{Environment, Finish};
+use crate::shade::{Environment, Facing, Finish};
 use crate::surface::Factor;
 use crate::vector::{Vector, cross, dot, normalised};
 
@@ -71,7 +71,7 @@ pub fn interior(
     let per_pixel = camera.footprint(side, 1);
     let length = |t: &[Part]| t[1].at - t[0].at;
     let scale = length(&xs) * length(&ys) / (per_pixel * per_pixel);
-    let half = side as f64 / 2.0;
+    let (half, light) = (side as f64 / 2.0, normalised(light));
     struct Sum {
         area: f64,
         turned: bool,
@@ -99,8 +99,9 @@ pub fn interior(
             sum.turned |= area <= 0.0;
             sum.area += area;
             sum.places += 1;
+            let facing = Facing::new(normal, v, light);
             for (tone, (finish, environment)) in sum.tones.iter_mut().zip(looks) {
-                *tone += area * finish.tone(normal, v, light, environment);
+                *tone += area * finish.answer(&facing, environment);
             }
         }
     }

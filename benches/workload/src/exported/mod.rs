@@ -3,6 +3,7 @@
 //! Written by `attractor export --all --gallery`.
 
 pub mod bowl;
+pub mod brdf_spheres;
 pub mod cantor;
 pub mod carpenter_1;
 pub mod carpenter_2;

@@ -167,6 +167,8 @@ const TABLE: &[Kernel] = &[
     roomy(beside("shade phong", "call", shade::phong, shade::phong_float::<f32>, shade::phong_float::<f64>)),
     roomy(beside("phong rgb", "call, one light", shade::phong_rgb, shade::phong_rgb_float::<f32>, shade::phong_rgb_float::<f64>)),
     roomy(beside("refraction", "call", shade::refraction, shade::refraction_float::<f32>, shade::refraction_float::<f64>)),
+    roomy(alone("torrance sparrow", "light", shade::torrance_sparrow)),
+    roomy(alone("tabulated", "light, by 32 x 32 slopes", shade::tabulated)),
     roomy(alone("plain diffuse", "pixel of G x G", filtered::plain_diffuse)),
     roomy(alone("filtered diffuse, coarse", "pixel of G x G", filtered::diffuse_coarse)),
     roomy(alone("filtered diffuse, fine", "pixel of G x G", filtered::diffuse_fine)),

@@ -3,11 +3,14 @@
 use core::hint::black_box;
 
 use attractor::num::{Lumen, Real, Rgb, Unit, Vec3};
-use attractor::trace::material::{Lit, Material as _, Mixture, Phong};
+use attractor::trace::material::{
+    Lit, Material as _, Mixture, Phong, Sight, Specular, Tabulated, TorranceSparrow,
+};
 use attractor::trace::{Chart, Environment, Finish, Light, SurfacePoint, refracted_direction};
 
 use super::trace::with_hits;
 use super::watch::{Tally, Watch};
+use crate::exported::brdf_spheres;
 use crate::float::Float;
 use crate::rivals::{self, Sun};
 
@@ -155,6 +158,36 @@ pub(super) fn phong_rgb(watch: &mut Watch<'_>) -> Tally {
             mixed_up([light.r, light.g, light.b].map(Lumen::to_bits))
         })
     })
+}
+
+/// The highlight of a model by one light.
+#[inline(always)]
+fn highlight(watch: &mut Watch<'_>, model: impl Specular) -> Tally {
+    let vector = |x: i32, y: i32, z: i32| Vec3::new(Real::from_num(x), Real::from_num(y), Real::from_num(z));
+    let (d, towards) = (vector(5, 4, -5).normalised(), vector(-1, -2, 3).normalised());
+    let (Some(d), Some(towards)) = (d, towards) else { return Tally::default() };
+    with_hits(|hits| {
+        let sights = hits.map(|(hit, _, _)| {
+            let normal = hit.normal().normalised().unwrap_or(d);
+            // along x, at right angles to the normal
+            let across = Vec3::new(normal.z, Unit::ZERO, normal.x.saturating_neg());
+            Sight { normal, direction: d, tangent: across }
+        });
+        let (model, towards) = black_box((&model, towards));
+        watch.over(&sights, |sight| model.part(&sight, towards).to_bits())
+    })
+}
+
+#[inline(never)]
+pub(super) fn torrance_sparrow(watch: &mut Watch<'_>) -> Tally {
+    let model = TorranceSparrow::new(Unit::from_num(0.5), Unit::ONE);
+    model.map_or(Tally::default(), |model| highlight(watch, model))
+}
+
+#[inline(never)]
+pub(super) fn tabulated(watch: &mut Watch<'_>) -> Tally {
+    let model = Tabulated::new(&brdf_spheres::SLOPES_0, Unit::ONE);
+    model.map_or(Tally::default(), |model| highlight(watch, model))
 }
 
 #[inline(never)]

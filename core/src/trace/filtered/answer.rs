@@ -6,8 +6,8 @@
 //! - Phong's mirrored ray against the light, `m . l = d . l - 2 (n^ . d) (n^ . l)`;
 //! - the mirrored ray itself, `d - 2 (n^ . d) n^`.
 //!
-//! Diffuse light changes so little over a pixel that four points stand for all of its boxes; what is mirrored
-//! has four for each.
+//! Diffuse light changes so little over a pixel that four points stand for all of its boxes, and one box is
+//! answered to second order; what is mirrored has four points for each.
 //!
 //! Formats: slopes and `w` 24 fractional bits, unit vectors and tones 30.
 
@@ -15,11 +15,11 @@ use core::num::NonZeroU32;
 
 use super::footprint::Footprint;
 use super::ground::Ground;
-use super::slopes::{Pool, Slope};
+use super::slopes::{Pool, Slope, Spread, times};
 use crate::num::{Unit, Vec3, product, reciprocal_of, reciprocal_sqrt_of};
 use crate::trace::environment::Environment;
 use crate::trace::finish::Finish;
-use crate::trace::power::{power, times};
+use crate::trace::power::{power, times as part_of};
 
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
@@ -82,6 +82,12 @@ fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     (product(v, mantissa) >> ((half + 1) & 63)) as i32
 }
 
+/// The tone of a matt surface.
+#[inline(always)]
+fn matte(ambient: Unit, matt: Unit) -> Unit {
+    ambient.saturating_add(part_of(Unit::ONE.saturating_sub(ambient), matt)).min(Unit::ONE)
+}
+
 impl<'a> View<'a> {
     pub(super) fn new(
         direction: Vec3<Unit>,
@@ -94,12 +100,42 @@ impl<'a> View<'a> {
         Self { direction, light: towards, straight, finish, environment }
     }
 
+    /// What a box shows in diffuse light, to second order; none where a part of it may turn away.
+    ///
+    /// `c = n^ . l` and `w = -n . d` as functions of the slopes, `S` their covariance, `u` the slopes over
+    /// `|n|`: `E(w c) / E(w) = c + w' S c' / w + tr(c'' S) / 2` with `w' = d`, `c' = -(l + c u) / |n|` and
+    /// `tr(c'' S) = (2 l S u + 3 c u S u - c tr S) / |n|^2`.
+    #[inline(always)]
+    pub(super) fn glance(&self, ambient: Unit, spread: &Spread) -> Option<Unit> {
+        let Spread { mean, covariance: [pp, pq, qq] } = *spread;
+        let facing = Facing::new(mean, self);
+        let ([dx, dy, _], [lx, ly, _]) = (self.direction, self.light);
+        let with = |[a, b]: Slope, x: i32, y: i32| unit_product(a, x).saturating_add(unit_product(b, y));
+        let under = |x: i32, y: i32| [with([pp, pq], x, y), with([pq, qq], x, y)];
+        let (along, to_light) = (under(dx, dy), under(lx, ly));
+        // one deviation may not turn away
+        let area = facing.area;
+        if area <= 0 || times(area, area) <= with(along, dx, dy) {
+            return None;
+        }
+        let (c, root) = (facing.lit, facing.root);
+        let [u, v] = mean.map(|s| scaled(s, root));
+        let cross = scaled(with(to_light, dx, dy).saturating_add(unit_product(with(along, u, v), c)), root);
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area.unsigned_abs())?);
+        let cross = (product(cross, mantissa) >> (38_u32.saturating_sub(zeros) & 63)) as i32;
+        let own = with(under(u, v), u, v).saturating_mul(3).saturating_sub(pp).saturating_sub(qq);
+        let bent = (with(to_light, u, v) << 1).saturating_add(unit_product(own, c));
+        let bent = unit_product(scaled(bent, root), scaled(1 << 24, root)) >> 1;
+        let matt = Unit::from_bits(c.saturating_sub(cross).saturating_add(bent).clamp(0, 1 << 30));
+        Some(matte(ambient, matt))
+    }
+
     /// What the footprint shows; none where a part of it may turn away from the eye.
     #[inline(always)]
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
         let mut shown = Shown::default();
         if let Finish::Diffuse { .. } = self.finish {
-            let mut pool = Pool::new(footprint.slope(), footprint.half());
+            let mut pool = Pool::new(footprint.half());
             footprint.each(ground, |part| {
                 pool.add(&part.slopes, part.share);
                 Some(())
@@ -177,12 +213,10 @@ impl<'a> View<'a> {
             |sum: i64| Unit::from_bits((((sum >> 4) * i64::from(part)) >> 26).clamp(0, 1 << 30) as i32);
         let (matt, highlight) = (mean(shown.matt), mean(shown.highlight));
         match self.finish {
-            Finish::Diffuse { ambient } => {
-                ambient.saturating_add(times(Unit::ONE.saturating_sub(ambient), matt)).min(Unit::ONE)
-            }
+            Finish::Diffuse { ambient } => matte(ambient, matt),
             Finish::Phong { ambient, diffuse, specular, .. } => {
-                let matt = ambient.saturating_add(times(diffuse, matt)).min(Unit::ONE);
-                matt.saturating_add(times(specular, highlight)).min(Unit::ONE)
+                let matt = ambient.saturating_add(part_of(diffuse, matt)).min(Unit::ONE);
+                matt.saturating_add(part_of(specular, highlight)).min(Unit::ONE)
             }
             Finish::Mirror => matt,
         }

@@ -10,12 +10,14 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::answer::View;
-use super::footprint::{Place, Quality, Sight, into};
+use super::footprint::{Place, Quality, Sight, into, whole};
 use super::ground::Ground;
+use super::slopes::Spread;
 use crate::Error;
 use crate::fif::Sums;
 use crate::num::{Unit, unit};
 use crate::plane::{Field, Tone, along};
+use crate::trace::finish::Finish;
 use crate::trace::height_field::halves::Pencil;
 use crate::trace::height_field::statistics::Uncounted;
 use crate::trace::ray_caster::{RayCaster, narrow, rounded};
@@ -117,8 +119,14 @@ impl<'a> FilteredCaster<'a> {
     #[inline(always)]
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let RayCaster { material, light, environment, .. } = &self.caster;
-        let footprint = self.quality.footprint(&self.ground, sight, self.edges, first, reach)?;
-        View::new(unit(sight.direction), light.towards, *material, environment).tone(&self.ground, &footprint)
+        let view = || View::new(unit(sight.direction), light.towards, *material, environment);
+        if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
+            let (slopes, half) = whole(&self.ground, sight, self.edges, first, reach)?;
+            return view().glance(ambient, &Spread::of(&slopes, half));
+        }
+        let care = (reach, matches!(material, Finish::Diffuse { .. }));
+        let footprint = self.quality.footprint(&self.ground, sight, self.edges, first, care)?;
+        view().tone(&self.ground, &footprint)
     }
 
     #[inline(always)]

@@ -25,7 +25,7 @@ use crate::num::{product, reciprocal_of, rough_sqrt};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Quality {
-    /// Two boxes.
+    /// Two boxes; in diffuse light one.
     Coarse,
     /// Eight boxes.
     Fine,
@@ -131,8 +131,6 @@ fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2
 /// A pixel's footprint and how it is cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Footprint {
-    /// The plane's slopes.
-    slope: Slope,
     /// The end of the first line, on the plane, and its height.
     at: [i32; 2],
     height: i32,
@@ -145,6 +143,7 @@ pub(super) struct Footprint {
     reach: i32,
     half: [i32; 2],
     sides: [Side; 2],
+    careful: bool,
 }
 
 /// A part of a footprint: the surface over its box, and the box's share of the ground.
@@ -160,11 +159,6 @@ impl Footprint {
         self.half
     }
 
-    /// The plane's slopes.
-    pub(super) const fn slope(&self) -> Slope {
-        self.slope
-    }
-
     /// Where the rays of a line meet the surface: at its middle.
     #[inline(always)]
     fn line(&self, ground: &[Ground<'_>; 2], at: [i32; 2], height: i32) -> [i32; 2] {
@@ -172,10 +166,14 @@ impl Footprint {
         let [x, y] = ground;
         let surface =
             |ax: i32, ay: i32| product(x.value(at[0].wrapping_add(ax)), y.value(at[1].wrapping_add(ay)));
-        // the mean height along it, by two points
-        let (ax, ay) = (ax >> 2, ay >> 2);
-        let mean = ((surface(ax, ay) >> 1) + (surface(-ax, -ay) >> 1)) >> 24;
-        let mean = mean as i32;
+        let mean = if self.careful {
+            // the mean height along it, by two points
+            let (ax, ay) = (ax >> 2, ay >> 2);
+            (surface(ax, ay) >> 1) + (surface(-ax, -ay) >> 1)
+        } else {
+            surface(0, 0)
+        };
+        let mean = (mean >> 24) as i32;
         let above = height.saturating_sub(mean).max(-self.reach).min(self.reach);
         let [fx, fy] = self.farther;
         [at[0].wrapping_add(moved(above, fx)), at[1].wrapping_add(moved(above, fy))]
@@ -229,8 +227,32 @@ fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
     v.map(|v| (product(v, part) >> 16) as i32)
 }
 
+/// The surface over the box of a pixel, and half of the box: none where it leaves the domain. The mean plane
+/// is that above a box around where the ray comes in, three quarters of a pixel to both sides.
+#[inline(always)]
+pub(super) fn whole(
+    ground: &[Ground<'_>; 2],
+    sight: &Sight,
+    pixel: [[i32; 3]; 2],
+    first: Place,
+    reach: i32,
+) -> Option<(Slopes, [i32; 2])> {
+    let [x, y] = ground;
+    let at = |[ax, ay]: [i32; 2], [sx, sy]: [Side; 2]| {
+        Some(Slopes { x: x.around(x.place(ax), &sx)?, y: y.around(y.place(ay), &sy)? })
+    };
+    // eight pixels are within reach
+    let near = (reach >> 4) + (reach >> 5);
+    let slopes = at(first.at, [x.side(near), y.side(near)])?;
+    let [_, _, z] = sight.at(first.t);
+    let place = sight.meet(first.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach);
+    let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
+    Some((at(place.at, sides)?, half))
+}
+
 impl Quality {
-    /// The footprint of a pixel from where its ray meets the surface: none where no plane fits.
+    /// The footprint of a pixel from where its ray meets the surface: none where no plane fits. What is matt
+    /// changes so little over a pixel that where its lines lie counts most: it is measured with more care.
     #[inline(always)]
     pub(super) fn footprint(
         self,
@@ -238,14 +260,14 @@ impl Quality {
         sight: &Sight,
         pixel: [[i32; 3]; 2],
         first: Place,
-        reach: i32,
+        (reach, careful): (i32, bool),
     ) -> Option<Footprint> {
         let [x, y] = ground;
         let whole = edges(&first, sight, steepness(first.slope, sight.direction), pixel);
         let (_, [sx, sy]) = sides(ground, whole);
         // the leaf where the ray comes in may lie far off the mean plane
         let mut place = first;
-        for _ in 0..2 {
+        for _ in 0..if careful { 2 } else { 1 } {
             let over_all =
                 Slopes { x: x.around(x.place(place.at[0]), &sx)?, y: y.around(y.place(place.at[1]), &sy)? };
             let [_, _, z] = sight.at(place.t);
@@ -273,7 +295,6 @@ impl Quality {
         let [_, _, z] = sight.at(place.t);
         let [dx, dy, _] = sight.direction;
         Some(Footprint {
-            slope,
             at,
             height: z.wrapping_sub(back(rises[0], rises[1])),
             steps: [(a, rises[0]), (b, rises[1])],
@@ -282,6 +303,7 @@ impl Quality {
             reach,
             half,
             sides,
+            careful,
         })
     }
 }

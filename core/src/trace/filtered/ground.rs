@@ -4,7 +4,7 @@
 
 use core::num::NonZeroU32;
 
-use crate::fif::{Sums, Trend, Width};
+use crate::fif::{Course, Sums, Width};
 use crate::num::{product, reciprocal_of};
 
 /// The whole domain.
@@ -72,7 +72,7 @@ impl<'a> Ground<'a> {
     /// The profile so far to both sides of a place, moved inside where less than a quarter is outside; none
     /// where more is.
     #[inline(always)]
-    pub(super) fn around(&self, middle: i32, side: &Side) -> Option<Trend> {
+    pub(super) fn around(&self, middle: i32, side: &Side) -> Option<Course> {
         let Side { half, width } = side;
         let (from, most) = (middle.saturating_sub(*half), WHOLE - (half << 1));
         if from < -(half >> 1) || from > most + (half >> 1) {

@@ -9,7 +9,9 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::color::{Color, light, light_or};
+use crate::builtin;
 use crate::fail::Fail;
+use crate::slopes::Slopes;
 use crate::source::{Num, Source};
 
 /// A table `[material.NAME]`.
@@ -26,6 +28,7 @@ pub(super) struct Made {
     roughness: Option<Num>,
     across: Option<Num>,
     reflectance: Option<Num>,
+    distribution: Option<Spanned<String>>,
     reflect: Option<Spanned<Color>>,
     transmit: Option<Spanned<Color>>,
     index: Option<Num>,
@@ -41,6 +44,7 @@ enum Model {
     Phong,
     TorranceSparrow,
     Anisotropic,
+    Tabulated,
 }
 
 /// What moves normals or turns the grain, and by how much.
@@ -60,24 +64,26 @@ pub(crate) enum Colored {
 }
 
 /// A model of highlights in numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Gloss {
     None,
     Phong { shininess: u16 },
     TorranceSparrow { roughness: Unit, reflectance: Unit },
     Anisotropic { along: Unit, across: Unit },
+    Tabulated { slopes: Slopes, reflectance: Unit },
 }
 
 impl Gloss {
     /// As core has it.
-    pub(crate) fn highlight(self) -> Result<Highlight, attractor::Error> {
-        Ok(match self {
+    pub(crate) fn highlight(&self) -> Result<Highlight<'_>, attractor::Error> {
+        Ok(match *self {
             Self::None => Highlight::None,
             Self::Phong { shininess } => Highlight::Phong(Phong { shininess }),
             Self::TorranceSparrow { roughness, reflectance } => {
                 Highlight::TorranceSparrow(TorranceSparrow::new(roughness, reflectance)?)
             }
             Self::Anisotropic { along, across } => Highlight::Anisotropic(Anisotropic::new(along, across)?),
+            Self::Tabulated { ref slopes, reflectance } => Highlight::Tabulated(slopes.model(reflectance)?),
         })
     }
 }
@@ -121,7 +127,7 @@ impl Matter {
     pub(crate) fn mixture<T>(
         &self,
         pigment: T,
-    ) -> Result<Mixture<T, Highlight, Option<Clear>>, attractor::Error> {
+    ) -> Result<Mixture<T, Highlight<'_>, Option<Clear>>, attractor::Error> {
         let mixture = Mixture::matt(pigment)
             .with_parts(self.ambient, self.diffuse)?
             .with_highlight(self.specular, self.gloss.highlight()?)
@@ -177,10 +183,10 @@ impl Matter {
             pigment,
             ambient: part(&given.ambient, "ambient", ambient)?,
             diffuse: part(&given.diffuse, "diffuse", diffuse)?,
-            specular: match (&given.specular, &given.model) {
-                (Some(color), _) => light(source, color, &key("specular"), 1)?,
-                (None, Some(_)) => Rgb::WHITE,
-                (None, None) => Rgb::BLACK,
+            specular: match &given.specular {
+                Some(color) => light(source, color, &key("specular"), 1)?,
+                None if given.model.is_some() || given.distribution.is_some() => Rgb::WHITE,
+                None => Rgb::BLACK,
             },
             gloss: gloss(source, given, &key)?,
             reflect: light_or(source, given.reflect.as_ref(), &key("reflect"), Rgb::BLACK)?,
@@ -205,7 +211,10 @@ where
 /// The highlight that the keys describe. Keys of another model are refused.
 fn gloss(source: &Source, given: &Made, key: &dyn Fn(&str) -> String) -> Result<Gloss, Fail> {
     let model = given.model.as_ref().map(|model| *model.get_ref());
-    let default = given.specular.is_some().then_some(Model::Phong);
+    let default = match (&given.distribution, &given.specular) {
+        (Some(_), _) => Some(Model::Tabulated),
+        (None, specular) => specular.is_some().then_some(Model::Phong),
+    };
     let model = model.or(default);
     let unused = |name: &str, span: Option<std::ops::Range<usize>>, models: &[Model]| match span {
         Some(span) if !model.is_some_and(|model| models.contains(&model)) => {
@@ -215,13 +224,19 @@ fn gloss(source: &Source, given: &Made, key: &dyn Fn(&str) -> String) -> Result<
         _ => Ok(()),
     };
     let (rough, phong) = ([Model::TorranceSparrow, Model::Anisotropic], [Model::Phong]);
+    let (mirrors, table) = ([Model::TorranceSparrow, Model::Tabulated], [Model::Tabulated]);
     unused("shininess", given.shininess.as_ref().map(Spanned::span), &phong)?;
     unused("roughness", given.roughness.as_ref().map(Spanned::span), &rough)?;
     unused("across", given.across.as_ref().map(Spanned::span), &rough[1..])?;
-    unused("reflectance", given.reflectance.as_ref().map(Spanned::span), &rough[..1])?;
+    unused("reflectance", given.reflectance.as_ref().map(Spanned::span), &mirrors)?;
+    unused("distribution", given.distribution.as_ref().map(Spanned::span), &table)?;
     let rough = |number: &Option<Num>, name: &str, usual: Unit| match number {
         None => Ok(usual),
         Some(number) => within(source, number, &key(name), (Wide::ONE >> 5, Wide::ONE)),
+    };
+    let reflectance = || match &given.reflectance {
+        None => Ok(Unit::ONE),
+        Some(number) => within(source, number, &key("reflectance"), (Wide::ZERO, Wide::ONE)),
     };
     Ok(match model {
         None => Gloss::None,
@@ -237,16 +252,35 @@ fn gloss(source: &Source, given: &Made, key: &dyn Fn(&str) -> String) -> Result<
         }
         Some(Model::TorranceSparrow) => Gloss::TorranceSparrow {
             roughness: rough(&given.roughness, "roughness", Unit::ONE / 4)?,
-            reflectance: match &given.reflectance {
-                None => Unit::ONE,
-                Some(number) => within(source, number, &key("reflectance"), (Wide::ZERO, Wide::ONE))?,
-            },
+            reflectance: reflectance()?,
         },
         Some(Model::Anisotropic) => Gloss::Anisotropic {
             along: rough(&given.roughness, "roughness", Unit::ONE / 8)?,
             across: rough(&given.across, "across", Unit::ONE / 2)?,
         },
+        Some(Model::Tabulated) => {
+            let Some(named) = &given.distribution else {
+                let span = given.model.as_ref().map_or(0..0, Spanned::span);
+                let reason = "distribution is missing, a table of slopes: `attractor brdf` writes it";
+                return Err(source.fail(span, &key("model"), reason));
+            };
+            let slopes = distribution(source, named, &key("distribution"))?;
+            Gloss::Tabulated { slopes, reflectance: reflectance()? }
+        }
     })
+}
+
+/// A table of slopes: that of a built-in surface, or one in a file beside the scene.
+fn distribution(source: &Source, named: &Spanned<String>, key: &str) -> Result<Slopes, Fail> {
+    let name = named.get_ref();
+    if let Some(text) = builtin::distribution(name) {
+        return Slopes::load(&Source::built_in(name, text));
+    }
+    if !name.contains('.') {
+        return Err(source.fail(named.span(), key, "allowed is f-x-f, g-x-g or the name of a file"));
+    }
+    let (name, text) = source.data(named, key)?;
+    Slopes::load(&Source::named(name, text))
 }
 
 impl Model {
@@ -255,6 +289,7 @@ impl Model {
             Self::Phong => "\"phong\"",
             Self::TorranceSparrow => "\"torrance-sparrow\"",
             Self::Anisotropic => "\"anisotropic\"",
+            Self::Tabulated => "\"tabulated\"",
         }
     }
 }

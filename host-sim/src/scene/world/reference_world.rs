@@ -4,8 +4,8 @@ use attractor::num::{Real, Unit};
 use attractor::trace::Filter;
 use attractor::trace::world::Op;
 use attractor_reference::world::{
-    Interpenetration, Leaf, Light, Material, Object, Pattern, Policy, Program, Specular, Step, Surroundings,
-    World,
+    Interpenetration, Leaf, Light, Material, Object, Pattern, Policy, Program, Slopes, Specular, Step,
+    Surroundings, World,
 };
 use attractor_reference::{Camera, Samples};
 
@@ -108,6 +108,14 @@ fn material(scene: &WorldScene, matter: &Matter) -> Material {
         ambient: unit(matter.ambient),
         diffuse: unit(matter.diffuse),
         specular: match matter.gloss {
+            Gloss::Tabulated { ref slopes, reflectance } => Specular::Tabulated {
+                colour,
+                slopes: Slopes::new(
+                    slopes.reach(),
+                    slopes.rows().map(|row| row.iter().copied().map(f64::from)),
+                ),
+                reflectance: unit(reflectance),
+            },
             Gloss::None => Specular::None,
             Gloss::Phong { shininess } => Specular::Phong { colour, exponent: shininess.into() },
             Gloss::TorranceSparrow { roughness, reflectance } => Specular::TorranceSparrow {

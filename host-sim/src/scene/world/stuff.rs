@@ -13,7 +13,7 @@ use super::material::{Colored, Matter};
 use super::texture::{Pattern, Pigment};
 
 /// The five components.
-type Mixed<'a> = Mixture<Pigment<'a>, Highlight, Option<Clear>>;
+type Mixed<'a> = Mixture<Pigment<'a>, Highlight<'a>, Option<Clear>>;
 
 materials! {
     /// Of what a thing is made.
@@ -93,7 +93,7 @@ pub(super) fn turned(pattern: &Pattern, strength: Real) -> Result<Option<Turned<
 }
 
 /// A material with these textures to choose from.
-pub(super) fn stuff<'a>(matter: &Matter, textures: &'a [Pattern]) -> Result<Stuff<'a>, Error> {
+pub(super) fn stuff<'a>(matter: &'a Matter, textures: &'a [Pattern]) -> Result<Stuff<'a>, Error> {
     let texture = |number: usize| textures.get(number);
     let pigment = match matter.pigment {
         Colored::Color(color) => Pigment::Plain(color),

@@ -8,6 +8,8 @@
 //!   `G = min(1, 2 (n . h) (n . v) / (v . h), 2 (n . h) (n . l) / (v . h))`, those not in the shade of
 //!   others;
 //!   `F = f + (1 - f) (1 - v . h)^5`;
+//! - a table of slopes: so with `D = pi P / cos^4 a`, `P` the density of the slopes `-(h . T) / (n . h)`
+//!   and `-(h . B) / (n . h)`, 0 where `cos^2 a` is below 1/32;
 //! - Ward, with a frame `T, B`:
 //!   `sqrt((n . l) / (n . v)) exp(-((h . T / s)^2 + (h . B / q)^2) / (h . n)^2) / (4 s q)`.
 //!
@@ -20,8 +22,41 @@ use crate::world::light::Colour;
 use crate::world::pattern::Pattern;
 use crate::world::refraction::mirrored;
 
+/// How much of a surface leans which way: weights of equal squares of slopes `(p, q)`, from `-reach` to
+/// `reach`, a row along `p` for each `q`; between their middles bilinear, beyond them 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slopes {
+    reach: f64,
+    weights: Vec<Vec<f64>>,
+    sum: f64,
+}
+
+impl Slopes {
+    /// From the weights, as many a row as there are rows.
+    pub fn new(reach: f64, rows: impl Iterator<Item = impl Iterator<Item = f64>>) -> Self {
+        let weights: Vec<Vec<f64>> = rows.map(Iterator::collect).collect();
+        let sum = weights.iter().flatten().sum();
+        Self { reach, weights, sum }
+    }
+
+    /// The density at a slope, of integral 1.
+    fn density(&self, p: f64, q: f64) -> f64 {
+        let per_slope = self.weights.len() as f64 / (2.0 * self.reach);
+        let place = |s: f64| (s + self.reach) * per_slope - 0.5;
+        let (x, y) = (place(p), place(q));
+        let (i, j) = (libm::floor(x), libm::floor(y));
+        let inside = |k: f64| (k >= 0.0).then_some(k as usize);
+        let weight = |i: f64, j: f64| {
+            let row = inside(j).and_then(|j| self.weights.get(j));
+            row.zip(inside(i)).and_then(|(row, i)| row.get(i)).copied().unwrap_or(0.0)
+        };
+        let row = |j: f64| weight(i, j) * (1.0 - (x - i)) + weight(i + 1.0, j) * (x - i);
+        (row(j) * (1.0 - (y - j)) + row(j + 1.0) * (y - j)) * per_slope * per_slope / self.sum
+    }
+}
+
 /// How a surface shines.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Specular {
     /// Not at all.
     None,
@@ -50,6 +85,15 @@ pub enum Specular {
         /// `q`, the roughness along `B`.
         across: f64,
     },
+    /// Facets that lean as a table says, along `T` and across it.
+    Tabulated {
+        /// `ks`.
+        colour: Colour,
+        /// How many lean which way.
+        slopes: Slopes,
+        /// `f`, the reflectance at right angles.
+        reflectance: f64,
+    },
 }
 
 impl Specular {
@@ -61,6 +105,12 @@ impl Specular {
         // Exactly against the light: no half-way direction, and nothing seen.
         let h = sum.map(|c| if length > 0.0 { c / length } else { 0.0 });
         let (n_v, n_l, n_h) = (clamped(n, v), clamped(n, l), clamped(n, h));
+        let facets = |reflectance: f64, d: f64| {
+            let v_h = clamped(v, h);
+            let g = (2.0 * n_h * n_v / v_h).min(2.0 * n_h * n_l / v_h).min(1.0);
+            let f = reflectance + (1.0 - reflectance) * libm::pow(1.0 - v_h, 5.0);
+            f * d * g / (4.0 * n_v)
+        };
         let dark = n_v == 0.0 || n_l == 0.0 || n_h == 0.0;
         let (colour, part) = match *self {
             Specular::None => return [0.0; 3],
@@ -68,16 +118,18 @@ impl Specular {
                 let m = mirrored(v.map(|c| -c), n);
                 (colour, libm::pow(clamped(m, l), exponent))
             }
-            Specular::TorranceSparrow { .. } | Specular::Ward { .. } if dark => return [0.0; 3],
+            _ if dark => return [0.0; 3],
             Specular::TorranceSparrow { colour, roughness, reflectance } => {
-                let v_h = clamped(v, h);
                 let square = n_h * n_h;
                 let tan = (1.0 - square) / square;
                 let s = roughness * roughness;
-                let d = libm::exp(-tan / s) / (s * square * square);
-                let g = (2.0 * n_h * n_v / v_h).min(2.0 * n_h * n_l / v_h).min(1.0);
-                let f = reflectance + (1.0 - reflectance) * libm::pow(1.0 - v_h, 5.0);
-                (colour, f * d * g / (4.0 * n_v))
+                (colour, facets(reflectance, libm::exp(-tan / s) / (s * square * square)))
+            }
+            Specular::Tabulated { colour, ref slopes, reflectance } => {
+                let square = n_h * n_h;
+                let density = slopes.density(-dot(h, t) / n_h, -dot(h, b) / n_h);
+                let d = if square < 1.0 / 32.0 { 0.0 } else { core::f64::consts::PI * density };
+                (colour, facets(reflectance, d / (square * square)))
             }
             Specular::Ward { colour, along, across } => {
                 let (x, y) = (dot(h, t) / along, dot(h, b) / across);
@@ -174,7 +226,7 @@ mod tests {
     }
 
     /// The light from `l` is `n . l` times the reflection function: the latter is the same both ways.
-    fn assert_reciprocal(specular: Specular) {
+    fn assert_reciprocal(specular: &Specular) {
         let (mut tried, mut largest) = (0, 0.0_f64);
         for v in directions() {
             for l in directions() {
@@ -194,8 +246,8 @@ mod tests {
     fn torrance_sparrow_and_ward_are_reciprocal() {
         for roughness in [0.1, 0.4] {
             let colour = GREY;
-            assert_reciprocal(Specular::TorranceSparrow { colour, roughness, reflectance: 0.1 });
-            assert_reciprocal(Specular::Ward { colour, along: roughness, across: 0.2 });
+            assert_reciprocal(&Specular::TorranceSparrow { colour, roughness, reflectance: 0.1 });
+            assert_reciprocal(&Specular::Ward { colour, along: roughness, across: 0.2 });
         }
     }
 
@@ -210,7 +262,7 @@ mod tests {
     }
 
     /// The sum of the answers to lights all over the hemisphere, over pi: what a white sky sends back.
-    fn albedo(specular: Specular, v: [f64; 3]) -> f64 {
+    fn albedo(specular: &Specular, v: [f64; 3]) -> f64 {
         let mut sum = 0.0;
         let count = 400;
         for i in 0..count {
@@ -233,7 +285,7 @@ mod tests {
             for roughness in [0.2, 0.5] {
                 let shiny = Specular::TorranceSparrow { colour, roughness, reflectance: 1.0 };
                 let grain = Specular::Ward { colour, along: roughness, across: 0.3 };
-                for specular in [shiny, grain] {
+                for specular in [&shiny, &grain] {
                     let sent = albedo(specular, v);
                     assert!(sent < 1.001, "{specular:?} {z}: {sent}");
                     largest = largest.max(sent);

@@ -39,7 +39,7 @@ pub use cube::Cube;
 pub use field::HeightField;
 pub use implicit::Implicit;
 pub use light::{Colour, Light};
-pub use material::{Material, Specular};
+pub use material::{Material, Slopes, Specular};
 pub use medium::{Interpenetration, Policy};
 pub use pattern::{Pattern, Point};
 pub use pigment::{Lookup, Texels, Turbulence};
