@@ -246,15 +246,31 @@ pub fn camera() -> Result<Camera, Error> {
     Camera::new(EYE, LOOK_AT, UP, FIELD_OF_VIEW)
 }
 
+/// The world.
+pub type Whole<'a> = World<'a, Thing, Stuff, false>;
+
+/// The world of these parts.
+///
+/// # Errors
+/// None: the command has built it.
+pub fn world<'a>(
+    leaves: &'a [Leaf<'a, Thing>],
+    objects: &'a [Object<'a>],
+    materials: &'a [Stuff],
+    lamps: &'a [Lamp],
+) -> Result<Whole<'a>, Error> {
+    Ok(World::of_leaves(leaves, objects, materials)?.with_lamps(lamps))
+}
+
 /// The picture of the world.
-pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 4, 7>;
+pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 4, 7, false>;
 
 /// The picture of the world; the command's seed is 1.
 ///
 /// # Errors
 /// Those of [`WorldCaster::new`].
 #[rustfmt::skip]
-pub fn caster<'a>(world: World<'a, Thing, Stuff>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
+pub fn caster<'a>(world: Whole<'a>, size: Size, seed: u32) -> Result<Caster<'a>, Error> {
     let caster = Caster::new(world, Sky { zenith: const { Rgb::new(Lumen::lit("0.00914"), Lumen::lit("0.02122"), Lumen::lit("0.0648")) }, horizon: const { Rgb::new(Lumen::lit("0.13843"), Lumen::lit("0.18782"), Lumen::lit("0.2789")) }, nadir: const { Rgb::new(Lumen::lit("0.00914"), Lumen::lit("0.00699"), Lumen::lit("0.00519")) } }, camera()?, size)?;
     caster.with_sampling(Sampling::Jittered { n: 3, seed }, Filter::Box)
 }
