@@ -58,8 +58,7 @@ fn a_lattice_is_within_two_units_a_digit() {
     assert!(most[0] > 0.5 && most[0] < 4.0 && most[1] > 0.5 && most[1] < 5.0, "{most:?}");
 }
 
-/// One height stays one, to the last bit; both addresses of a place give the same bits; heights at the ends of
-/// the range are heights.
+/// One height stays one, to the last bit; both addresses of a place give the same bits.
 #[test]
 fn a_level_stays_level_and_a_place_has_one_height() {
     let mut words = Words(29);

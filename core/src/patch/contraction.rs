@@ -321,8 +321,8 @@ impl Contraction {
         Wide::from_bits(i64::try_from(most).unwrap_or(i64::MAX).saturating_mul(1 << 24))
     }
 
-    /// The least `g` with `2^g` above what weights of any word can be in sum, a part in 256 to spare: how many
-    /// bits heights need above their own.
+    /// The least `g` with `2^g` above what weights of any word can be in sum, a part in 256 to spare: how
+    /// many bits heights need above their own.
     pub(super) const fn headroom(&self) -> u32 {
         let most = self.reach.saturating_add(self.reach >> 8).unsigned_abs();
         (u64::BITS - most.leading_zeros()).saturating_sub(28)

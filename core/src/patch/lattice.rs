@@ -53,8 +53,8 @@ impl Mask {
     ///
     /// # Errors
     /// [`Error::NotBarycentric`] for a class with another sum: `column` 0 for the entries with even indices,
-    /// 1 where the second is odd, 2 where the first is, 3 for both; [`Error::OutOfRange`] for an entry of 2 or
-    /// more in magnitude; [`Error::NotContractive`] and [`Error::OutOfRange`] as [`Contraction`] says.
+    /// 1 where the second is odd, 2 where the first is, 3 for both; [`Error::OutOfRange`] for an entry of 2
+    /// or more in magnitude; [`Error::NotContractive`] and [`Error::OutOfRange`] as [`Contraction`] says.
     pub fn new(entries: [[Near; 5]; 5]) -> Result<Self, Error> {
         let mut bits = entries.map(|row| row.map(Near::to_bits));
         for class in 0..4_usize {
@@ -139,9 +139,9 @@ impl Mask {
     /// The height at `s` and `t` of a cell, saturated. All addresses of a place give the same bits.
     ///
     /// Error: 2 units of `2^-24` a digit and 2 for heights within 1 of 0, in proportion beyond
-    /// (`a_lattice_is_within_two_units_a_digit`). Proof: a step is off by 18 units of the scale, `2^(g - 6)` units
-    /// of `2^-24` each for weights of a word that are proven to stay below `2^g` in sum, and later steps make of it
-    /// what `|phi|_1` says: at most 1.7 a digit for the masks of `docs/FITS.md`, whose `g` is 2 at most.
+    /// (`a_lattice_is_within_two_units_a_digit`). Proof: a step is off by 18 units of the scale, each
+    /// `2^(g - 6)` of `2^-24` for weights of words that are proven to stay below `2^g` in sum, and later steps
+    /// make of it what `|phi|_1` says: at most 1.7 a digit for the masks of `docs/FITS.md`, whose `g` is 1 or 2.
     ///
     /// Cost: 100 products a digit but the last, and 16 (the kernel row `patch lattice` counts a point of 12).
     pub fn height(&self, heights: &[Real; 16], at: [Address<2>; 2]) -> Real {

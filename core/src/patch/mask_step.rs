@@ -141,7 +141,8 @@ pub(super) fn exact_part(classes: &Classes, from: &[Q24; 16], [i, j]: [usize; 2]
     to
 }
 
-/// A class of those, its first old and new heights at these places; `L` old heights from the first to the last.
+/// A class of those, its first old and new heights at these places; `L` old heights from the first to the
+/// last.
 #[inline(always)]
 fn exact_class<const R: usize, const C: usize, const L: usize>(
     entries: &[[i32; C]; R],

@@ -296,8 +296,8 @@ mod tests {
     }
 
     /// A lattice comes nearer and nearer than the cubic spline that it starts from, but for what its tether
-    /// takes. No step raises the cost, which proves a bound of all heights; it is a weak one, as the tether is:
-    /// what the tether is for is seen beside a fit without it.
+    /// takes. No step raises the cost, which proves a bound of all heights; it is a weak one, as the tether
+    /// is: what the tether is for is seen beside a fit without it.
     #[test]
     fn a_fit_comes_nearer() {
         let hills =
