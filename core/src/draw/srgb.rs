@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Source: IEC 61966-2-1. Format: light in 65535ths, codes in 255ths. One table of 510 bytes serves both
-//! ways: where codes begin.
+//! ways, where codes begin; 512 bytes more tell which code to begin with.
 
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 
