@@ -30,7 +30,6 @@ const NOT_SERDE: [(&str, &[&str]); 6] = [
             "Lamp",
             "Anisotropic",
             "TorranceSparrow",
-            "Highlight",
             "Clear",
             "Mixture",
             "Spline",
