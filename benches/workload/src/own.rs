@@ -55,9 +55,13 @@ pub(crate) const ROWS: &[Scene] = &[
     mono("fif graph", graph::<BinaryColor>),
     roomy(colour("fif mirror", fif_mirror::<Rgb565, 8, { Pyramid::cells(2, 8) }>)),
     roomy(mono("fif mirror", fif_mirror::<BinaryColor, 8, { Pyramid::cells(2, 8) }>)),
+    mono("fif mirror of depth 6", fif_mirror::<BinaryColor, 6, { Pyramid::cells(2, 6) }>),
+];
+
+/// Worlds of the command with one ray a pixel.
+pub(crate) const WORLDS: &[Scene] = &[
     roomy(colour("bowl of one sample", |stage| once!(stage, bowl))),
     roomy(colour("glass spheres of one sample", |stage| once!(stage, glass_spheres))),
-    mono("fif mirror of depth 6", fif_mirror::<BinaryColor, 6, { Pyramid::cells(2, 6) }>),
 ];
 
 /// A mirror whose pyramid is larger than the RAM of any of the targets: each must refuse it.

@@ -3,18 +3,18 @@
 //! To add one: write a function that builds its objects, [claims](crate::sink::Stage::claim) their RAM and
 //! [shows](crate::sink::Stage::show) them, and add a line to `own::ROWS`. The function takes the size from
 //! the stage, so that one function serves several lines. A built-in scene of the command is a line of
-//! `built_in::PAIRS`, or of `built_in::IN_MONO`.
+//! `built_in::PAIRS`, `WORLDS` or `IN_MONO`.
 
-use crate::built_in::{IMAGES, IN_MONO, PAIRS};
+use crate::built_in::{IMAGES, IN_MONO, PAIRS, WORLDS as BUILT_IN_WORLDS};
 use crate::machine::SMALL;
 use crate::own::{self, ROWS};
 
 pub use crate::scene::Scene;
 
-/// The table: the target's own scenes, and the built-in scenes of the command; in an image for Armv6-M those
-/// that it can draw.
+/// The target's own scenes and the built-in scenes of the command; in an image for Armv6-M those that it can
+/// draw.
 pub static ALL: &[Scene] = &{
-    let mut all = [ROWS[0]; count(ROWS.len() + BUILT_IN.len() + IN_MONO.len())];
+    let mut all = [ROWS[0]; count(ROWS.len() + BUILT_IN.len())];
     let (mut i, mut kept) = (0, 0);
     while kept < all.len() {
         if fits(i) {
@@ -26,8 +26,19 @@ pub static ALL: &[Scene] = &{
     all
 };
 
+/// Worlds and textures, which have an image of their own; none on Armv6-M.
+pub static WORLDS: &[Scene] = if SMALL {
+    &[]
+} else {
+    const PARTS: [&[Scene]; 3] = [own::WORLDS, BUILT_IN_WORLDS.as_flattened(), IN_MONO];
+    &joined::<{ PARTS[0].len() + PARTS[1].len() + PARTS[2].len() }>(PARTS)
+};
+
 /// Encoded pictures, which have an image of their own; none on Armv6-M.
 pub static CODED: &[Scene] = if SMALL { &[] } else { IMAGES.as_flattened() };
+
+/// All tables, each with the image that draws it.
+pub static TABLES: [(&str, &[Scene]); 3] = [("scenes", ALL), ("worlds", WORLDS), ("images", CODED)];
 
 /// A mirror whose pyramid is larger than the RAM of any of the targets: each must refuse it.
 pub static TOO_LARGE: Scene = own::TOO_LARGE;
@@ -35,14 +46,20 @@ pub static TOO_LARGE: Scene = own::TOO_LARGE;
 const BUILT_IN: &[Scene] = PAIRS.as_flattened();
 
 const fn row(i: usize) -> Scene {
-    let (own, built_in) = (ROWS.len(), ROWS.len() + BUILT_IN.len());
-    if i < own {
-        ROWS[i]
-    } else if i < built_in {
-        BUILT_IN[i - own]
-    } else {
-        IN_MONO[i - built_in]
+    if i < ROWS.len() { ROWS[i] } else { BUILT_IN[i - ROWS.len()] }
+}
+
+const fn joined<const N: usize>(parts: [&[Scene]; 3]) -> [Scene; N] {
+    let (mut all, mut k, mut part) = ([parts[0][0]; N], 0, 0);
+    while part < parts.len() {
+        let mut i = 0;
+        while i < parts[part].len() {
+            all[k] = parts[part][i];
+            (k, i) = (k + 1, i + 1);
+        }
+        part += 1;
     }
+    all
 }
 
 const fn fits(i: usize) -> bool {

@@ -38,7 +38,7 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
             table.iter().map(|scene| (scene.name, format!("{}x{}", scene.size.width, scene.size.height)));
         sizes.filter(|(name, size)| asked(&format!("{name} {size}"))).collect()
     };
-    let tables = [("scenes", of(scenes::ALL)), ("images", of(scenes::CODED))];
+    let tables = scenes::TABLES.map(|(image, table)| (image, of(table)));
     if kernels.is_empty() && tables.iter().all(|(_, scenes)| scenes.is_empty()) {
         bail!("no kernel and no scene has {} in its name", options.names.join(" or "));
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
+use attractor_workload::scenes::TABLES;
 
 use crate::elf;
 use crate::emulator;
@@ -14,9 +15,6 @@ use crate::report::{FlashRow, KernelRow, Measured, SceneRow};
 use crate::stack;
 use crate::targets::{Machine, Target};
 use crate::toolchain::Toolchain;
-
-/// The images that draw scenes.
-const TABLES: [&str; 2] = ["scenes", "images"];
 
 /// Builds the images, runs them and gathers what they say; counts the kernels `by_kind` once more,
 /// instruction by instruction. Comparisons come later.
@@ -52,7 +50,7 @@ pub(crate) fn measure(
         for line in run(&machine, images.path("kernels")?, limit)? {
             measured.take(&machine, line);
         }
-        for table in TABLES {
+        for (table, _) in TABLES {
             for line in run(&machine, images.path(table)?, limit)? {
                 measured.take(&machine, line);
             }
@@ -142,7 +140,7 @@ impl Measured {
 /// Draws every scene once more into files, and turns these into PPM pictures.
 fn stream(target: &Target, images: &Images, limit: Duration, directory: &Path) -> Result<()> {
     std::fs::create_dir_all(directory).with_context(|| format!("{} cannot be made", directory.display()))?;
-    for table in TABLES {
+    for (table, _) in TABLES {
         emulator::run(&target.machine, images.path(table)?, &["frames"], &[], directory, limit)?;
     }
     for entry in std::fs::read_dir(directory)? {

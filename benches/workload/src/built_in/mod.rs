@@ -93,10 +93,16 @@ pub(crate) const PAIRS: &[[Scene; 2]] = &[
     both_roomy(julia_set!("rabbit-outline", rabbit_outline)),
     julia_set!("julia-dendrite", julia_dendrite),
     julia_set!("san-marco", san_marco),
+];
+
+/// What rays are cast at in a world, and textures, which have an image of their own: together with the others
+/// they take more flash than there is.
+pub(crate) const WORLDS: &[[Scene; 2]] = &[
     both_roomy(world!("bowl", bowl)),
     both_roomy(world!("rocket", rocket)),
     both_roomy(world!("orange", orange)),
     both_roomy(world!("parcel", parcel)),
+    both_roomy(world!("brdf-spheres", brdf_spheres)),
     both_roomy(field_world!("figure-7", figure_7)),
     both_roomy(texture!("clouds", clouds)),
     both_roomy(texture!("lava", lava)),
@@ -113,6 +119,7 @@ pub(crate) const IN_MONO: &[Scene] = &[
     both_roomy(patch_surface!("patch-rock", patch_rock))[1],
     both_roomy(patch_surface!("patch-diagonal", patch_diagonal))[1],
     both_roomy(patch_surface!("patch-mountain", patch_mountain))[1],
+    both_roomy(patch_surface!("patch-joinings", patch_joinings))[1],
 ];
 
 /// Encoded pictures, which have an image of their own: their decoders take more flash than that of the others
