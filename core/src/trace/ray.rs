@@ -93,8 +93,7 @@ impl Footprint {
 
     /// As wide as this where the ray starts, 24 fractional bits.
     pub(super) fn with_width(self, width: i32) -> Self {
-        let tip = Self { begin: 0, ..self };
-        Self { begin: tip.reaches(width.max(0)), ..self }
+        Self { begin: self.length(width.max(0)), ..self }
     }
 
     /// The same cone for a ray that starts at `t`.
@@ -126,9 +125,15 @@ impl Footprint {
     /// From where on the cone is at least `width` wide (both 24 fractional bits); below 0 where it is so from
     /// the start.
     pub(crate) fn reaches(self, width: i32) -> i64 {
+        // neither is below 0
+        self.length(width).wrapping_sub(self.begin)
+    }
+
+    /// How far from its tip the cone is `width` wide.
+    pub(super) fn length(self, width: i32) -> i64 {
         let (mantissa, shift) = self.reciprocal;
         // per_t has 30 fractional bits
-        ((i64::from(width) * i64::from(mantissa)) >> ((shift - 30) & 63)).saturating_sub(self.begin)
+        (i64::from(width) * i64::from(mantissa)) >> ((shift - 30) & 63)
     }
 }
 

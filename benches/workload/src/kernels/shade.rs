@@ -141,22 +141,32 @@ pub(super) fn phong_rgb(watch: &mut Watch<'_>) -> Tally {
     with_hits(|hits| {
         // every ray has a direction of its own
         let pairs = hits.map(|(hit, _, _)| (d, hit.normal().normalised().unwrap_or(d)));
-        let (material, lit) =
-            black_box((matt.with_highlight(grey, Phong { shininess: 32 }), Lit { towards, light }));
-        let mut point = SurfacePoint {
-            position: Vec3::default(),
-            place: Vec3::default(),
-            normal: d,
-            chart: Chart::default(),
-            face: 0,
-            inward: false,
-            width: Real::ZERO,
-        };
-        watch.over(&pairs, |(d, n)| {
-            point.normal = n;
-            let light = material.respond(&point, d, core::iter::once(lit)).light;
-            mixed_up([light.r, light.g, light.b].map(Lumen::to_bits))
-        })
+        let material = matt.with_highlight(grey, Phong { shininess: 32 });
+        answers(watch, &pairs, black_box(&material), black_box(Lit { towards, light }))
+    })
+}
+
+/// What a material answers to one light, along these directions at these normals: a loop for itself.
+#[inline(never)]
+fn answers(
+    watch: &mut Watch<'_>,
+    pairs: &[(Vec3<Unit>, Vec3<Unit>)],
+    material: &Mixture<Rgb, Phong>,
+    lit: Lit,
+) -> Tally {
+    let blank = SurfacePoint {
+        position: Vec3::default(),
+        place: Vec3::default(),
+        normal: Vec3::default(),
+        chart: Chart::default(),
+        face: 0,
+        inward: false,
+        width: Real::ZERO,
+    };
+    watch.over(pairs, |(d, n)| {
+        let point = SurfacePoint { normal: n, ..blank };
+        let light = material.respond(&point, d, core::iter::once(lit)).light;
+        mixed_up([light.r, light.g, light.b].map(Lumen::to_bits))
     })
 }
 

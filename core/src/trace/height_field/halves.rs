@@ -217,15 +217,15 @@ impl Hierarchy<'_> {
         Pencil {
             origin,
             footprint,
-            detail: self.level_of_detail(footprint),
+            detail: self.level_of_detail::<WIDE>(footprint),
             x: Middle::new(&self.x, x),
             y: Middle::new(&self.y, y),
         }
     }
 
-    fn level_of_detail(&self, footprint: Footprint) -> LevelOfDetail {
-        let begin = footprint.begin();
-        let small = footprint.reaches(self.x.width.max(self.y.width)).saturating_add(begin).max(0);
+    fn level_of_detail<const WIDE: bool>(&self, footprint: Footprint) -> LevelOfDetail {
+        let begin = if WIDE { footprint.begin() } else { 0 };
+        let small = footprint.length(self.x.width.max(self.y.width));
         // at most 31: a width has 31 bits, the reciprocal of a footprint 32
         let shift = 33_u32.saturating_sub(small.leading_zeros());
         let begin = (begin >> shift).min(i64::from(i32::MAX)) as u32;
@@ -510,7 +510,7 @@ mod tests {
                 let (x, y) = (profile(width), profile(width / 3));
                 let (x, y) = if per_t % 2 == 0 { (x, y) } else { (y, x) };
                 let hierarchy = Hierarchy { x, y, depth: 16, leaves: 0, heights: (0, 0) };
-                let detail = hierarchy.level_of_detail(Footprint::new(Unit::from_bits(per_t)));
+                let detail = hierarchy.level_of_detail::<false>(Footprint::new(Unit::from_bits(per_t)));
                 for level in 0..=16 {
                     let exact = i128::from(width) << 30;
                     let under = i128::from(per_t) << level;
@@ -547,7 +547,7 @@ mod tests {
                     let hierarchy =
                         Hierarchy { x: profile, y: profile, depth: 16, leaves: 0, heights: (0, 0) };
                     let footprint = Footprint::new(Unit::from_bits(per_t)).with_width(begin);
-                    let detail = hierarchy.level_of_detail(footprint);
+                    let detail = hierarchy.level_of_detail::<true>(footprint);
                     for level in 0..=16 {
                         for t in [0, 999, 1 << 22, 7 << 24, i32::MAX] {
                             let exact = (i128::from(begin) << 30) + i128::from(t) * i128::from(per_t);

@@ -185,8 +185,8 @@ impl<R: Randomness> Surface for DeepTerrain<'_, R> {
         let [columns, rows] = &self.frame.rules;
         let width = columns.width().max(rows.width());
         let word = |t: i64| t.min(i64::from(i32::MAX)) as i32;
-        let wide_from = word(Footprint::new(cone).reaches(width));
-        let begin = word(Footprint::new(cone).with_width(ray.width).begin());
+        let footprint = Footprint::new(cone);
+        let (wide_from, begin) = (word(footprint.length(width)), word(footprint.length(ray.width)));
         let seen = Seen { terrain: self, wide_from, begin };
         let _ = walk(&seen, &self.frame, &ray.axes(), &mut handed(found));
     }

@@ -77,9 +77,6 @@ struct Search<'r, const E: usize> {
     begin: usize,
     leaf: u8,
     object: u8,
-    /// Whether the first change of the leaf is all that counts, and that change.
-    is_alone: bool,
-    first: Option<Crossing>,
     /// Whether the ray starts inside the leaf, and whether the first crossing is to tell.
     is_inside: bool,
     is_undecided: bool,
@@ -100,8 +97,6 @@ impl<'r, const E: usize> Search<'r, E> {
             begin: 0,
             leaf: 0,
             object: 0,
-            is_alone: false,
-            first: None,
             is_inside: false,
             is_undecided: false,
             found: None,
@@ -126,14 +121,6 @@ impl<'r, const E: usize> Search<'r, E> {
             (self.is_inside, self.is_undecided) = (!crossing.enters, false);
         }
         if crossing.t.to_bits() > self.limit {
-            return ControlFlow::Break(());
-        }
-        if self.is_alone && crossing.enters == self.is_inside {
-            return ControlFlow::Continue(());
-        }
-        if self.is_alone {
-            // nothing is seen through it
-            self.first = Some(crossing);
             return ControlFlow::Break(());
         }
         self.events.insert(self.begin, Event { crossing, leaf: self.leaf, object: self.object });
@@ -238,7 +225,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     #[inline(never)]
     fn cross_all<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) -> bool {
         let count = search.events.len();
-        (search.object, search.is_alone) = (number, false);
+        search.object = number;
         if let Some(leaf) = object.only() {
             self.cross(search, leaf);
         } else if COMPOUNDS {
@@ -251,11 +238,9 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     #[inline(never)]
     fn first<const E: usize>(&self, search: &mut Search<'_, E>, number: u8, object: &Object<'_>) {
         if let Some(leaf) = object.only() {
-            (search.is_alone, search.first) = (true, None);
-            self.cross(search, leaf);
-            if let Some(crossing) = search.first {
-                let (event, before) = (Event { crossing, leaf, object: number }, search.states.inside);
-                search.keep(Met { event, before, behind: event.behind(before), unknown: 0 });
+            let Search { ray, start, states, limit, .. } = *search;
+            if let Some(met) = self.change_of([leaf, number], ray, start, states, limit) {
+                search.keep(met);
             }
             return;
         }
@@ -264,7 +249,6 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             return;
         }
         (search.begin, search.object) = (search.events.len(), number);
-        search.is_alone = false;
         if let Some((leaf, others)) = object.carved() {
             if !self.cross(search, leaf) {
                 search.untried |= object.others;
@@ -360,9 +344,15 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
     /// The first change of an opaque leaf that is an object of its own, up to `limit`: nothing has to be
     /// sorted.
     #[inline(never)]
-    fn change_of(&self, [number, object]: [u8; 2], ray: &Ray, start: &Start, limit: i32) -> Option<Met> {
+    fn change_of(
+        &self,
+        [number, object]: [u8; 2],
+        ray: &Ray,
+        start: &Start,
+        States { inside, unknown }: States,
+        limit: i32,
+    ) -> Option<Met> {
         let surface = &self.leaf(number)?.surface;
-        let States { inside, unknown } = start.states;
         let mut is_inside = has(inside, number);
         let mut is_undecided =
             start.departed != Some(number) && (has(unknown, number) || !surface.is_closed());
@@ -396,7 +386,11 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
             && self.media() == 0
         {
             let is_missed = self.is_missed(0, object, ray, start, &mut 0);
-            return if is_missed { None } else { self.change_of([leaf, 0], ray, start, i32::MAX) };
+            return if is_missed {
+                None
+            } else {
+                self.change_of([leaf, 0], ray, start, start.states, i32::MAX)
+            };
         }
         let mut search = Search::<E>::new(ray, start, i32::MAX);
         if M::MAY_BE_CLEAR {
@@ -486,7 +480,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         object: &Object<'_>,
     ) -> bool {
         if let Some(leaf) = object.only() {
-            return self.change_of([leaf, number], ray, start, limit).is_some();
+            return self.change_of([leaf, number], ray, start, start.states, limit).is_some();
         }
         let mut search = Search::<E>::new(ray, start, limit);
         self.first(&mut search, number, object);
