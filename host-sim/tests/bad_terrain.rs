@@ -57,6 +57,8 @@ fn terrain_that_cannot_be_is_refused() {
     said.change(TERRAIN, "levels = 3", "levels = 3\nover = [[1, 1], [-1, 1]]");
     said.change(TERRAIN, "levels = 3", "levels = 3\ninner = \"cubic\"");
     said.change(TERRAIN, "levels = 3", "levels = 3\nsamples = 0");
+    said.change(TERRAIN, "levels = 3", "levels = 3\ncontrast = [90, 90]");
+    said.change(TERRAIN, "levels = 3", "levels = 3\ncontrast = [0, 256]");
     said.change(TERRAIN, "levels = 3", "levels = 3\nhaze = 1.5");
     said.change(TERRAIN, "levels = 3", "levels = 3\nmesh = \"lattice\"");
     said.change(TERRAIN, "[camera]", "[near]\neye = [0, 0, 1]\nlength = 0.1\n[camera]");

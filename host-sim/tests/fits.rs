@@ -73,7 +73,7 @@ fn what_cannot_be_fitted_is_said_in_one_line_and_nothing_is_written() {
     picture(&at.join("tiny.png"), [2, 2], sixteen, |x, y| (x + y) as u16);
     picture(&at.join("void.png"), [33, 33], sixteen, |x, y| if x == 7 { 1 << 15 } else { (x * y) as u16 });
     picture(&at.join("low.png"), [33, 33], png::BitDepth::Eight, |x, y| (x * x + y) as u16 / 8);
-    let cases: [(&[&str], &str); 15] = [
+    let cases: [(&[&str], &str); 18] = [
         (&["flat.png", "--parameters", "70"], "flat"),
         (&["tiny.png", "--parameters", "4"], "2 samples a side holds no"),
         (&["void.png", "--parameters", "70"], "33 samples of the window are missing"),
@@ -88,7 +88,10 @@ fn what_cannot_be_fitted_is_said_in_one_line_and_nothing_is_written() {
         (&[DEM, "--bytes", "30", "--window", "0,0,33"], "--bytes 30"),
         (&[DEM, "--parameters", "70", "--window", "0,0"], "a window is row,col,side"),
         (&[DEM, "--parameters", "70", "--model", "cubic", "--window", "0,0,33"], "cubic"),
-        (&[DEM, "--window", "0,0,33"], "--parameters"),
+        (&[DEM, "--parameters", "70", "--window", "-1,0,33"], "a window is row,col,side"),
+        (&[DEM, "--parameters", "-70", "--window", "0,0,33"], "-70"),
+        (&[DEM, "--parameters", "70", "--bytes", "300", "--window", "0,0,33"], "cannot be used with"),
+        (&[DEM, "--window", "0,0,33"], "<--parameters <N>|--bytes <B>>"),
     ];
     for (args, reason) in cases {
         let args = [&["fit"], args, &["-o", "out.toml"]].concat();

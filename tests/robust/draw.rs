@@ -6,9 +6,9 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 
 use attractor::draw::{
-    Brightened, ColoredDots, CourseUnit, Cycled, Dithered, Dots, Equalised, Gradient, Grey, Ink, Inside,
-    Inverted, Level, Leveled, Lines, LsbPages, Luminance, MsbRows, Packing, Palette, Picture, PixelBytes,
-    PixelWords, Ramp, RowCursor, Srgb, Strips, Stroke, bayer, dithered, gradients, hex, luma,
+    Brightened, ColoredDots, Contrast, CourseUnit, Cycled, Dithered, Dots, Equalised, Gradient, Grey, Ink,
+    Inside, Inverted, Level, Leveled, Lines, LsbPages, Luminance, MsbRows, Packing, Palette, Picture,
+    PixelBytes, PixelWords, Ramp, RowCursor, Srgb, Strips, Stroke, bayer, dithered, gradients, hex, luma,
 };
 use attractor::escape::{Dwell, FractionalDwell, Period};
 use attractor::fixed::types::U21F11;
@@ -173,7 +173,7 @@ fn paint<V: Leveled + Copy + Debug>(
     let cycled = Cycled::new(gradients::PORCELAIN, period).with_offset(offset);
     assert_eq!(cycled.palette(), &gradients::PORCELAIN);
     let periods = Ramp::of_periods(gradients::FIRE);
-    let palettes: [&dyn Palette<V>; 14] = [
+    let palettes: [&dyn Palette<V>; 15] = [
         &CourseUnit,
         &Grey,
         &Brightened(Grey),
@@ -186,6 +186,7 @@ fn paint<V: Leveled + Copy + Debug>(
         &gradients::OCEAN,
         &gradients::MOSS,
         &Luminance(Grey),
+        &Contrast::new(Grey, 90, 91).unwrap(),
         &Inside::new(Grey, hex(0)),
         &Brightened(&cycled),
     ];

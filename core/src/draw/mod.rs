@@ -40,7 +40,7 @@
 //! | display | colour | palette and packing |
 //! | --- | --- | --- |
 //! | st7789, ili9341, gc9a01, ssd1351 | `Rgb565`, `Rgb666` | any palette; [`PixelBytes`], [`PixelWords`] |
-//! | ssd1306, sh1106 (one bit) | `BinaryColor` | [`Luminance`] for the right brightness; [`LsbPages`] |
+//! | ssd1306, sh1106 (one bit) | `BinaryColor` | [`Luminance`] for the right brightness, or [`Contrast`]; [`LsbPages`] |
 //! | Sharp memory LCD (one bit) | `BinaryColor` | [`Luminance`]; [`MsbRows`] |
 //! | e-paper whose `On` is black | `BinaryColor` | [`Inverted`]`(`[`Luminance`]`(..))`; [`MsbRows`] |
 //! | e-paper with a driver's own colours | a newtype | [`Ink`] says how |
@@ -48,6 +48,7 @@
 
 mod by_reference;
 mod clip;
+mod contrast;
 mod cursor;
 mod cycle;
 mod dither;
@@ -72,6 +73,7 @@ mod testing;
 mod transform;
 mod ycocg;
 
+pub use contrast::Contrast;
 pub use cursor::RowCursor;
 pub use cycle::{Cycled, Ramp};
 pub use dither::Dithered;

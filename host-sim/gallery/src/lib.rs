@@ -27,6 +27,7 @@ mod patch_surface;
 mod pencil;
 mod plot;
 mod random_curve;
+mod shade;
 mod terrain;
 
 pub use area::ground_words;

@@ -1,7 +1,6 @@
 //! A landscape: a surface by subdivision, or given heights, under a sun, in air, over a plain or a sea.
 
 use attractor::Error;
-use attractor::draw::Srgb;
 use attractor::num::{RandomField, Real, Rgb, Unit, Vec3};
 use attractor::terrain::{Heights, InnerGeometry, Law, PlaneToLine, Rows};
 use attractor::trace::material::{Hazy, Mixture};
@@ -11,6 +10,7 @@ use attractor::trace::{Camera, Extent, Filter, HeightRange, Sampling, Sky, Terra
 use embedded_graphics::geometry::Size;
 
 use crate::page::{Display, Watch, draw_field};
+use crate::shade::Shade;
 
 attractor::materials! {
     /// What it is made of.
@@ -92,6 +92,8 @@ pub struct TerrainPicture<'a> {
     pub view: (Vec3, Vec3, Real),
     /// Samples a side of a pixel.
     pub samples: u8,
+    /// The greys that a display of 16 levels or fewer shows as black and as white.
+    pub contrast: Option<[u8; 2]>,
 }
 
 /// What a landscape borrows while it is drawn.
@@ -215,7 +217,7 @@ impl TerrainPicture<'_> {
             n => Sampling::Jittered { n, seed },
         };
         let caster = caster.with_sampling(sampling, Filter::Box)?;
-        draw_field(&caster, Srgb, target, watch);
+        draw_field(&caster, Shade::new::<D::Color>(self.contrast)?, target, watch);
         Ok(())
     }
 }

@@ -120,6 +120,7 @@ fn literal(picture: &TerrainPicture<'_>) -> String {
         ("haze", unit(picture.haze)),
         ("view", format!("({}, {}, {})", vector(view.0), vector(view.1), real(view.2))),
         ("samples", picture.samples.to_string()),
+        ("contrast", format!("{:?}", picture.contrast)),
     ];
     let lines: String = fields.iter().map(|(name, value)| format!("    {name}: {value},\n")).collect();
     format!("#[rustfmt::skip]\npub const PICTURE: TerrainPicture<'static> = TerrainPicture {{\n{lines}}};\n")

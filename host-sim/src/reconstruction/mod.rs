@@ -48,6 +48,7 @@ Examples:
   attractor fit elevation.png --model lattice --parameters 382 --window 60,200,129 -o hills.toml
   attractor fit elevation.png --model standard --parameters 81 --window 60,200,129 -o patch.toml
   attractor fit elevation.png --model lattice --parameters 142 --tiles 129     sixteen tiles, each beside splines")]
+#[command(group = clap::ArgGroup::new("size").required(true))]
 pub(crate) struct Fit {
     /// A grey PNG file of 16 bits, one sample an elevation
     #[arg(value_name = "DEM.png")]
@@ -56,13 +57,13 @@ pub(crate) struct Fit {
     #[arg(long, default_value = "lattice")]
     model: Family,
     /// At most so many numbers and heights
-    #[arg(long, value_name = "N", conflicts_with = "bytes", required_unless_present = "bytes")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, group = "size")]
     parameters: Option<usize>,
     /// At most so many bytes
-    #[arg(long, value_name = "B")]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, group = "size")]
     bytes: Option<usize>,
     /// The square window that is fitted: its first row and column, and its side; else the whole file
-    #[arg(long, value_name = "row,col,side", value_parser = parse_window)]
+    #[arg(long, value_name = "row,col,side", allow_hyphen_values = true, value_parser = parse_window)]
     window: Option<[usize; 3]>,
     /// What becomes of missing samples
     #[arg(long, default_value = "refuse")]
@@ -71,7 +72,7 @@ pub(crate) struct Fit {
     #[arg(short, long, value_name = "SCENE.toml", required_unless_present = "tiles")]
     output: Option<PathBuf>,
     /// Instead: fit sixteen tiles of this side, evenly over the file, and print each beside splines
-    #[arg(long, value_name = "SIDE", conflicts_with_all = ["window", "output"])]
+    #[arg(long, value_name = "SIDE", allow_hyphen_values = true, conflicts_with_all = ["window", "output"])]
     tiles: Option<usize>,
 }
 

@@ -6,8 +6,8 @@
 use core::hint::black_box as bb;
 
 use attractor::draw::{
-    ColoredDots, CourseUnit, Cycled, Dots, Grey, Inverted, LsbPages, Luminance, MsbRows, Packing, Picture,
-    PixelBytes, RowCursor, Strips, Stroke, gradients,
+    ColoredDots, Contrast, CourseUnit, Cycled, Dots, Grey, Inverted, LsbPages, Luminance, MsbRows, Packing,
+    Palette, Picture, PixelBytes, RowCursor, Strips, Stroke, gradients,
 };
 use attractor::escape::{
     Arithmetic, Buffered, DeepMandelbrot, DeepView, Distance, EscapeTime, Filled, Interior, Julia,
@@ -120,6 +120,7 @@ fn drawing() -> Result<(), Error> {
     let mut strips = Strips::<_, _, _, MsbRows>::of_part(&picture, &area, bb(&mut buffer[..]))?;
     strips.repeat();
     bb(strips.for_each(|y, strip| if bb(y) == bb(8) { Err(strip.len()) } else { Ok(()) }).is_ok());
+    bb(Palette::rgb(&Contrast::new(Grey, bb(90), bb(200))?, bb(150_u8)));
     let picture =
         Picture::<_, _, Rgb565>::new(Mandelbrot::new(view, bb(10))?, Cycled::new(gradients::FIRE, bb(16)));
     bb(draw::Ramp::of_periods(bb(Grey)));

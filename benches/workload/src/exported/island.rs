@@ -71,4 +71,5 @@ pub const PICTURE: TerrainPicture<'static> = TerrainPicture {
     haze: Unit::lit("0.035"),
     view: (Vec3::lit("-0.9", "-3.4", "0.8"), Vec3::lit("0", "0", "0.12"), Real::lit("32")),
     samples: 2,
+    contrast: Some([84, 172]),
 };

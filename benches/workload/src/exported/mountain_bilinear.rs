@@ -55,4 +55,5 @@ pub const PICTURE: TerrainPicture<'static> = TerrainPicture {
     haze: Unit::lit("0"),
     view: (Vec3::lit("-0.9", "-2.7", "1.35"), Vec3::lit("0", "0.1", "0.12"), Real::lit("36")),
     samples: 1,
+    contrast: None,
 };

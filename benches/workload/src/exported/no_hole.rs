@@ -58,6 +58,7 @@ pub const PICTURE: TerrainPicture<'static> = TerrainPicture {
     haze: Unit::lit("0"),
     view: (Vec3::lit("0", "1", "0"), Vec3::lit("0", "0", "0"), Real::lit("40")),
     samples: 2,
+    contrast: None,
 };
 
 /// Its lines.

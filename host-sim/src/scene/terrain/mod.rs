@@ -54,6 +54,7 @@ struct File {
     ground: Option<Cover>,
     plain: Option<Level>,
     samples: Option<Spanned<u8>>,
+    contrast: Option<Spanned<[u8; 2]>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -215,6 +216,7 @@ impl TerrainScene {
                 haze: unit(&file.haze, "haze", Unit::ZERO)?,
                 view: (eye, look_at, field_of_view),
                 samples,
+                contrast: contrast(source, file.contrast.as_ref())?,
             },
             knots,
             lines,
@@ -487,6 +489,17 @@ fn sun(source: &Source, given: Option<&Sun>) -> Result<(Vec3, Rgb), Fail> {
         None => usual,
     };
     Ok((towards, color))
+}
+
+/// The greys that a display of few levels shows as black and as white.
+fn contrast(source: &Source, given: Option<&Spanned<[u8; 2]>>) -> Result<Option<[u8; 2]>, Fail> {
+    let Some(given) = given else { return Ok(None) };
+    let [black, white] = *given.get_ref();
+    if black >= white {
+        let reason = format!("{black} is black and {white} is white: the first must be the smaller");
+        return Err(source.fail(given.span(), "contrast", reason));
+    }
+    Ok(Some([black, white]))
 }
 
 fn sky(source: &Source, given: &Heaven) -> Result<Sky, Fail> {
