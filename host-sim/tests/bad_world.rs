@@ -135,6 +135,7 @@ fn lights_cameras_and_samples_outside_their_ranges_are_refused() {
     said.change(WORLD, "towards = [-2, -3, 5]\n", "");
     said.change(WORLD, "color = \"#ffffff\"", "color = [65, 0, 0]");
     said.change(WORLD, "samples = 1", "samples = 9");
+    said.change(WORLD, "samples = 1", "samples = 1\ncontrast = [200, 100]");
     said.change(WORLD, "samples = 1", "filter = \"tent\"");
     said.change(WORLD, "samples = 1", "deviation = 0.5");
     said.change(WORLD, "samples = 1", "filter = \"gaussian\"\ndeviation = 5");

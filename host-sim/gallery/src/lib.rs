@@ -48,4 +48,5 @@ pub use patch_curve::PatchCurvePicture;
 pub use patch_surface::{PatchSurfacePicture, Standpoint};
 pub use pencil::Pencil;
 pub use random_curve::RandomCurvePicture;
+pub use shade::Shade;
 pub use terrain::{Floor, Ground, TerrainMemory, TerrainPicture};

@@ -8,7 +8,7 @@ use embedded_graphics::pixelcolor::{PixelColor, Rgb888};
 
 /// The palette of a scene in light.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Shade {
+pub enum Shade {
     /// True to the light.
     True(Srgb),
     /// Spread over the few levels that there are.
@@ -20,7 +20,7 @@ impl Shade {
     ///
     /// # Errors
     /// [`Error::NotIncreasing`] for a second that is not above the first.
-    pub(crate) fn new<C: PixelColor>(contrast: Option<[u8; 2]>) -> Result<Self, Error> {
+    pub fn new<C: PixelColor>(contrast: Option<[u8; 2]>) -> Result<Self, Error> {
         match contrast {
             Some([black, white]) if C::Raw::BITS_PER_PIXEL <= 4 => {
                 Ok(Self::Spread(Contrast::new(Srgb, black, white)?))

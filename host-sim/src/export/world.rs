@@ -442,6 +442,10 @@ fn picture(scene: &WorldScene, life: &str, module: &mut Module) {
             "pub fn world<'a>(\n    leaves: &'a [Leaf<'a, Thing{life}>],\n    objects: &'a [Object<'a>],\n    materials: &'a [Stuff],\n    lamps: &'a [Lamp],\n) -> Result<Whole<'a>, Error> {{\n    Ok(World::{made_by}(leaves, objects, materials)?.with_lamps(lamps))\n}}\n"
         ),
     );
+    let greys = format!("{:?}", world.contrast);
+    let doc =
+        "The greys that a display of 16 levels or fewer shows as black and as white: for `draw::Contrast`.";
+    module.constant(doc, "CONTRAST", "Option<[u8; 2]>", greys);
     let crossings = scene.most_crossings();
     let rays = usize::from(world.depth) + 2;
     module.item(

@@ -1,6 +1,7 @@
 //! Scenes: what a name or a TOML file describes, compiled and ready to be drawn or sampled.
 
 pub(crate) mod coloring;
+mod contrast;
 pub(crate) mod copier;
 pub(crate) mod curve;
 mod data;

@@ -225,6 +225,9 @@ pub fn world<'a>(
     Ok(World::of_leaves(leaves, objects, materials)?.with_lamps(lamps))
 }
 
+/// The greys that a display of 16 levels or fewer shows as black and as white: for `draw::Contrast`.
+pub const CONTRAST: Option<[u8; 2]> = None;
+
 /// The picture of the world.
 pub type Caster<'a> = WorldCaster<'a, Thing<'a>, Stuff, Sky, 10, 7, false>;
 

@@ -248,7 +248,7 @@ macro_rules! cast {
             + size_of::<[attractor::trace::Extent; of::$scene::BOXES]>()
             + size_of_val(&objects)
             + size_of_val(&caster);
-        worlds::light::<$color>($stage, caster, bytes)
+        worlds::light::<$color>($stage, caster, of::$scene::CONTRAST, bytes)
     }};
 }
 

@@ -1,20 +1,21 @@
 //! Ray-traced worlds, and solid textures cut by a plane.
 
 use attractor::Error;
-use attractor::draw::{Ink, Srgb};
+use attractor::draw::Ink;
 use attractor::plane::{Field, LinearRgb};
-use attractor_gallery::draw_field;
+use attractor_gallery::{Shade, draw_field};
 
 use crate::sink::{Colour, Failure, Stage};
 
-/// A field of light; `bytes` is what it and all that it borrows takes.
+/// A field of light in these greys; `bytes` is what it and all that it borrows takes.
 pub(super) fn light<C: Colour + Ink>(
     stage: &mut Stage<'_>,
     field: impl Field<Value = LinearRgb>,
+    contrast: Option<[u8; 2]>,
     bytes: usize,
 ) -> Result<(), Failure> {
     stage.draw::<C>(bytes, |sink| {
-        draw_field(&field, Srgb, sink, &mut |_, _, _| true);
+        draw_field(&field, Shade::new::<C>(contrast)?, sink, &mut |_, _, _| true);
         Ok(())
     })
 }
@@ -26,5 +27,5 @@ pub(super) fn texture<C: Colour + Ink, F: Field<Value = LinearRgb>>(
 ) -> Result<(), Failure> {
     let field = picture(stage.size())?;
     let bytes = size_of_val(&field);
-    light::<C>(stage, field, bytes)
+    light::<C>(stage, field, None, bytes)
 }

@@ -216,6 +216,9 @@ pub fn world<'a>(
     Ok(World::of_leaves(leaves, objects, materials)?.with_lamps(lamps))
 }
 
+/// The greys that a display of 16 levels or fewer shows as black and as white: for `draw::Contrast`.
+pub const CONTRAST: Option<[u8; 2]> = Some([112, 215]);
+
 /// The picture of the world.
 pub type Caster<'a> = WorldCaster<'a, Thing<'a>, Stuff, Rgb, 17, 6, false>;
 

@@ -200,6 +200,9 @@ pub fn world<'a>(
     Ok(World::new(leaves, objects, materials)?.with_lamps(lamps))
 }
 
+/// The greys that a display of 16 levels or fewer shows as black and as white: for `draw::Contrast`.
+pub const CONTRAST: Option<[u8; 2]> = Some([72, 220]);
+
 /// The picture of the world.
 pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 30, 9>;
 

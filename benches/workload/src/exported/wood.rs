@@ -157,6 +157,9 @@ pub fn world<'a>(
     Ok(World::of_leaves(leaves, objects, materials)?.with_lamps(lamps))
 }
 
+/// The greys that a display of 16 levels or fewer shows as black and as white: for `draw::Contrast`.
+pub const CONTRAST: Option<[u8; 2]> = Some([60, 208]);
+
 /// The picture of the world.
 pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 7, 7, false>;
 

@@ -14,6 +14,7 @@ use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::contrast::contrast;
 use super::motion::Motion;
 use super::orbit::{Orbit, carried};
 use super::request::Request;
@@ -54,7 +55,7 @@ struct File {
     ground: Option<Cover>,
     plain: Option<Level>,
     samples: Option<Spanned<u8>>,
-    contrast: Option<Spanned<[u8; 2]>>,
+    contrast: Option<Spanned<[i64; 2]>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -489,17 +490,6 @@ fn sun(source: &Source, given: Option<&Sun>) -> Result<(Vec3, Rgb), Fail> {
         None => usual,
     };
     Ok((towards, color))
-}
-
-/// The greys that a display of few levels shows as black and as white.
-fn contrast(source: &Source, given: Option<&Spanned<[u8; 2]>>) -> Result<Option<[u8; 2]>, Fail> {
-    let Some(given) = given else { return Ok(None) };
-    let [black, white] = *given.get_ref();
-    if black >= white {
-        let reason = format!("{black} is black and {white} is white: the first must be the smaller");
-        return Err(source.fail(given.span(), "contrast", reason));
-    }
-    Ok(Some([black, white]))
 }
 
 fn sky(source: &Source, given: &Heaven) -> Result<Sky, Fail> {

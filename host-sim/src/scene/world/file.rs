@@ -7,6 +7,7 @@ use attractor::trace::{Camera, Filter};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::super::contrast::contrast;
 use super::super::orbit::Orbit;
 use super::super::standpoint::{Eye, Standpoint, camera};
 use super::lamp::{Light, Shining};
@@ -42,6 +43,7 @@ struct File {
     texture: Tables,
     environment: Option<Spanned<Table>>,
     samples: Option<Spanned<i64>>,
+    contrast: Option<Spanned<[i64; 2]>>,
     filter: Option<Spanned<Weights>>,
     deviation: Option<Num>,
     width: Option<Num>,
@@ -81,6 +83,7 @@ pub(crate) struct Description {
     pub(crate) around: Around,
     pub(crate) samples: u8,
     pub(crate) filter: Filter,
+    pub(crate) contrast: Option<[u8; 2]>,
     pub(crate) seed: Option<u32>,
     pub(crate) depth: u8,
     pub(crate) policy: Policy,
@@ -121,6 +124,7 @@ impl Description {
             around: Around::load(source, file.environment.as_ref())?,
             samples: small(source, "samples", file.samples.as_ref(), (1, 8), 1)?,
             filter: filter(source, &file)?,
+            contrast: contrast(source, file.contrast.as_ref())?,
             seed: file.seed.as_ref().map(|seed| *seed.get_ref()),
             depth: small(source, "depth", file.depth.as_ref(), (0, DEEPEST), 5)?,
             policy: file.interpenetration.unwrap_or(Policy::Refuse),

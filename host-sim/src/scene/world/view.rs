@@ -2,10 +2,9 @@
 
 use std::convert::Infallible;
 
-use attractor::draw::Srgb;
 use attractor::trace::world::{Leaf, Object, World, WorldCaster};
 use attractor::trace::{Extent, Sampling, Surface};
-use attractor_gallery::{Watch, draw_field};
+use attractor_gallery::{Shade, Watch, draw_field};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 
@@ -175,8 +174,10 @@ impl WorldScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
+        let shade = Shade::new::<D::Color>(self.world.contrast)
+            .map_err(|error| self.file.fail_all("contrast", error))?;
         self.with_caster(request, |caster| {
-            draw_field(caster, Srgb, target, watch);
+            draw_field(caster, shade, target, watch);
             Ok(())
         })
     }
