@@ -154,7 +154,7 @@ pub fn world<'a>(
 }
 
 /// The greys that a display of 16 levels or fewer shows as black and as white: for `draw::Contrast`.
-pub const CONTRAST: Option<[u8; 2]> = None;
+pub const CONTRAST: Option<[u8; 2]> = Some([68, 226]);
 
 /// The picture of the world.
 pub type Caster<'a> = WorldCaster<'a, Thing, Stuff, Sky, 9, 5, false>;
