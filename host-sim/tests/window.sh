@@ -4,7 +4,7 @@
 # however far one zooms, and Esc closes it at any time. A picture in it takes little more than the same picture
 # as a file.
 # Needs: apt install libsdl2-dev xvfb xdotool imagemagick
-# Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]
+# Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]; ATTRACTOR_IS_BUILT=1 takes target/debug/attractor as it is
 set -eu
 cd "$(dirname "$0")/../.."
 shots=${1:-$(mktemp -d)}
@@ -13,7 +13,7 @@ shots=$(cd "$shots" && pwd)
 rm -f "$shots"/tip-*.png "$shots"/mandelbrot-*.png
 if [ "${ATTRACTOR_UNDER_XVFB:-}" != 1 ]; then
     # the profile of the tests: optimised, with every overflow checked
-    cargo build --quiet -p attractor-sim --features window
+    [ "${ATTRACTOR_IS_BUILT:-}" = 1 ] || cargo build --quiet -p attractor-sim --features window
     ATTRACTOR_UNDER_XVFB=1 exec timeout 300 xvfb-run -a -s "-screen 0 1024x768x24" "$0" "$shots"
 fi
 attractor=$PWD/target/debug/attractor
