@@ -143,12 +143,14 @@ fn rms(truth: &[Pixel], look: usize, picture: &impl Field<Value = attractor::pla
     (truth.iter().map(|p| off(p) * off(p)).sum::<f64>() / truth.len() as f64).sqrt()
 }
 
-/// Errors by look: of 1, 16 and 64 samples, then of each quality.
+/// Errors by look: of 1, 16 and 64 samples, then of each quality. How many of the pixels took the samples of the
+/// caster at fine quality, 16, and what the others are off, is printed after them.
 fn table(view: &View, looks: &[usize], side: u32, depth: u32, places: usize) -> Vec<[f64; 6]> {
     let truth = view.truth(looks, side, places);
     let least = truth.iter().map(|p| p.places).min().unwrap_or(0);
     println!("{}, {side} x {side}: {} interior pixels, {least} samples at least", view.name, truth.len());
-    println!("{:14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}", "", "1", "16", "64", "coarse", "fine", "finest");
+    let heads = ["1", "16", "64", "coarse", "fine", "finest"].map(|head| format!("{head:>8}")).join(" ");
+    println!("{:14} {heads}  of fine: sampled, others", "");
     view.with_surface(depth, |surface, sums| {
         let row = |(k, look): (usize, &usize)| {
             let samples = [1, 4, 8].map(|n| rms(&truth, k, &view.caster(surface, *look, side, n)));
@@ -157,7 +159,13 @@ fn table(view: &View, looks: &[usize], side: u32, depth: u32, places: usize) -> 
                 rms(&truth, k, &FilteredCaster::new(caster, sums, sums, quality).unwrap())
             });
             let row = [samples[0], samples[1], samples[2], filtered[0], filtered[1], filtered[2]];
-            println!("{:14} {}", LOOKS[*look], row.map(|e| format!("{e:8.5}")).join(" "));
+            let fine =
+                FilteredCaster::new(view.caster(surface, *look, side, 4), sums, sums, Quality::Fine).unwrap();
+            let is_sampled = |p: &Pixel| fine.found(p.at.0 as u32, p.at.1 as u32) == Found::Sampled;
+            let others: Vec<Pixel> = truth.iter().filter(|p| !is_sampled(p)).cloned().collect();
+            let (sampled, off) = (truth.len() - others.len(), rms(&others, k, &fine));
+            let row_printed = row.map(|e| format!("{e:8.5}")).join(" ");
+            println!("{:14} {row_printed}  {sampled:16}, {off:.5}", LOOKS[*look]);
             row
         };
         looks.iter().enumerate().map(row).collect()
