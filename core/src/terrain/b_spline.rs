@@ -72,31 +72,24 @@ fn weights(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 4] {
     [a as i32, inner(b.min(ONE - 1), d_in_b), inner(c.min(ONE - 1), a_in_c), d as i32]
 }
 
-/// The weights of the three steps between four vertices in the slope at `s`, 31 fractional bits: they add up
-/// to 1.
+/// The weights of four vertices in the slope at `s`, 31 fractional bits: those of the three steps between
+/// them, which add up to 1, as differences.
 #[inline(always)]
-fn steps(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 3] {
+fn slope_weights(s: Q30, [is_first, is_last]: [bool; 2]) -> [i32; 4] {
     const ONE: u32 = 1 << 31;
     let (s, r) = ((s as u32) << 1, ONE - ((s as u32) << 1));
     let (a, c) = (high_u(r, r), high_u(s, s));
     // beyond the rim a step is as the one before it
     let (a, c) = (if is_first { 0 } else { a }, if is_last { 0 } else { c });
-    [a as i32, (ONE - a - c).min(ONE - 1) as i32, c as i32]
+    let [a, b, c] = [a, (ONE - a - c).min(ONE - 1), c].map(|step| step as i32);
+    [-a, a - b, b - c, c]
 }
 
-/// The mean of the steps between four heights with 25 fractional bits.
+/// The sum of four heights with 25 fractional bits by such weights, to the nearest: a mean or a slope.
 #[inline(always)]
-fn slope([a, b, c, d]: [i32; 4], [p, q, r]: [i32; 3]) -> Q24 {
-    let step = |from: i32, to: i32| (to >> 1) - (from >> 1);
-    let sum = product(step(a, b), p) + product(step(b, c), q) + product(step(c, d), r);
-    (sum.wrapping_add(1 << 30) >> 31) as i32
-}
-
-/// The mean of four heights with 25 fractional bits, to the nearest.
-#[inline(always)]
-fn mean([a, b, c, d]: [i32; 4], [p, q, r, w]: [i32; 4]) -> Q24 {
-    let sum = (1_i64 << 31).wrapping_add(product(a, p)).wrapping_add(product(b, q));
-    (sum.wrapping_add(product(c, r)).wrapping_add(product(d, w)) >> 32) as i32
+fn sum([a, b, c, d]: &[i32; 4], [p, q, r, w]: [i32; 4]) -> Q24 {
+    let two = (1_i64 << 31).wrapping_add(product(*a, p)).wrapping_add(product(*b, q));
+    (two.wrapping_add(product(*c, r)).wrapping_add(product(*d, w)) >> 32) as i32
 }
 
 impl BSpline {
@@ -105,25 +98,27 @@ impl BSpline {
     pub(crate) fn new(heights: &Heights<'_>, i: u32, j: u32) -> Self {
         let ends = |k: u32, count: u32| [k == 0, k + 2 >= count];
         let rims = [ends(i, heights.columns()), ends(j, heights.rows())];
-        Self { vertices: heights.around(i, j).map(|row| row.map(|h| h << 1)), rims }
+        Self { vertices: heights.around(i, j, |h| h << 1), rims }
     }
 
     pub(crate) fn height(&self, s: Q30, t: Q30) -> Q24 {
         let [along_u, along_v] = self.rims;
-        let along = weights(s, along_u);
-        mean(self.vertices.map(|row| mean(row, along) << 1), weights(t, along_v))
+        let (along, across) = (weights(s, along_u), weights(t, along_v));
+        let [a, b, c, d] = &self.vertices;
+        sum(&[a, b, c, d].map(|row| sum(row, along) << 1), across)
     }
 
     /// `h_s` and `h_t`.
     pub(crate) fn slopes(&self, s: Q30, t: Q30) -> [Q24; 2] {
         let [along_u, along_v] = self.rims;
         let (w_s, w_t) = (weights(s, along_u), weights(t, along_v));
-        let (q_s, q_t) = (steps(s, along_u), steps(t, along_v));
-        let along_s = self.vertices.map(|row| slope(row, q_s));
-        let across = self.vertices.map(|row| mean(row, w_s) << 1);
+        let (q_s, q_t) = (slope_weights(s, along_u), slope_weights(t, along_v));
+        let [a, b, c, d] = &self.vertices;
+        let along_s = [a, b, c, d].map(|row| sum(row, q_s));
+        let across = [a, b, c, d].map(|row| sum(row, w_s) << 1);
         // slopes can be twice as great as heights
-        let sum = along_s.into_iter().zip(w_t).map(|(h, w)| product(h, w)).sum::<i64>();
-        [(sum.wrapping_add(1 << 30) >> 31) as i32, slope(across, q_t)]
+        let total = along_s.into_iter().zip(w_t).map(|(h, w)| product(h, w)).sum::<i64>();
+        [(total.wrapping_add(1 << 30) >> 31) as i32, sum(&across, q_t)]
     }
 
     /// Bounds of the heights: those of its Bezier points, and what rounding adds.

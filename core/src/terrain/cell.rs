@@ -15,8 +15,14 @@ pub(crate) struct Cell {
     pub(crate) v: i32,
 }
 
-/// The nine heights of a cell that is halved, row by row from south-west.
-pub(crate) type Grid = [Q24; 9];
+/// A cell that is halved, by all nine heights.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Halved {
+    /// Row by row from south-west.
+    heights: [Q24; 9],
+    u: i32,
+    v: i32,
+}
 
 /// The five new heights of a cell that is halved: south, north, west, east, centre.
 #[derive(Debug, Clone, Copy)]
@@ -60,22 +66,10 @@ impl Cell {
 
     /// All heights when a cell at this level is halved.
     #[inline(always)]
-    pub(crate) fn grid(&self, level: u32, law: &Law, random: &impl Randomness) -> Grid {
+    pub(crate) fn all(&self, level: u32, law: &Law, random: &impl Randomness) -> Halved {
         let ([a, b, c, d], Middles { edges: [s, n, w, e], centre }) =
             (self.corners, self.halved(level, law, random));
-        [a, s, b, w, centre, e, c, n, d]
-    }
-
-    /// One of its quarters, by these heights.
-    #[inline(always)]
-    pub(crate) fn quarter(&self, level: u32, grid: &Grid, [east, north]: [u32; 2]) -> Self {
-        let corners = match grid.get((east + 3 * north) as usize..) {
-            Some([sw, se, _, nw, ne, ..]) => [*sw, *se, *nw, *ne],
-            _ => self.corners,
-        };
-        let half = Self::half(level);
-        let moved = |c: i32, far: u32| c.wrapping_add(half.wrapping_mul(far as i32));
-        Self { corners, u: moved(self.u, east), v: moved(self.v, north) }
+        Halved { heights: [a, s, b, w, centre, e, c, n, d], u: self.u, v: self.v }
     }
 
     /// One of its quarters.
@@ -96,5 +90,19 @@ impl Cell {
         };
         let moved = |c: i32, far: bool| if far { c.wrapping_add(half) } else { c };
         Self { corners, u: moved(self.u, east), v: moved(self.v, north) }
+    }
+}
+
+impl Halved {
+    /// One of the quarters of a cell at this level.
+    #[inline(always)]
+    pub(crate) fn quarter(&self, level: u32, [east, north]: [u32; 2]) -> Cell {
+        let corners = match self.heights.get((east + 3 * north) as usize..) {
+            Some([sw, se, _, nw, ne, ..]) => [*sw, *se, *nw, *ne],
+            _ => [0; 4],
+        };
+        let half = Cell::half(level);
+        let moved = |c: i32, far: u32| c.wrapping_add(half.wrapping_mul(far as i32));
+        Cell { corners, u: moved(self.u, east), v: moved(self.v, north) }
     }
 }

@@ -111,21 +111,27 @@ impl<'a> Heights<'a> {
         self.heights.get(index as usize).copied().unwrap_or_default().to_bits()
     }
 
-    /// The heights of a cell and of what is round it, row by row from south-west; the nearest in place of
-    /// those beyond the rim.
+    /// Something of the heights of a cell and of what is round it, row by row from south-west; of the nearest
+    /// in place of those beyond the rim.
     #[inline(always)]
-    pub(crate) fn around(&self, i: u32, j: u32) -> [[Q24; 4]; 4] {
+    pub(crate) fn around<T>(&self, i: u32, j: u32, of: impl Fn(Q24) -> T) -> [[T; 4]; 4] {
+        match self.rows_around(i, j) {
+            Some(rows) => rows.map(|row| row.each_ref().map(|h| of(h.to_bits()))),
+            None => self.around_at_the_rim(i, j).map(|row| row.map(&of)),
+        }
+    }
+
+    /// The four rows, where none of them is beyond the rim.
+    #[inline(always)]
+    fn rows_around(&self, i: u32, j: u32) -> Option<[&[Real; 4]; 4]> {
         let (columns, rows) = (self.columns(), self.rows());
         if i == 0 || j == 0 || i + 2 >= columns || j + 2 >= rows {
-            return self.around_at_the_rim(i, j);
+            return None;
         }
+        let row = |from: u32| self.heights.get(from as usize..)?.first_chunk();
         let first = (j - 1).wrapping_mul(columns).wrapping_add(i - 1);
-        let row = |from: u32| {
-            let rest = self.heights.get(from as usize..).unwrap_or_default();
-            rest.first_chunk::<4>().map_or([0; 4], |row| row.map(Real::to_bits))
-        };
         let (second, third) = (first.wrapping_add(columns), first.wrapping_add(2 * columns));
-        [row(first), row(second), row(third), row(second.wrapping_add(2 * columns))]
+        Some([row(first)?, row(second)?, row(third)?, row(second.wrapping_add(2 * columns))?])
     }
 
     #[inline(never)]

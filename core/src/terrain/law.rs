@@ -108,16 +108,16 @@ impl Law {
 #[inline(always)]
 pub(super) fn edge(a: Q24, b: Q24, offset: Q28, r: Deviate) -> Q24 {
     // heights are below 2^30 in magnitude, the product is below 2^59
-    let twice = i64::from(a.wrapping_add(b)) << 31;
-    (twice.wrapping_add(product(offset, r.to_bits())).wrapping_add(1 << 31) >> 32) as i32
+    let twice = i64::from(a.wrapping_add(b).wrapping_add(1)) << 31;
+    (twice.wrapping_add(product(offset, r.to_bits())) >> 32) as i32
 }
 
 /// The centre, from the middles of the four edges: `(s + n + w + e) / 4 + o (R_1 + R_2)`.
 #[inline(always)]
 pub(super) fn centre([s, n, w, e]: [Q24; 4], offset: Q28, [r_1, r_2]: [Deviate; 2]) -> Q24 {
-    // each half below 2^31, R_1 + R_2 below 2^31
-    let half = |a: i32, b: i32| i64::from(a.wrapping_add(b));
+    // each half below 2^31, with the half unit that rounds; R_1 + R_2 below 2^31
+    let half = |a: i32, b: i32| i64::from(a.wrapping_add(b).wrapping_add(1));
     let sum = (half(s, n) + half(w, e)) << 30;
     let both = r_1.to_bits().wrapping_add(r_2.to_bits());
-    (sum.wrapping_add(product(offset, both)).wrapping_add(1 << 31) >> 32) as i32
+    (sum.wrapping_add(product(offset, both)) >> 32) as i32
 }

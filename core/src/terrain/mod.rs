@@ -40,7 +40,7 @@ mod triangles;
 
 pub(crate) use bicubic::differences;
 pub(crate) use bilinear::Bilinear;
-pub(crate) use cell::{Cell, Grid};
+pub(crate) use cell::{Cell, Halved};
 pub use edge_level::{EdgeLevel, Magnification};
 pub use extrapolate::Side;
 pub use heights::Heights;

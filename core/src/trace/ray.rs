@@ -41,10 +41,11 @@ impl Axis {
     /// A component of 0 counts as `2^-28`: a ray parallel to a plane leans by less than a direction's
     /// resolution, and every plane is crossed.
     pub(super) fn new(origin: i32, direction: i32) -> Self {
-        let (mantissa, zeros) =
-            reciprocal_of(NonZeroU32::new(direction.unsigned_abs()).unwrap_or(NonZeroU32::MIN));
+        let direction = if direction == 0 { 1 } else { direction };
+        let magnitude = NonZeroU32::new(direction.unsigned_abs()).unwrap_or(NonZeroU32::MIN);
+        let (mantissa, zeros) = reciprocal_of(magnitude);
         let mantissa = if direction < 0 { -(mantissa >> 2) } else { mantissa >> 2 };
-        Self { origin, direction: if direction == 0 { 1 } else { direction }, mantissa, zeros }
+        Self { origin, direction, mantissa, zeros }
     }
 
     /// The parameter at which the ray crosses the plane at `plane` (24 fractional bits), saturated.
@@ -264,9 +265,20 @@ impl Ray {
 
     /// Its coordinates along x, y and z, ready for many planes.
     pub(super) fn axes(&self) -> [Axis; 3] {
-        let [ox, oy, oz] = self.origin;
-        let [dx, dy, dz] = self.direction;
-        [Axis::new(ox, dx), Axis::new(oy, dy), Axis::new(oz, dz)]
+        let ([x, y], z) = (self.level(), self.upright());
+        [x, y, z]
+    }
+
+    /// Those along x and y.
+    pub(super) fn level(&self) -> [Axis; 2] {
+        let ([ox, oy, _], [dx, dy, _]) = (self.origin, self.direction);
+        [Axis::new(ox, dx), Axis::new(oy, dy)]
+    }
+
+    /// That along z.
+    pub(super) fn upright(&self) -> Axis {
+        let ([.., oz], [.., dz]) = (self.origin, self.direction);
+        Axis::new(oz, dz)
     }
 }
 

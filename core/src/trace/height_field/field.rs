@@ -176,7 +176,7 @@ impl<'a> HeightField<'a> {
     pub(super) fn middle(&self, ray: &Ray, leaf: &Leaf) -> Option<i32> {
         let (f, g) = self.cells(leaf)?;
         let (low, high) = range(f, g);
-        let [_, _, z] = ray.axes();
+        let z = ray.upright();
         let (t_in, t_out) = z.clip(low, high, leaf.span);
         // a ray that only touches the box may round to an empty part
         Some(if t_in <= t_out { t_in + (t_out - t_in) / 2 } else { leaf.span.0 })

@@ -18,7 +18,7 @@ use super::walk::{LEVELS, Tree, walk};
 use crate::Error;
 use crate::num::formats::Q24;
 use crate::num::{RandomField, Real, Unit, Vec3, Wide};
-use crate::terrain::{Bilinear, Cell, Form, Grid, PlaneToLine, Randomness};
+use crate::terrain::{Bilinear, Cell, Form, Halved, PlaneToLine, Randomness};
 
 /// A surface by subdivision over a rectangle of the world.
 ///
@@ -98,6 +98,11 @@ impl<'a, R: Randomness> DeepTerrain<'a, R> {
     }
 }
 
+/// A parameter, saturated.
+fn word(t: i64) -> Q24 {
+    t.min(i64::from(i32::MAX)) as i32
+}
+
 /// A ray with its width.
 struct Seen<'b, 'a, R> {
     terrain: &'b DeepTerrain<'a, R>,
@@ -108,7 +113,7 @@ struct Seen<'b, 'a, R> {
 
 impl<R: Randomness> Tree for Seen<'_, '_, R> {
     type Node = Cell;
-    type Middle = Grid;
+    type Middle = Halved;
 
     fn root(&self) -> Cell {
         if self.terrain.frame.depth == self.terrain.finest {
@@ -129,18 +134,18 @@ impl<R: Randomness> Tree for Seen<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn middle(&self, place: Place, cell: &Cell) -> Grid {
+    fn middle(&self, place: Place, cell: &Cell) -> Halved {
         match self.terrain.finest.checked_sub(place.level) {
-            Some(level) => cell.grid(level, self.terrain.function.law(), self.terrain.function.random()),
-            None => Grid::default(),
+            Some(level) => cell.all(level, self.terrain.function.law(), self.terrain.function.random()),
+            None => Halved::default(),
         }
     }
 
     #[inline(always)]
-    fn part(&self, place: Place, cell: &Cell, grid: &Grid) -> Cell {
+    fn part(&self, place: Place, halved: &Halved) -> Cell {
         let finest = self.terrain.finest;
         if place.level < finest {
-            cell.quarter(finest - place.level - 1, grid, [place.column & 1, place.row & 1])
+            halved.quarter(finest - place.level - 1, [place.column & 1, place.row & 1])
         } else if place.level == finest {
             self.terrain.function.knot_cell(place.column, place.row)
         } else {
@@ -154,12 +159,13 @@ impl<R: Randomness> Tree for Seen<'_, '_, R> {
         (Form::Bilinear(patch), patch.twist() << 5)
     }
 
-    #[inline(always)]
-    fn is_leaf(&self, place: Place, t: Q24) -> bool {
-        place.level == 0
-            || place.level <= self.terrain.finest
-                // twice as far for cells twice as wide
-                && t.saturating_add(self.begin) >> (place.level & 31) >= self.wide_from
+    fn leaves(&self, t: Q24) -> (u32, Q24) {
+        let far = t.saturating_add(self.begin);
+        // twice as far for cells twice as wide
+        let is_wide = |level: &u32| far >> (level & 31) >= self.wide_from;
+        let level = (1..=self.terrain.finest).take_while(is_wide).last().unwrap_or(0);
+        let next = (i64::from(self.wide_from) << (level + 1)) - i64::from(self.begin);
+        (level, if level < self.terrain.finest { word(next) } else { i32::MAX })
     }
 }
 
@@ -184,9 +190,13 @@ impl<R: Randomness> Surface for DeepTerrain<'_, R> {
     fn cross(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
         let [columns, rows] = &self.frame.rules;
         let width = columns.width().max(rows.width());
-        let word = |t: i64| t.min(i64::from(i32::MAX)) as i32;
-        let footprint = Footprint::new(cone);
-        let (wide_from, begin) = (word(footprint.length(width)), word(footprint.length(ray.width)));
+        // without a width it sees all
+        let (wide_from, begin) = if cone > Unit::ZERO || ray.width > 0 {
+            let footprint = Footprint::new(cone);
+            (word(footprint.length(width)), word(footprint.length(ray.width)))
+        } else {
+            (i32::MAX, 0)
+        };
         let seen = Seen { terrain: self, wide_from, begin };
         let _ = walk(&seen, &self.frame, &ray.axes(), &mut handed(found));
     }

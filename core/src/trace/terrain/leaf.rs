@@ -45,11 +45,11 @@ impl Frame {
         let (mut t, mut end) = (0, i32::MAX);
         for (axis, [low, high]) in [(z, self.heights), (y, rows.ends()), (x, columns.ends())] {
             let (near, far) = if axis.direction > 0 { (low, high) } else { (high, low) };
+            end = end.min(axis.crossing(far));
             // what a ray begins inside of it has not to come to
             if (near.wrapping_sub(axis.origin) ^ axis.direction) >= 0 {
                 t = t.max(axis.crossing(near));
             }
-            end = end.min(axis.crossing(far));
             if t >= end {
                 break;
             }

@@ -24,10 +24,10 @@ pub(super) struct Rule {
     pub(super) count: u32,
 }
 
-/// `c 2^exponent`, rounded down; the caller knows that it is a word.
+/// `c 2^exponent`, rounded down; the caller knows that it is a word, and that the exponent is above -32.
 #[inline(always)]
-pub(super) fn scaled(c: i32, exponent: i32) -> i32 {
-    if exponent < 0 { c >> (-exponent).min(31) } else { c << exponent.min(31) }
+pub(super) fn shifted(c: i32, exponent: i32) -> i32 {
+    if exponent < 0 { c >> (-exponent & 31) } else { c << (exponent & 31) }
 }
 
 impl Rule {
@@ -72,13 +72,15 @@ impl Rule {
     /// `2^(shift + 14 - 24)`; the caller knows that it is a word.
     #[inline(always)]
     pub(super) fn columns_along(&self, direction: Q28, shift: i32) -> i32 {
-        scaled(high(direction, self.mantissa), self.exponent - 28 - 24 + 14 + 32 + shift)
+        let exponent = self.exponent - 28 - 24 + 14 + 32 + shift;
+        shifted(high(direction, self.mantissa), exponent.max(-31))
     }
 
     /// How many columns lie before a coordinate, 14 fractional bits; 0 before the first.
     #[inline(always)]
     pub(super) fn columns_before(&self, c: Q24) -> Q14 {
-        scaled(high(c.wrapping_sub(self.origin).max(0), self.mantissa), self.exponent - 24 + 14 + 32)
+        // an exponent from -15 to 5
+        shifted(high(c.wrapping_sub(self.origin).max(0), self.mantissa), self.exponent - 24 + 14 + 32)
     }
 
     /// How wide so many cells are, which are there, 24 fractional bits.
@@ -91,8 +93,8 @@ impl Rule {
     #[inline(always)]
     pub(super) fn inside(&self, c: Q24, index: u32, size_log: u32) -> Q30 {
         let along = c.wrapping_sub(self.plane(index)).max(0);
-        // along is at most a node and its rounding; an exponent from -38 to -16
-        let part = product(along, self.mantissa) as u64 >> ((size_log as i32 - 6 - self.exponent) & 63);
+        // along is at most a node and its rounding; an exponent from -37 to -17: two shifts by less than 32
+        let part = product(along, self.mantissa) as u64 >> ((-6 - self.exponent) & 31) >> (size_log & 31);
         (part as i32).min(1 << 30)
     }
 

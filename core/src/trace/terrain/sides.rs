@@ -149,7 +149,7 @@ mod tests {
                 (0..64).fold(0.0_f64, |most, k| most.max(exact(p + (q - p) * f64::from(k) / 63.0).abs()))
             };
             let inside: Vec<f64> = roots.into_iter().filter(|root| *root > 0.0 && *root < 1.0).collect();
-            let is_sure = inside.windows(2).all(|pair| between(pair[0], pair[1]) > 1e-4)
+            let is_sure = inside.windows(2).all(|pair| between(pair[0], pair[1]) > 1e-5)
                 && [0.0, 1.0].iter().all(|end| exact(*end).abs() > 1e-4);
             if !is_sure {
                 continue;

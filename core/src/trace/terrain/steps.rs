@@ -16,8 +16,8 @@ use heapless::Vec;
 use super::super::ray::Axis;
 use super::course::Course;
 use super::leaf::{Change, Frame, Place, cross_leaf};
-use super::plot::{Rule, scaled};
-use super::ranges::{HeightRange, LEVELS, PARTS, STEP, begins, nodes, top};
+use super::plot::{Rule, shifted};
+use super::ranges::{Doubt, HeightRange, LEVELS, PARTS, STEP, begins, nodes, top};
 use super::sides::Above;
 use crate::num::formats::{Q14, Q24};
 use crate::terrain::Form;
@@ -107,6 +107,24 @@ struct Open {
     here: [Q14; 3],
 }
 
+impl Open {
+    /// Into the part that follows where the ray leaves one at `t`, there.
+    #[inline(always)]
+    fn follow(&mut self, t: Q24, [u, v, height]: [Q14; 3], step: &Step) {
+        self.here = [u, v, height];
+        if self.next[0] <= t {
+            self.index = self.index.wrapping_add_signed(step.index[0]);
+            self.here[0] = u.wrapping_sub(step.here[0]);
+            self.next[0] = self.next[0].saturating_add(step.time[0]);
+        }
+        if self.next[1] <= t {
+            self.index = self.index.wrapping_add_signed(step.index[1]);
+            self.here[1] = v.wrapping_sub(step.here[1]);
+            self.next[1] = self.next[1].saturating_add(step.time[1]);
+        }
+    }
+}
+
 /// From a node of a level to the next along both axes.
 struct Step {
     level: u32,
@@ -160,7 +178,7 @@ pub(super) fn walk(
         let index = |at: Q14, count: u32| (at as u32 >> size).min(nodes(count, level).wrapping_sub(1));
         let (i, j) = (index(here[0], columns.count), index(here[1], rows.count));
         let corner = |index: u32| (index << size) as i32;
-        let height = scaled(z.at(t), 14 - levels.unit as i32);
+        let height = shifted(z.at(t), 14 - levels.unit as i32);
         Open {
             index: levels.start.wrapping_add(j.wrapping_mul(nodes(columns.count, level))).wrapping_add(i),
             next: [a.plane(level, a.behind(i)).max(t), b.plane(level, b.behind(j)).max(t)],
@@ -169,33 +187,30 @@ pub(super) fn walk(
         }
     };
     loop {
-        let out = open.next[0].min(open.next[1]).min(open.end);
-        let there = course.after(out.wrapping_sub(t), open.here);
-        let Some(range) = levels.ranges.get(open.index as usize) else {
-            return ControlFlow::Continue(above);
+        // along the nodes that the ray passes by as those before
+        let (out, there, range, side) = loop {
+            let out = open.next[0].min(open.next[1]).min(open.end);
+            let there = course.after(out.wrapping_sub(t), open.here);
+            let Some(range) = levels.ranges.get(open.index as usize) else {
+                return ControlFlow::Continue(above);
+            };
+            let side = range.side([open.here, there]);
+            let is_alike = side.as_ref().is_ok_and(|is_above| above == Some(*is_above));
+            if !is_alike || out + NEAR >= open.end {
+                break (out, there, range, side);
+            }
+            t = out;
+            open.follow(t, there, &step);
         };
-        match range.side([open.here, there]) {
+        match side {
             Ok(is_above) => {
-                if above != Some(is_above) {
-                    if above.is_some() {
-                        // between two nodes: the cell where that is
-                        let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
-                        changed((t, Place { level: 0, column, row }, is_above))?;
-                    }
-                    above = Some(is_above);
+                if above.replace(is_above).is_some_and(|before| before != is_above) {
+                    between((frame, axes), (t, is_above), changed)?;
                 }
             }
             Err(doubt) if step.level == 0 => {
-                let [column, row] = levels.place(columns.count, 0, open.index);
-                let place = Place { level: 0, column, row };
-                let (side, [from, to]) = doubt.narrowed([t, out]);
-                if let Some(is_above) = side
-                    && above.replace(is_above).is_some_and(|before| before != is_above)
-                {
-                    changed((t, place, is_above))?;
-                }
-                let patch = (&patch(place), range.bend(levels.unit));
-                cross_leaf(frame, axes, place, (from, to), patch, &mut above, changed)?;
+                let cell = (levels.place(columns.count, 0, open.index), range.bend(levels.unit));
+                above = leaf((frame, axes), cell, &patch, (doubt, [t, out]), above, changed)?;
             }
             Err(_) => {
                 let [i, j] = levels.place(columns.count, step.level, open.index);
@@ -240,18 +255,41 @@ pub(super) fn walk(
             }
             step = Step::new(&across, level);
         }
-        // into the part that follows
-        if open.next[0] <= t {
-            open.index = open.index.wrapping_add_signed(step.index[0]);
-            open.here[0] = open.here[0].wrapping_sub(step.here[0]);
-            open.next[0] = open.next[0].saturating_add(step.time[0]);
-        }
-        if open.next[1] <= t {
-            open.index = open.index.wrapping_add_signed(step.index[1]);
-            open.here[1] = open.here[1].wrapping_sub(step.here[1]);
-            open.next[1] = open.next[1].saturating_add(step.time[1]);
-        }
+        open.follow(t, open.here, &step);
     }
+}
+
+/// Tells of a change of sides between two nodes, in the cell where that is.
+#[inline(never)]
+fn between(
+    (frame, [x, y, _]): (&Frame, &[Axis; 3]),
+    (t, is_above): (Q24, bool),
+    changed: &mut impl FnMut(Change) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let [columns, rows] = &frame.rules;
+    let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
+    changed((t, Place { level: 0, column, row }, is_above))
+}
+
+/// Meets the patch of a cell where the bounds leave doubt, beside the walk: most of it is about nodes.
+#[inline(never)]
+fn leaf(
+    (frame, axes): (&Frame, &[Axis; 3]),
+    ([column, row], eighth): ([u32; 2], u32),
+    patch: impl Fn(Place) -> Form,
+    (doubt, piece): (Doubt, [Q24; 2]),
+    mut above: Above,
+    changed: &mut impl FnMut(Change) -> ControlFlow<()>,
+) -> ControlFlow<(), Above> {
+    let place = Place { level: 0, column, row };
+    let (side, [from, to]) = doubt.narrowed(piece);
+    if let Some(is_above) = side
+        && above.replace(is_above).is_some_and(|before| before != is_above)
+    {
+        changed((piece[0], place, is_above))?;
+    }
+    cross_leaf(frame, axes, place, (from, to), (&patch(place), eighth), &mut above, changed)?;
+    ControlFlow::Continue(above)
 }
 
 impl Levels<'_> {

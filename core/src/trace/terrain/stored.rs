@@ -101,8 +101,8 @@ impl<'a> Terrain<'a> {
         self
     }
 
-    /// Where a ray with these axes crosses the plain.
-    fn plain_crossing(&self, [.., z]: &[Axis; 3]) -> Option<Crossing> {
+    /// Where a ray crosses the plain.
+    fn plain_crossing(&self, z: &Axis) -> Option<Crossing> {
         let t = z.crossing(self.plain?);
         // what is less than 2^-19 behind
         let is_there = (-SAME..i32::MAX).contains(&t);
@@ -160,8 +160,8 @@ impl Surface for Terrain<'_> {
     }
 
     fn cross(&self, ray: &Ray, _: Unit, found: &mut impl FnMut(Crossing) -> ControlFlow<()>) {
-        let axes = ray.axes();
-        let plain = self.plain_crossing(&axes);
+        let z = ray.upright();
+        let plain = self.plain_crossing(&z);
         // a ray comes to the plain after the land on the way down, and before it on the way up; where it is
         // under the land then, the land is the higher of both
         let mut before = plain.filter(|crossing| !crossing.enters);
@@ -171,6 +171,8 @@ impl Surface for Terrain<'_> {
             let _ = found(crossing);
             return;
         }
+        let [x, y] = ray.level();
+        let axes = [x, y, z];
         let walked = walk(
             &self.levels,
             |place| self.patch(place),

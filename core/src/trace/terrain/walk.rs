@@ -28,9 +28,9 @@ const PATH: usize = LEVELS as usize;
 
 /// What is known of the heights of nodes and cells.
 pub(super) trait Tree {
-    /// What is carried along from a node to its parts.
+    /// What is known of a node.
     type Node: Copy;
-    /// What the parts of a node share.
+    /// What is carried along to its parts.
     type Middle;
 
     /// The node of all cells.
@@ -43,13 +43,13 @@ pub(super) trait Tree {
     fn middle(&self, place: Place, node: &Self::Node) -> Self::Middle;
 
     /// A part, which is there, at its own place.
-    fn part(&self, place: Place, node: &Self::Node, middle: &Self::Middle) -> Self::Node;
+    fn part(&self, place: Place, middle: &Self::Middle) -> Self::Node;
 
     /// The patch that spans a leaf, and an eighth of how much it bends.
     fn patch(&self, place: Place, node: &Self::Node) -> (Form, u32);
 
-    /// Whether a node is a leaf where the ray comes to it at `t`.
-    fn is_leaf(&self, place: Place, t: Q24) -> bool;
+    /// Up to which level nodes are leaves where the ray comes to them at `t`, and until when.
+    fn leaves(&self, t: Q24) -> (u32, Q24);
 }
 
 /// Where the ray passes from the first half of a node to the second along an axis.
@@ -102,8 +102,7 @@ impl Across<'_> {
 
 /// A node that the ray is inside of.
 #[derive(Debug)]
-struct Open<N, M> {
-    node: N,
+struct Open<M> {
     middle: M,
     /// Column and row of the part that the ray comes to first.
     first: [u32; 2],
@@ -131,41 +130,53 @@ pub(super) fn walk<T: Tree>(
     let across = Across { rule: columns, axis: x, first: first(x) };
     let down = Across { rule: rows, axis: y, first: first(y) };
     let mut above: Above = None;
-    let mut path = Vec::<Open<T::Node, T::Middle>, PATH>::new();
+    let mut path = Vec::<Open<T::Middle>, PATH>::new();
     let (mut place, mut node) = (Place { level: frame.depth, column: 0, row: 0 }, tree.root());
     let (mut ends, mut z_in, mut second) = ([end; 2], z.at(t), [false; 2]);
+    let (mut leaves, mut until) = tree.leaves(t);
     loop {
         let out = ends[0].min(ends[1]);
         let z_out = z.at(out);
         let [low, high] = tree.range(place, &node);
-        let passes_above = z_in.min(z_out) > high;
-        let passes = passes_above || z_in.max(z_out) < low;
-        if !passes && !tree.is_leaf(place, t) {
-            let size = 1 << (place.level - 1);
-            let plane = |index: u32| (2 * index + 1) * size;
-            let unknown = Half { t: 0, time: 0 };
-            let halves = path.last().map_or([unknown; 2], |open| open.halves);
-            let halves = [
-                across.half(plane(place.column), size, halves[0], second[0]),
-                down.half(plane(place.row), size, halves[1], second[1]),
-            ];
-            let middle = tree.middle(place, &node);
-            let first = [2 * place.column + across.first, 2 * place.row + down.first];
-            // one a level: there is room
-            let _ = path.push(Open { node, middle, first, halves, ends });
+        let side = if z_in.min(z_out) > high {
+            Some(true)
+        } else if z_in.max(z_out) < low {
+            Some(false)
         } else {
-            if passes {
-                if above != Some(passes_above) {
+            None
+        };
+        'node: {
+            if let Some(passes_above) = side {
+                if above != side {
                     if above.is_some() {
                         // between two nodes: the cell where that is
                         let (column, row) = (columns.index(x.at(t)), rows.index(y.at(t)));
                         changed((t, Place { level: 0, column, row }, passes_above))?;
                     }
-                    above = Some(passes_above);
+                    above = side;
                 }
             } else {
+                if t >= until {
+                    (leaves, until) = tree.leaves(t);
+                }
+                let Place { level, column, row } = place;
+                if level > leaves {
+                    let size = 1 << (level - 1);
+                    let plane = |index: u32| (2 * index + 1) * size;
+                    let unknown = Half { t: 0, time: 0 };
+                    let halves = path.last().map_or([unknown; 2], |open| open.halves);
+                    let halves = [
+                        across.half(plane(column), size, halves[0], second[0]),
+                        down.half(plane(row), size, halves[1], second[1]),
+                    ];
+                    let middle = tree.middle(place, &node);
+                    let first = [2 * column + across.first, 2 * row + down.first];
+                    // one a level: there is room
+                    let _ = path.push(Open { middle, first, halves, ends });
+                    break 'node;
+                }
                 let (patch, eighth) = tree.patch(place, &node);
-                leaf(frame, axes, place, (t, out), (&patch, eighth), &mut above, changed)?;
+                leaf((frame, axes), level, [column, row], (t, out), (&patch, eighth), &mut above, changed)?;
             }
             (t, z_in) = (out, z_out);
             while path.last().is_some_and(|open| t >= open.ends[0].min(open.ends[1])) {
@@ -180,20 +191,20 @@ pub(super) fn walk<T: Tree>(
         ends = [end(open.halves[0], open.ends[0], second[0]), end(open.halves[1], open.ends[1], second[1])];
         let part = |first: u32, is_second: bool| first ^ u32::from(is_second);
         place = Place { level, column: part(open.first[0], second[0]), row: part(open.first[1], second[1]) };
-        node = tree.part(place, &open.node, &open.middle);
+        node = tree.part(place, &open.middle);
     }
 }
 
 /// As [`cross_leaf`], beside the walk: most of it is about nodes.
 #[inline(never)]
 fn leaf(
-    frame: &Frame,
-    axes: &[Axis; 3],
-    place: Place,
+    (frame, axes): (&Frame, &[Axis; 3]),
+    level: u32,
+    [column, row]: [u32; 2],
     piece: (Q24, Q24),
     patch: (&Form, u32),
     above: &mut Above,
     changed: &mut impl FnMut(Change) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    cross_leaf(frame, axes, place, piece, patch, above, changed)
+    cross_leaf(frame, axes, Place { level, column, row }, piece, patch, above, changed)
 }
