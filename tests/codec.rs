@@ -192,6 +192,57 @@ fn two_sweeps_settle_a_stream_that_was_made_for_two() {
     assert!((500..20_000).contains(&late) && left < 300, "{late} {left}");
 }
 
+/// A stream by sweeps in so much memory beyond what it must have: after each of five its bytes taken so far and
+/// its picture.
+fn swept<S: Sample + Default + Debug>(bytes: &[u8], scale: i32, beyond: usize) -> Vec<(u32, Vec<[S; 3]>)> {
+    let taken = Cell::new(0);
+    let opened = open(Counted(bytes.iter().copied(), &taken)).unwrap();
+    let mut memory = vec![S::default(); opened.samples(scale) + beyond];
+    let mut sweeps = opened.sweeps(scale, &mut memory).unwrap();
+    let size = sweeps.size();
+    let mut after = |count| {
+        assert_eq!(sweeps.sweep(), Ok(count));
+        (
+            taken.get(),
+            (0..size.height).flat_map(|y| sweeps.row(y, 0..size.width).collect::<Vec<_>>()).collect(),
+        )
+    };
+    (1..=5).map(&mut after).collect()
+}
+
+/// Memory beyond the picture's keeps the leaves that are not settled: then no sweep after the first reads the
+/// stream, and each shows what it shows without. Returns how much that takes.
+fn kept<S: Sample + Default + Debug + PartialEq>(name: &str, bytes: &[u8], scale: i32) -> usize {
+    let read = swept::<S>(bytes, scale, 0);
+    let whole = read[0].0;
+    let enough = (0..1 << 14).collect::<Vec<_>>();
+    let enough = enough.partition_point(|beyond| swept::<S>(bytes, scale, *beyond)[1].0 > whole);
+    for beyond in [enough.saturating_sub(1), enough, enough + 999] {
+        let got = swept::<S>(bytes, scale, beyond);
+        for (sweep, (got, expected)) in got.iter().zip(&read).enumerate() {
+            assert!(got.1 == expected.1, "{name}, 2^{scale}, {beyond} bytes: sweep {}", sweep + 1);
+            assert_eq!(got.0 == whole, sweep == 0 || beyond >= enough, "{name}, {beyond} bytes");
+        }
+    }
+    enough
+}
+
+#[test]
+fn sweeps_over_kept_leaves_show_what_sweeps_over_the_stream_show() {
+    for (name, least, most) in [("camera-iterated", 2000, 3296), ("camera-two-sweeps", 100, 200)] {
+        let bytes = kept::<u8>(name, file(name), 0);
+        println!("{name}: {bytes} bytes");
+        assert!((least..=most).contains(&bytes), "{name}: {bytes}");
+    }
+    for name in ["iterated", "pure"] {
+        let bytes = [-1, 0, 2].map(|scale| kept::<u8>(name, file(name), scale));
+        // the same bins are as well a picture of 16 bits
+        let deep = kept::<u16>(name, &forged(name, |bytes| bytes[5] |= 16), 0);
+        println!("{name}: {bytes:?} bytes, {deep} of 16 bits");
+        assert!(bytes[1] > 100 && deep > 100, "{name}: {bytes:?}, {deep}");
+    }
+}
+
 #[test]
 fn each_scale_has_its_size_and_resembles_the_picture() {
     for (name, _) in FILES {

@@ -206,10 +206,9 @@ fn a_plane_takes_any_leaf() {
         );
         let mut coder = Any(seed, 0);
         let mut leaf = Leaf::default();
-        let mut leaves = 0;
         for band in (0..height).step_by(1 << largest) {
             plane.begin(band, (seed % 3) as u32);
-            plane.decode(&mut coder, &mut leaf, |_| false, |_, _, _| leaves += 1);
+            plane.decode(&mut coder, &mut leaf, |_| false, |_, _, _, _| {});
         }
         // what an encoder asks
         plane.begin(0, 0);
@@ -227,7 +226,7 @@ fn a_plane_takes_any_leaf() {
         plane.draw(&Leaf::default(), 0, 0, 3);
         plane.skip(0, 0, 3);
         plane.restore(&edge);
-        leaves > 0
+        coder.1 > 0
     });
     let mut all = vec![0_u8; 1 << 16];
     let file = include_bytes!("../vectors/pure.atfi");

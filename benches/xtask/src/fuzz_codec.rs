@@ -14,6 +14,7 @@ use anyhow::{Result, ensure};
 use attractor::Error;
 use attractor::codec::shared::{Coder, Leaf, MODELS, Model, Plane, context, crc32};
 use attractor::codec::{Header, Planes, Profile, Sample, Step, open};
+use attractor::plane::Field as _;
 use clap::Args;
 use embedded_graphics::geometry::Size;
 
@@ -50,10 +51,10 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
     let (mut memory, mut deep) = (vec![0_u8; 1 << 16], vec![0_u16; 1 << 16]);
     for _ in 0..options.executions {
         let bytes = stream(&mut random, &mut memory, &mut deep)?;
-        let scale = random.below(5) as i32 - 2;
+        let (scale, beyond) = (random.below(5) as i32 - 2, random.below(6) * random.below(200));
         let result = match open(bytes.iter().copied()) {
-            Ok(opened) if opened.header().deep => decoded(&bytes, scale, &mut deep),
-            Ok(_) => decoded(&bytes, scale, &mut memory),
+            Ok(opened) if opened.header().deep => decoded(&bytes, scale, beyond, &mut deep),
+            Ok(_) => decoded(&bytes, scale, beyond, &mut memory),
             Err(error) => Err(error),
         };
         match result {
@@ -159,7 +160,7 @@ fn payload<S: Sample>(header: &Header, random: &mut Random, memory: &mut [S]) ->
         for (plane, index) in planes.iter_mut().zip(0..count) {
             plane.begin(row >> header.halved(index), 0);
             // a domain where none may be ends it: most of these streams are malformed
-            if !plane.decode(&mut writer, &mut leaf, |_| false, |_, _, _| {}) {
+            if !plane.decode(&mut writer, &mut leaf, |_| false, |_, _, _, _| {}) {
                 break 'bands;
             }
         }
@@ -209,15 +210,31 @@ fn stream(random: &mut Random, memory: &mut [u8], deep: &mut [u16]) -> Result<Ve
     Ok(bytes)
 }
 
-fn decoded<S: Sample>(bytes: &[u8], scale: i32, memory: &mut [S]) -> Result<(), Error> {
+/// Three sweeps leave the same picture whether there is memory for leaves or not: this much, or little.
+fn decoded<S: Sample + Default + PartialEq>(
+    bytes: &[u8],
+    scale: i32,
+    beyond: usize,
+    memory: &mut [S],
+) -> Result<(), Error> {
     let opened = open(bytes.iter().copied())?;
     if opened.header().profile == Profile::Streaming {
         let mut stream = opened.stream(scale, memory)?;
         while stream.next_band()?.is_some() {}
         return Ok(());
     }
-    let mut sweeps = opened.sweeps(scale, memory)?;
-    sweeps.sweep()?;
-    sweeps.sweep()?;
-    sweeps.sweep().map(|_| ())
+    let needed = opened.samples(scale);
+    let mut lean = vec![S::default(); needed];
+    let mut read = opened.clone().sweeps(scale, &mut lean)?;
+    let end = memory.len().min(needed + beyond);
+    let mut kept = opened.sweeps(scale, &mut memory[..end])?;
+    for _ in 0..3 {
+        let (one, other) = (read.sweep(), kept.sweep());
+        assert_eq!(one, other, "{bytes:02x?}");
+        one?;
+        let rows = 0..read.size().height;
+        let same = |y: u32| (0..read.size().width).all(|x| read.at(x, y) == kept.at(x, y));
+        assert!(rows.into_iter().all(same), "{bytes:02x?}, {beyond} samples beyond");
+    }
+    Ok(())
 }

@@ -26,6 +26,7 @@ mod domain;
 mod draw;
 mod edge;
 mod header;
+mod kept;
 mod leaf;
 mod leaves;
 mod models;

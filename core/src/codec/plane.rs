@@ -16,6 +16,7 @@
 use core::cell::Cell;
 
 use super::context;
+use super::kept::Unsettled;
 use super::leaf::{Leaf, Setting};
 use super::models::Coder;
 use super::quadtree::{SMALLEST, Walk};
@@ -142,15 +143,15 @@ impl<'a, S: Sample> Plane<'a, S> {
         self.band = band;
     }
 
-    /// Decodes a band, all squares or until `stop` says so; `seen` is shown each leaf, how it was said, and
-    /// where it is. False if a domain lies where nothing is decoded.
+    /// Decodes a band, all squares or until `stop` says so; `seen` is shown each leaf, how it was said,
+    /// where it is, and what the next sweep draws again of it. False if a domain lies where nothing is decoded.
     #[inline(never)]
     pub fn decode<C: Coder>(
         &mut self,
         coder: &mut C,
         leaf: &mut Leaf,
         mut stop: impl FnMut(&C) -> bool,
-        mut seen: impl FnMut(&Leaf, &Setting, [u32; 2]),
+        mut seen: impl FnMut(&Leaf, &Setting, [u32; 2], Option<Unsettled>),
     ) -> bool {
         let mut x = 0;
         while x < self.shape.width {
@@ -169,10 +170,8 @@ impl<'a, S: Sample> Plane<'a, S> {
                 }
                 leaf.levels.clear();
                 leaf.code(coder, &setting);
-                seen(leaf, &setting, [x, y]);
-                if !self.draw(leaf, x, y, size) {
-                    return false;
-                }
+                let Some(unsettled) = self.drawn(leaf, x, y, size) else { return false };
+                seen(leaf, &setting, [x, y], unsettled);
                 walk.pass();
             }
             if stop(coder) {

@@ -6,6 +6,7 @@ use embedded_graphics_core::geometry::Size;
 
 use super::crc::Crc;
 use super::header::{Header, WHAT};
+use super::kept::{Kept, Unsettled};
 use super::leaf::{Leaf, Setting};
 use super::plane::Plane;
 use super::range_decoder::RangeDecoder;
@@ -25,9 +26,9 @@ pub(super) struct Planes<'a, S: Sample> {
 }
 
 impl<'a, S: Sample> Planes<'a, S> {
-    /// In lent memory of the length that was checked.
-    pub(super) fn new(header: Header, scale: i32, mut memory: &'a [Cell<S>]) -> Self {
-        let mut plane = |index| Plane::new(header.shape(index, scale), &mut memory);
+    /// In lent memory of the length that was checked, from its front.
+    pub(super) fn new(header: Header, scale: i32, memory: &mut &'a [Cell<S>]) -> Self {
+        let mut plane = |index| Plane::new(header.shape(index, scale), memory);
         let planes = [plane(0), plane(1), plane(2)];
         Self { header, planes, leaf: Leaf::default() }
     }
@@ -38,13 +39,14 @@ impl<'a, S: Sample> Planes<'a, S> {
         row: u32,
         decoder: &mut RangeDecoder<I>,
         done: u32,
-        mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2]),
+        mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2], Option<Unsettled>),
     ) -> Result<(), Error> {
         for (index, plane) in (0..self.header.count()).zip(&mut self.planes) {
             plane.begin(row >> self.header.halved(index), done);
-            let sound = plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at| {
-                seen(index, leaf, setting, at);
-            });
+            let sound =
+                plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at, map| {
+                    seen(index, leaf, setting, at, map);
+                });
             let position = decoder.taken();
             if decoder.ended() {
                 return Err(Error::Ended { what: WHAT, position });
@@ -54,6 +56,14 @@ impl<'a, S: Sample> Planes<'a, S> {
             }
         }
         Ok(())
+    }
+
+    /// Sweeps over leaves that were kept instead of a stream.
+    pub(super) fn redraw(&mut self, kept: &mut Kept<'a, S>) {
+        let planes = &mut self.planes;
+        kept.retain(&mut self.leaf.levels, |index, levels, map| {
+            planes.get_mut(index as usize).is_some_and(|plane| !plane.redraw(levels, map))
+        });
     }
 
     /// Reads what follows the last band: no byte of the payload may be left, and the checksum must be right.

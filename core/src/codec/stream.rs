@@ -42,11 +42,11 @@ impl<I: Iterator<Item = u8>> Opened<I> {
     pub(super) fn stream_in<S: Sample>(
         self,
         scale: i32,
-        memory: &[Cell<S>],
+        mut memory: &[Cell<S>],
     ) -> Result<Stream<'_, S, I>, Error> {
         self.checked::<S>(true, scale, memory.len())?;
         let (header, crc, source) = self.into_parts();
-        let planes = Planes::new(header, scale, memory);
+        let planes = Planes::new(header, scale, &mut memory);
         let decoder = planes.decoder(source, crc);
         Ok(Stream { planes, decoder, next: 0, ended: false })
     }
@@ -74,7 +74,7 @@ impl<'a, S: Sample, I: Iterator<Item = u8>> Stream<'a, S, I> {
             self.ended = true;
             return Ok(None);
         }
-        self.planes.decode(self.next, &mut self.decoder, 0, |_, _, _, _| {})?;
+        self.planes.decode(self.next, &mut self.decoder, 0, |_, _, _, _, _| {})?;
         let top = self.planes.drawn(self.next);
         self.next += BAND;
         let rows = self.planes.drawn(BAND).min(self.planes.size().height - top);
