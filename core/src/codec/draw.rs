@@ -9,7 +9,7 @@
 use core::cell::Cell;
 
 use super::area::Area;
-use super::domain::{Source, quarter};
+use super::domain::Source;
 use super::kept::Unsettled;
 use super::leaf::{Domain, Leaf};
 use super::plane::{Plane, rounded};
@@ -177,7 +177,7 @@ impl<'a, S: Sample> Plane<'a, S> {
 
     /// The base along the edges, where the leaf is not drawn, or not in its own size.
     #[inline(never)]
-    fn edges(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32, mean: i32) {
+    fn edges(&self, leaf: &Leaf, x: u32, y: u32, size: u32, mean: i32) {
         if leaf.levels.is_empty() {
             self.level(x, y, 1 << size, rounded(mean));
             return;
@@ -192,42 +192,26 @@ impl<'a, S: Sample> Plane<'a, S> {
 
     /// The base along the edges of row `i` of a transform and the one that mirrors it.
     #[inline(never)]
-    fn edge_rows(&mut self, inverse: &Inverse<'_>, pair: &[Term], i: u32, [x, y, size]: [u32; 3], mean: i32) {
+    fn edge_rows(&self, inverse: &Inverse<'_>, pair: &[Term], i: u32, [x, y, size]: [u32; 3], mean: i32) {
         let (n, base) = (1 << size, |value: i32| rounded(mean + value));
-        let mut j = 0;
-        loop {
-            let [_, upper, left, right] = inverse.pixels_apart::<S>(pair, j);
-            if j == 0 {
-                self.set_left(y + i, base(upper));
-                self.set_left(y + n - 1 - i, base(right));
-            }
-            if i > 0 {
-                return;
-            }
-            self.set_above(x + j, base(left));
-            self.set_above(x + n - 1 - j, base(right));
-            j += 1;
-            if j == n / 2 {
-                return;
+        let mut four = [0; 4];
+        // the lowest row is that which mirrors the first
+        for j in (0..if i == 0 { n / 2 } else { 1 }).rev() {
+            four = inverse.pixels_apart::<S>(pair, j);
+            if i == 0 {
+                self.set_above(x + j, base(four[2]));
+                self.set_above(x + n - 1 - j, base(four[3]));
             }
         }
+        self.set_left(y + i, base(four[1]));
+        self.set_left(y + n - 1 - i, base(four[3]));
     }
 
     /// The base along the edges of a whole leaf whose pixels show it.
     #[inline(never)]
-    fn recall(&mut self, area: &Area<'a, S>, x: u32, y: u32) {
-        let (x, n) = (x as usize, area.wide as usize);
-        let mut lowest = area.row(area.high - 1).iter();
-        for slot in self.above.get(x..x + n).unwrap_or(&[]) {
-            let Some(sample) = lowest.next() else { break };
-            slot.set(sample.get());
-        }
-        let (mut at, first) = (area.start + area.wide - 1, (y - self.band) as usize);
-        for slot in self.left.get_mut(first..first + n).unwrap_or(&mut []) {
-            let Some(sample) = area.picture.get(at as usize) else { return };
-            *slot = sample.get();
-            at += area.columns;
-        }
+    fn recall(&self, area: &Area<'a, S>, x: u32, y: u32) {
+        let (lower, right) = (area.start + (area.high - 1) * area.columns, area.start + area.wide - 1);
+        self.border(x, y, area.wide as usize, area.picture, [(lower, 1), (right, area.columns)]);
     }
 
     /// Brings the halved picture up to date where a square was drawn.
@@ -244,21 +228,14 @@ impl<'a, S: Sample> Plane<'a, S> {
             return;
         }
         let n = (m >> 1).max(1);
-        let rows = shape.rows();
-        let offset = shape.scaled(shape.half_rows()) - shape.scaled(shape.side() >> 1);
-        for y in y0..y0 + n {
-            if 2 * y + 1 >= rows {
-                break;
-            }
-            let from = (2 * y - band) * columns + 2 * x0;
-            let at = ((y - (band >> 1) + offset) * width + x0) as usize;
-            let Some(to) = self.half.get(at..at + n.min(width - x0) as usize) else { break };
-            let rows = |from: u32| self.picture.get(from as usize..).unwrap_or(&[]).chunks_exact(2);
-            let (mut upper, mut lower) = (rows(from), rows(from + columns));
-            for to in to {
-                let (Some([a, b]), Some([c, d])) = (upper.next(), lower.next()) else { break };
-                to.set(S::cut(quarter([a, b], [c, d])));
-            }
+        let count = n.min(width - x0);
+        // of those rows whose lower one is there
+        let high = (shape.rows() >> 1).saturating_sub(y0).min(n);
+        let above = shape.scaled(shape.half_rows()) - shape.scaled(shape.side() >> 1) + y0 - (band >> 1);
+        let (start, down) = ((2 * y0 - band) * columns + 2 * x0, 2 * columns);
+        let source = Source { samples: self.picture, start, down, lower: columns, isometry: 0 };
+        for r in 0..high {
+            source.row([r, 0, count], self.half, self.half_row(above + r) * width + x0, 1);
         }
     }
 
@@ -279,7 +256,8 @@ impl<'a, S: Sample> Plane<'a, S> {
         let y = if windowed { (row as i32 - self.half_top).max(0) as u32 } else { row };
         let (px, py) = (shape.scaled(column).min(width - m), shape.scaled(y).min(rows - m));
         let source = if windowed {
-            Source { samples: self.half, start: py * width + px, down: width, lower: 0, isometry }
+            let start = self.half_row(py) * width + px;
+            Source { samples: self.half, start, down: width, lower: 0, isometry }
         } else {
             let down = 2 * columns;
             Source { samples: self.picture, start: py * down + 2 * px, down, lower: columns, isometry }

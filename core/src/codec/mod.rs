@@ -37,6 +37,7 @@ mod quadtree;
 mod range_decoder;
 #[cfg(feature = "embedded-io")]
 mod read;
+mod rolled;
 mod sample;
 mod settled;
 mod shape;

@@ -41,7 +41,7 @@ impl<'a, S: Sample> Planes<'a, S> {
         done: u32,
         mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2], Option<Unsettled>),
     ) -> Result<(), Error> {
-        for (index, plane) in (0..self.header.count()).zip(&mut self.planes) {
+        for (index, plane) in (0..self.header.count()).zip(self.planes.as_mut_slice()) {
             plane.begin(row >> self.header.halved(index), done);
             let sound =
                 plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at, map| {
