@@ -27,10 +27,13 @@ impl<I: Iterator<Item = u8>> Opened<I> {
         let mut decoder = planes.decoder(source, crc);
         let mut row = 0;
         while row < header.size.height {
-            planes
-                .decode(row, &mut decoder, 0, |plane, leaf, setting, at, _| seen(plane, leaf, setting, at))?;
+            let mut shown = |plane, leaf: &_, setting: &_, at, _| seen(plane, leaf, setting, at);
+            if !planes.decode(row, &mut decoder, 0, &mut shown) {
+                return Planes::<S>::verdict(&decoder, None);
+            }
             row += BAND;
         }
-        Planes::<S>::end(&mut decoder)
+        let stated = Planes::<S>::end(&mut decoder);
+        Planes::<S>::verdict(&decoder, stated)
     }
 }

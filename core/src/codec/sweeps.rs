@@ -79,14 +79,18 @@ impl<'a, S: Sample, I: Iterator<Item = u8> + Clone> Sweeps<'a, S, I> {
         kept.clear();
         let mut row = 0;
         while row < self.planes.header().size.height {
-            self.planes.decode(row, &mut decoder, self.done, |plane, leaf, _, _, map| {
+            let drawn = self.planes.decode(row, &mut decoder, self.done, |plane, leaf, _, _, map| {
                 if let Some(map) = map {
                     kept.add(plane, leaf, &map);
                 }
-            })?;
+            });
+            if !drawn {
+                return Planes::<S>::verdict(&decoder, None);
+            }
             row += BAND;
         }
-        Planes::<S>::end(&mut decoder)
+        let stated = Planes::<S>::end(&mut decoder);
+        Planes::<S>::verdict(&decoder, stated)
     }
 
     /// All sweeps that the header counts on which are not done yet.
