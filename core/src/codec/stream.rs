@@ -25,7 +25,8 @@ pub struct Stream<'a, S: Sample, I> {
     /// Of luma, the first row that is not decoded.
     next: u32,
     /// At the end, or where no more can be decoded: the checksum that is stated, if it came so far.
-    end: Option<Option<u32>>,
+    stated: Option<u32>,
+    over: bool,
 }
 
 impl<I: Iterator<Item = u8>> Opened<I> {
@@ -49,7 +50,7 @@ impl<I: Iterator<Item = u8>> Opened<I> {
         let (header, crc, source) = self.into_parts();
         let planes = Planes::new(header, scale, &mut memory);
         let decoder = planes.decoder(source, crc);
-        Ok(Stream { planes, decoder, next: 0, end: None })
+        Ok(Stream { planes, decoder, next: 0, stated: None, over: false })
     }
 }
 
@@ -66,17 +67,16 @@ impl<'a, S: Sample, I: Iterator<Item = u8>> Stream<'a, S, I> {
     /// or
     /// bytes of the payload are left over, [`Error::Checksum`].
     pub fn next_band(&mut self) -> Result<Option<Part<'a, S>>, Error> {
-        if self.end.is_none() {
+        if !self.over {
             if self.next >= self.planes.header().size.height {
-                self.end = Some(Planes::<S>::end(&mut self.decoder));
+                self.stated = Planes::<S>::end(&mut self.decoder);
             } else if self.planes.decode(self.next, &mut self.decoder, 0, |_, _, _, _, _| {}) {
                 self.next += BAND;
                 return Ok(self.band());
-            } else {
-                self.end = Some(None);
             }
+            self.over = true;
         }
-        Planes::<S>::verdict(&self.decoder, self.end.flatten()).map(|()| None)
+        Planes::<S>::verdict(&self.decoder, self.stated).map(|()| None)
     }
 
     /// The rows that the last band has; none before the first.
