@@ -476,7 +476,7 @@ fn an_endless_reader_is_read_to_the_end_of_the_picture_and_no_further() {
 fn streams_that_no_encoder_wrote_decode_to_the_bits_of_the_format() {
     let mut random = Random::new(12);
     let (mut domains, mut kinds) = ([0; 3], std::collections::BTreeSet::new());
-    for _ in 0..200 {
+    for _ in 0..400 {
         let bytes = stream(&mut random, true).unwrap();
         let (size, got) = numbers(&bytes, 0, None).unwrap();
         let header = check(&bytes).unwrap();
