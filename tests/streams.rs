@@ -156,7 +156,7 @@ fn payload<S: Sample>(header: &Header, random: &mut Random, sound: bool, memory:
 
 /// Whether all of a picture could be decoded.
 fn walk<S: Sample>(header: &Header, writer: &mut Writer<'_>, memory: &mut [S]) -> bool {
-    let mut rest = &*Cell::from_mut(memory).as_slice_of_cells();
+    let mut rest = Cell::from_mut(memory).as_slice_of_cells();
     let mut planes = header.shapes(0).map(|shape| Plane::new(shape, &mut rest));
     let count = if header.planes == Planes::Grey { 1 } else { 3 };
     let mut leaf = Leaf::default();

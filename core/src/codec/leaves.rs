@@ -23,7 +23,7 @@ impl<I: Iterator<Item = u8>> Opened<I> {
     ) -> Result<(), Error> {
         self.checked::<S>(self.header().profile == Profile::Streaming, 0, memory.len())?;
         let (header, crc, source) = self.into_parts();
-        let mut planes = Planes::new(header, 0, &mut &*Cell::from_mut(memory).as_slice_of_cells());
+        let mut planes = Planes::new(header, 0, &mut Cell::from_mut(memory).as_slice_of_cells());
         let mut decoder = planes.decoder(source, crc);
         let mut row = 0;
         while row < header.size.height {

@@ -48,7 +48,7 @@ impl<I: Iterator<Item = u8> + Clone> Opened<I> {
     pub fn sweeps<S: Sample>(self, scale: i32, memory: &mut [S]) -> Result<Sweeps<'_, S, I>, Error> {
         self.checked::<S>(false, scale, memory.len())?;
         let (header, crc, source) = self.into_parts();
-        let mut memory = &*Cell::from_mut(memory).as_slice_of_cells();
+        let mut memory = Cell::from_mut(memory).as_slice_of_cells();
         let planes = Planes::new(header, scale, &mut memory);
         planes.blacken();
         Ok(Sweeps { planes, source, crc, done: 0, kept: Kept::new(memory) })
