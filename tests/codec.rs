@@ -12,6 +12,7 @@ use attractor::codec::{Luma, Profile, Sample, Streamed, check, open};
 use attractor::draw::{Grey, Picture};
 use attractor::plane::Field;
 use attractor_reference::codec::decode;
+use attractor_tests::streams::{Random, stream};
 use embedded_graphics::geometry::Size;
 
 /// Every file of version 1 that is kept. `vectors/checksums.txt` has the CRC-32 of each one's samples, luma,
@@ -192,6 +193,57 @@ fn two_sweeps_settle_a_stream_that_was_made_for_two() {
     assert!((500..20_000).contains(&late) && left < 300, "{late} {left}");
 }
 
+/// A stream by sweeps in so much memory beyond what it must have: after each of five its bytes taken so far and
+/// its picture.
+fn swept<S: Sample + Default + Debug>(bytes: &[u8], scale: i32, beyond: usize) -> Vec<(u32, Vec<[S; 3]>)> {
+    let taken = Cell::new(0);
+    let opened = open(Counted(bytes.iter().copied(), &taken)).unwrap();
+    let mut memory = vec![S::default(); opened.samples(scale) + beyond];
+    let mut sweeps = opened.sweeps(scale, &mut memory).unwrap();
+    let size = sweeps.size();
+    let mut after = |count| {
+        assert_eq!(sweeps.sweep(), Ok(count));
+        (
+            taken.get(),
+            (0..size.height).flat_map(|y| sweeps.row(y, 0..size.width).collect::<Vec<_>>()).collect(),
+        )
+    };
+    (1..=5).map(&mut after).collect()
+}
+
+/// Memory beyond the picture's keeps the leaves that are not settled: then no sweep after the first reads the
+/// stream, and each shows what it shows without. Returns how much that takes.
+fn kept<S: Sample + Default + Debug + PartialEq>(name: &str, bytes: &[u8], scale: i32) -> usize {
+    let read = swept::<S>(bytes, scale, 0);
+    let whole = read[0].0;
+    let enough = (0..1 << 14).collect::<Vec<_>>();
+    let enough = enough.partition_point(|beyond| swept::<S>(bytes, scale, *beyond)[1].0 > whole);
+    for beyond in [enough.saturating_sub(1), enough, enough + 999] {
+        let got = swept::<S>(bytes, scale, beyond);
+        for (sweep, (got, expected)) in got.iter().zip(&read).enumerate() {
+            assert!(got.1 == expected.1, "{name}, 2^{scale}, {beyond} bytes: sweep {}", sweep + 1);
+            assert_eq!(got.0 == whole, sweep == 0 || beyond >= enough, "{name}, {beyond} bytes");
+        }
+    }
+    enough
+}
+
+#[test]
+fn sweeps_over_kept_leaves_show_what_sweeps_over_the_stream_show() {
+    for (name, least, most) in [("camera-iterated", 2000, 3296), ("camera-two-sweeps", 100, 200)] {
+        let bytes = kept::<u8>(name, file(name), 0);
+        println!("{name}: {bytes} bytes");
+        assert!((least..=most).contains(&bytes), "{name}: {bytes}");
+    }
+    for name in ["iterated", "pure"] {
+        let bytes = [-1, 0, 2].map(|scale| kept::<u8>(name, file(name), scale));
+        // the same bins are as well a picture of 16 bits
+        let deep = kept::<u16>(name, &forged(name, |bytes| bytes[5] |= 16), 0);
+        println!("{name}: {bytes:?} bytes, {deep} of 16 bits");
+        assert!(bytes[1] > 100 && deep > 100, "{name}: {bytes:?}, {deep}");
+    }
+}
+
 #[test]
 fn each_scale_has_its_size_and_resembles_the_picture() {
     for (name, _) in FILES {
@@ -242,6 +294,54 @@ fn a_file_cut_off_anywhere_says_that_it_ends_too_early() {
         }
     }
     assert!(cut > 3000);
+}
+
+/// The bands before an error are those of the whole file; a field shows 0 below them, and says why.
+#[test]
+fn nothing_is_drawn_that_was_not_decoded() {
+    let (bytes, mut shown) = (file("streaming"), std::collections::BTreeMap::new());
+    let (size, whole) = pixels::<u8>(bytes.iter().copied(), 0, None).unwrap();
+    let mut memory = vec![0_u8; open(bytes.iter().copied()).unwrap().samples(0)];
+    for length in 19..bytes.len() {
+        let mut stream = open(bytes[..length].iter().copied()).unwrap().stream(0, &mut memory).unwrap();
+        let mut rows = 0;
+        let error = loop {
+            match stream.next_band() {
+                Ok(Some(band)) => {
+                    for y in 0..band.size().height {
+                        let row = &whole[((rows + y) * size.width) as usize..][..size.width as usize];
+                        assert!(
+                            band.row(y, 0..size.width).eq(row.iter().copied()),
+                            "{length} bytes, row {y}"
+                        );
+                    }
+                    rows += band.size().height;
+                }
+                Ok(None) => panic!("{length} bytes are no picture"),
+                Err(error) => break error,
+            }
+        };
+        // it comes again, and nothing with it
+        assert_eq!(stream.next_band().err(), Some(error));
+        *shown.entry(rows).or_insert(0) += 1;
+    }
+    println!("{shown:?} rows of a cut file");
+    assert_eq!(shown.keys().copied().collect::<Vec<_>>(), [0, 32, 64, 96, 128, 129]);
+    // noise in the payload, with a right checksum: a domain lies where none may
+    let mut refused = 0;
+    for seed in 0..40_u8 {
+        let bytes = forged("streaming", |bytes| bytes[400..].iter_mut().for_each(|byte| *byte ^= seed));
+        let mut memory = vec![9_u8; open(bytes.iter().copied()).unwrap().samples(0)];
+        let field = Streamed::new(&bytes, 0, &mut memory).unwrap();
+        let last: Vec<_> = (0..size.height).map(|y| field.at(0, y)).collect();
+        if let Some(error) = field.error() {
+            assert!(matches!(error, Error::Malformed { .. }), "{error}");
+            assert_eq!(last.last(), Some(&[0; 3]), "{seed}");
+            assert_eq!(last[0], whole[0]);
+            refused += 1;
+        }
+    }
+    assert!(refused > 30, "{refused}");
 }
 
 #[test]
@@ -369,6 +469,34 @@ fn an_endless_reader_is_read_to_the_end_of_the_picture_and_no_further() {
         let endless = head.into_iter().chain([255, 255, 255, 127]).chain(noise);
         assert!(pixels::<u8>(endless, 0, None).is_err(), "{seed}");
     }
+}
+
+/// Streams of tossed coins, of every profile, depth, kind of planes and reach, against the reference to the bit.
+#[test]
+fn streams_that_no_encoder_wrote_decode_to_the_bits_of_the_format() {
+    let mut random = Random::new(12);
+    let (mut domains, mut kinds) = ([0; 3], std::collections::BTreeSet::new());
+    for _ in 0..400 {
+        let bytes = stream(&mut random, true).unwrap();
+        let (size, got) = numbers(&bytes, 0, None).unwrap();
+        let header = check(&bytes).unwrap();
+        let expected = decode(&bytes);
+        for (plane, (width, height, _)) in expected.planes.iter().enumerate() {
+            let halved = usize::from(*width < size.width as usize || *height < size.height as usize);
+            for (i, pixel) in got.iter().enumerate() {
+                let (x, y) = (i % size.width as usize, i / size.width as usize);
+                let exact = expected.exact[plane][(y >> halved) * width + (x >> halved)];
+                assert_eq!(i64::from(pixel[plane]), exact, "({x}, {y}), plane {plane} of {header:?}");
+            }
+        }
+        let below = expected.leaves.iter().filter(|leaf| leaf.domain.is_some() && leaf.y >= 32).count();
+        domains[usize::from(bytes[5] & 3)] += below;
+        kinds.insert((bytes[5] & 3, header.deep));
+        kinds.insert((4 + header.reach, header.profile == Profile::Streaming));
+        kinds.insert((bytes[5] >> 2 & 3 | 16, header.deep));
+    }
+    println!("{domains:?} domains below the first band, {} kinds", kinds.len());
+    assert!(domains.iter().all(|count| *count >= 15) && kinds.len() == 6 + 16 + 6, "{domains:?} {kinds:?}");
 }
 
 /// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf

@@ -118,6 +118,54 @@ fn leaves_say_what_they_hear() {
     });
 }
 
+/// A coder that says what is longest: divide or not, as a seed has it, and every other bin 1.
+struct Longest(u64, u32);
+
+impl Coder for Longest {
+    fn bin(&mut self, context: usize, _: bool) -> bool {
+        self.1 += 1;
+        self.0 = self.0.rotate_left(1);
+        if context < context::DOMAIN { self.0 & 1 == 1 } else { context < context::MEAN || self.0 & 2 == 0 }
+    }
+
+    fn raw(&mut self, count: u32, _: u32) -> u32 {
+        self.1 += count;
+        0
+    }
+}
+
+/// A header bounds how many bins and raw bits a picture has: 64 for each sample up to whole squares.
+#[test]
+fn bins_are_bounded_by_the_header() {
+    let (mut most, mut tried) = (0.0_f64, 0);
+    for (width, height) in [(1, 1), (4, 4), (32, 32), (33, 65), (70, 40)] {
+        for largest in [4, 5] {
+            for (window, divided) in
+                [(None, 0), (None, u64::MAX), (Some(64), 0), (None, 0x5555_5555_5555_5555)]
+            {
+                let shape =
+                    Shape { width, height, largest, chroma: 0, step: 16, window, transform: true, scale: 0 };
+                let mut memory = vec![0_u8; Plane::<u8>::samples(&shape)];
+                let mut rest = Cell::from_mut(memory.as_mut_slice()).as_slice_of_cells();
+                let (mut plane, mut leaf) = (Plane::new(shape, &mut rest), Leaf::default());
+                let mut coder = Longest(divided, 0);
+                let bands = height.div_ceil(shape.side());
+                for band in 0..bands {
+                    plane.begin(band * shape.side(), 0);
+                    // a domain where none may be ends a band
+                    plane.decode(&mut coder, &mut leaf, |_| false, |_, _, _, _| {});
+                }
+                let samples = shape.padded() * bands * shape.side();
+                assert!(coder.1 <= 64 * samples, "{} of {samples}: {shape:?}", coder.1);
+                most = most.max(f64::from(coder.1) / f64::from(samples));
+                tried += 1;
+            }
+        }
+    }
+    println!("{most:.1} bins a sample");
+    assert!(tried == 40 && most > 20.0, "{most}");
+}
+
 #[test]
 fn models_stay_probabilities() {
     let (mut least, mut most) = (8192, 0);
@@ -206,10 +254,9 @@ fn a_plane_takes_any_leaf() {
         );
         let mut coder = Any(seed, 0);
         let mut leaf = Leaf::default();
-        let mut leaves = 0;
         for band in (0..height).step_by(1 << largest) {
             plane.begin(band, (seed % 3) as u32);
-            plane.decode(&mut coder, &mut leaf, |_| false, |_, _, _| leaves += 1);
+            plane.decode(&mut coder, &mut leaf, |_| false, |_, _, _, _| {});
         }
         // what an encoder asks
         plane.begin(0, 0);
@@ -227,7 +274,7 @@ fn a_plane_takes_any_leaf() {
         plane.draw(&Leaf::default(), 0, 0, 3);
         plane.skip(0, 0, 3);
         plane.restore(&edge);
-        leaves > 0
+        coder.1 > 0
     });
     let mut all = vec![0_u8; 1 << 16];
     let file = include_bytes!("../vectors/pure.atfi");

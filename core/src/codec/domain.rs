@@ -7,7 +7,7 @@ use super::sample::Sample;
 
 /// The mean of a square of four samples, of which the upper and the lower two are given.
 #[inline]
-pub(super) fn quarter<S: Sample>(upper: [&Cell<S>; 2], lower: [&Cell<S>; 2]) -> i32 {
+fn quarter<S: Sample>(upper: [&Cell<S>; 2], lower: [&Cell<S>; 2]) -> i32 {
     let [a, b] = upper.map(|sample| sample.get().number());
     let [c, d] = lower.map(|sample| sample.get().number());
     (a + b + c + d + 2) >> 2
@@ -16,6 +16,7 @@ pub(super) fn quarter<S: Sample>(upper: [&Cell<S>; 2], lower: [&Cell<S>; 2]) -> 
 /// A domain, halved and turned.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a, S: Sample> {
+    /// Of them the first row follows the last.
     pub(super) samples: &'a [Cell<S>],
     /// Where the first sample is, and how far the next row.
     pub(super) start: u32,
@@ -67,8 +68,12 @@ impl<'a, S: Sample> Source<'a, S> {
     /// Lays `count` samples of row `r`, from the `s`th on, into slots, `step` apart from `at` on, and tells
     /// their sum.
     #[inline(never)]
-    fn row(&self, [r, s, count]: [u32; 3], slots: &[Cell<S>], mut at: u32, step: u32) -> u32 {
-        let (mut sum, from) = (0_u32, self.start + r * self.down);
+    pub(super) fn row(&self, [r, s, count]: [u32; 3], slots: &[Cell<S>], mut at: u32, step: u32) -> u32 {
+        let (mut sum, mut from) = (0_u32, self.start + r * self.down);
+        if from as usize >= self.samples.len() {
+            // rows go round and round
+            from -= self.samples.len() as u32;
+        }
         let mut lay = |value: i32| {
             sum = sum.wrapping_add(value as u32);
             let slot = slots.get(at as usize);

@@ -9,12 +9,13 @@
 use core::cell::Cell;
 
 use super::area::Area;
-use super::domain::{Source, quarter};
+use super::domain::Source;
+use super::kept::Unsettled;
 use super::leaf::{Domain, Leaf};
 use super::plane::{Plane, rounded};
 use super::sample::Sample;
 use super::shape::Place;
-use super::transform::{FREQUENCIES, Inverse, Term, pixels};
+use super::transform::{FREQUENCIES, Inverse, Levels, Term, pixels};
 
 impl<'a, S: Sample> Plane<'a, S> {
     /// A leaf's pixels, and what later leaves need to know of it. False if its domain may not lie there.
@@ -31,8 +32,13 @@ impl<'a, S: Sample> Plane<'a, S> {
     /// In sweeps a leaf is settled once it was drawn with a domain of which all is settled, or without
     /// one; then
     /// it stays as it is. The first sweep draws a leaf whose domain is not settled by then as if it had none.
-    #[inline(never)]
     pub fn draw(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32) -> bool {
+        self.drawn(leaf, x, y, size).is_some()
+    }
+
+    /// The same: none if its domain may not lie there, else what the next sweep draws again, if it does.
+    #[inline(never)]
+    pub(super) fn drawn(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32) -> Option<Option<Unsettled>> {
         let stays = self.done > 0 && self.settled.at(x, y);
         if stays && self.shape.scale == 0 && leaf.domain.is_none() {
             // what is settled shows its base
@@ -40,41 +46,60 @@ impl<'a, S: Sample> Plane<'a, S> {
             if area.is_whole(1 << size) {
                 self.mark(x, y, size, false);
                 self.recall(&area, x, y);
-                return true;
+                return Some(None);
             }
         }
-        let (mut source, mut settled) = (None, true);
+        let (mut source, mut unsettled) = (None, None);
+        let mean = self.expected(x, y, size) + self.shape.moved(leaf.mean, size);
         if let Some(domain) = leaf.domain.as_ref().filter(|_| !stays) {
-            let Some(place) = self.shape.place(domain, x, y, size) else { return false };
-            settled = self.settled.has(2 * place.x, 2 * place.y, 2 << size);
+            let Place { x: column, y: row, .. } = self.shape.place(domain, x, y, size)?;
+            let (contrast, isometry) = (domain.contrast(), domain.isometry);
+            let map = Unsettled { x, y, size, mean, column, row, isometry, contrast };
+            let settled = self.settled.has(2 * column, 2 * row, 2 << size);
             if settled || self.done > 0 {
-                source = self.source(domain, place, size).map(|source| (source, domain.contrast()));
+                source = self.source(&map);
             }
+            unsettled = (!settled).then_some(map);
         }
         self.mark(x, y, size, leaf.domain.is_some());
-        let mean = self.expected(x, y, size) + self.shape.moved(leaf.mean, size);
-        let scaled = self.shape.scale != 0;
-        if stays || scaled {
+        let same = self.shape.scale == 0;
+        if stays || !same {
             self.edges(leaf, x, y, size, mean);
         }
         if !stays {
-            self.fill(leaf, x, y, size, mean, source);
-            if settled {
+            self.fill(&leaf.levels, [x, y, size], mean, source, same);
+            if unsettled.is_none() {
                 self.settled.add(x, y, 1 << size);
             }
             if !self.half.is_empty() {
                 self.halve(x, y, size);
             }
         }
-        true
+        Some(unsettled)
+    }
+
+    /// Draws a leaf once more in a sweep, and says whether it is settled now. What later leaves know of it
+    /// stays as it is.
+    #[inline(never)]
+    pub(super) fn redraw(&mut self, levels: &Levels, map: &Unsettled) -> bool {
+        let Unsettled { x, y, size, mean, column, row, .. } = *map;
+        let settled = self.settled.has(2 * column, 2 * row, 2 << size);
+        self.fill(levels, [x, y, size], mean, self.source(map), false);
+        if settled {
+            self.settled.add(x, y, 1 << size);
+        }
+        settled
     }
 
     /// What a domain would add to a leaf at full contrast, row by row, with 7 fractional bits: for an
     /// encoder. False where the domain may not lie there.
     pub fn copied(&self, domain: &Domain, x: u32, y: u32, size: u32, into: &mut [i32]) -> bool {
-        let source = self.shape.place(domain, x, y, size);
-        let source = source.and_then(|place| self.source(domain, place, size));
-        source.map(|source| source.copied(self.shape.drawn(size), into)).is_some()
+        let Some(Place { x: column, y: row, .. }) = self.shape.place(domain, x, y, size) else {
+            return false;
+        };
+        let (contrast, isometry) = (domain.contrast(), domain.isometry);
+        let source = self.source(&Unsettled { x, y, size, mean: 0, column, row, isometry, contrast });
+        source.map(|(source, _)| source.copied(self.shape.drawn(size), into)).is_some()
     }
 
     /// What a leaf leaves for later ones without its pixels: for an encoder.
@@ -103,28 +128,27 @@ impl<'a, S: Sample> Plane<'a, S> {
         }
     }
 
-    /// Draws a leaf; at scale 1 its base goes along the edges as well.
+    /// Draws a leaf; if it is to leave its edges, its base goes along them as well.
     #[inline(never)]
     fn fill(
         &mut self,
-        leaf: &Leaf,
-        x: u32,
-        y: u32,
-        size: u32,
+        levels: &Levels,
+        [x, y, size]: [u32; 3],
         mean: i32,
         source: Option<(Source<'a, S>, i32)>,
+        edges: bool,
     ) {
         let drawn = self.shape.drawn(size);
-        let (m, same, area) = (1_u32 << drawn, self.shape.scale == 0, self.area(x, y, size));
+        let (m, area) = (1_u32 << drawn, self.area(x, y, size));
         // where nothing is added and nothing cut off, the picture shows the base
-        let shown = same && source.is_none() && area.is_whole(m);
+        let shown = edges && source.is_none() && area.is_whole(m);
         // what a copied sample is multiplied by, and what is added
         let (gain, off) = match source {
             None => (0, mean + 64),
             Some((source, contrast)) => (contrast << 4, mean + 64 - contrast * source.lay(&area, drawn)),
         };
-        if leaf.levels.is_empty() || drawn == 0 {
-            if same {
+        if levels.is_empty() || drawn == 0 {
+            if edges {
                 self.level(x, y, m, rounded(mean));
             }
             for i in 0..area.high {
@@ -134,13 +158,13 @@ impl<'a, S: Sample> Plane<'a, S> {
             }
             return;
         }
-        let inverse = Inverse::new(&leaf.levels, self.shape.step, size, drawn);
+        let inverse = Inverse::new(levels, self.shape.step, size, drawn);
         // most leaves have few frequencies: there is less to clear
         let (mut few, mut all) = ([[0; 2]; 4], None);
         let pair = if inverse.is_narrow() { &mut few[..] } else { all.insert([[0; 2]; FREQUENCIES]) };
         for i in 0..m / 2 {
             inverse.rows::<S>(i, pair);
-            if same && !shown {
+            if edges && !shown {
                 self.edge_rows(&inverse, pair, i, [x, y, size], mean);
             }
             let rows = [area.row(i), area.row(m - 1 - i)];
@@ -153,7 +177,7 @@ impl<'a, S: Sample> Plane<'a, S> {
 
     /// The base along the edges, where the leaf is not drawn, or not in its own size.
     #[inline(never)]
-    fn edges(&mut self, leaf: &Leaf, x: u32, y: u32, size: u32, mean: i32) {
+    fn edges(&self, leaf: &Leaf, x: u32, y: u32, size: u32, mean: i32) {
         if leaf.levels.is_empty() {
             self.level(x, y, 1 << size, rounded(mean));
             return;
@@ -168,42 +192,26 @@ impl<'a, S: Sample> Plane<'a, S> {
 
     /// The base along the edges of row `i` of a transform and the one that mirrors it.
     #[inline(never)]
-    fn edge_rows(&mut self, inverse: &Inverse<'_>, pair: &[Term], i: u32, [x, y, size]: [u32; 3], mean: i32) {
+    fn edge_rows(&self, inverse: &Inverse<'_>, pair: &[Term], i: u32, [x, y, size]: [u32; 3], mean: i32) {
         let (n, base) = (1 << size, |value: i32| rounded(mean + value));
-        let mut j = 0;
-        loop {
-            let [_, upper, left, right] = inverse.pixels_apart::<S>(pair, j);
-            if j == 0 {
-                self.set_left(y + i, base(upper));
-                self.set_left(y + n - 1 - i, base(right));
-            }
-            if i > 0 {
-                return;
-            }
-            self.set_above(x + j, base(left));
-            self.set_above(x + n - 1 - j, base(right));
-            j += 1;
-            if j == n / 2 {
-                return;
+        let mut four = [0; 4];
+        // the lowest row is that which mirrors the first
+        for j in (0..if i == 0 { n / 2 } else { 1 }).rev() {
+            four = inverse.pixels_apart::<S>(pair, j);
+            if i == 0 {
+                self.set_above(x + j, base(four[2]));
+                self.set_above(x + n - 1 - j, base(four[3]));
             }
         }
+        self.set_left(y + i, base(four[1]));
+        self.set_left(y + n - 1 - i, base(four[3]));
     }
 
     /// The base along the edges of a whole leaf whose pixels show it.
     #[inline(never)]
-    fn recall(&mut self, area: &Area<'a, S>, x: u32, y: u32) {
-        let (x, n) = (x as usize, area.wide as usize);
-        let mut lowest = area.row(area.high - 1).iter();
-        for slot in self.above.get(x..x + n).unwrap_or(&[]) {
-            let Some(sample) = lowest.next() else { break };
-            slot.set(sample.get());
-        }
-        let (mut at, first) = (area.start + area.wide - 1, (y - self.band) as usize);
-        for slot in self.left.get_mut(first..first + n).unwrap_or(&mut []) {
-            let Some(sample) = area.picture.get(at as usize) else { return };
-            *slot = sample.get();
-            at += area.columns;
-        }
+    fn recall(&self, area: &Area<'a, S>, x: u32, y: u32) {
+        let (lower, right) = (area.start + (area.high - 1) * area.columns, area.start + area.wide - 1);
+        self.border(x, y, area.wide as usize, area.picture, [(lower, 1), (right, area.columns)]);
     }
 
     /// Brings the halved picture up to date where a square was drawn.
@@ -220,27 +228,21 @@ impl<'a, S: Sample> Plane<'a, S> {
             return;
         }
         let n = (m >> 1).max(1);
-        let rows = shape.rows();
-        let offset = shape.scaled(shape.half_rows()) - shape.scaled(shape.side() >> 1);
-        for y in y0..y0 + n {
-            if 2 * y + 1 >= rows {
-                break;
-            }
-            let from = (2 * y - band) * columns + 2 * x0;
-            let at = ((y - (band >> 1) + offset) * width + x0) as usize;
-            let Some(to) = self.half.get(at..at + n.min(width - x0) as usize) else { break };
-            let rows = |from: u32| self.picture.get(from as usize..).unwrap_or(&[]).chunks_exact(2);
-            let (mut upper, mut lower) = (rows(from), rows(from + columns));
-            for to in to {
-                let (Some([a, b]), Some([c, d])) = (upper.next(), lower.next()) else { break };
-                to.set(S::cut(quarter([a, b], [c, d])));
-            }
+        let count = n.min(width - x0);
+        // of those rows whose lower one is there
+        let high = (shape.rows() >> 1).saturating_sub(y0).min(n);
+        let above = shape.scaled(shape.half_rows()) - shape.scaled(shape.side() >> 1) + y0 - (band >> 1);
+        let (start, down) = ((2 * y0 - band) * columns + 2 * x0, 2 * columns);
+        let source = Source { samples: self.picture, start, down, lower: columns, isometry: 0 };
+        for r in 0..high {
+            source.row([r, 0, count], self.half, self.half_row(above + r) * width + x0, 1);
         }
     }
 
-    /// Where the samples of a domain are; none where a small scale leaves no room.
+    /// Where the samples of a domain are, and the contrast; none where a small scale leaves no room.
     #[inline(never)]
-    fn source(&self, domain: &Domain, place: Place, size: u32) -> Option<Source<'a, S>> {
+    fn source(&self, map: &Unsettled) -> Option<(Source<'a, S>, i32)> {
+        let Unsettled { size, column, row, isometry, contrast, .. } = *map;
         let shape = &self.shape;
         let drawn = shape.drawn(size);
         let m = 1_u32 << drawn;
@@ -251,15 +253,16 @@ impl<'a, S: Sample> Plane<'a, S> {
         if m > width || m > rows {
             return None;
         }
-        let y = if windowed { (place.y as i32 - self.half_top).max(0) as u32 } else { place.y };
-        let (px, py) = (shape.scaled(place.x).min(width - m), shape.scaled(y).min(rows - m));
-        let isometry = domain.isometry;
-        Some(if windowed {
-            Source { samples: self.half, start: py * width + px, down: width, lower: 0, isometry }
+        let y = if windowed { (row as i32 - self.half_top).max(0) as u32 } else { row };
+        let (px, py) = (shape.scaled(column).min(width - m), shape.scaled(y).min(rows - m));
+        let source = if windowed {
+            let start = self.half_row(py) * width + px;
+            Source { samples: self.half, start, down: width, lower: 0, isometry }
         } else {
             let down = 2 * columns;
             Source { samples: self.picture, start: py * down + 2 * px, down, lower: columns, isometry }
-        })
+        };
+        Some((source, contrast))
     }
 }
 

@@ -36,7 +36,7 @@ impl<S: Sample> Plane<'_, S> {
             *to = from.get();
         }
         for (to, from) in edge.left.iter_mut().zip(self.left.iter().skip(down)).take(n) {
-            *to = *from;
+            *to = from.get();
         }
         for (to, from) in edge.left_cells.iter_mut().zip(self.left_cells.iter().skip(down >> 2)).take(cells) {
             *to = *from;
@@ -53,8 +53,8 @@ impl<S: Sample> Plane<'_, S> {
         for (from, to) in edge.cells.iter().zip(self.cells.iter().skip(x >> 2)).take(cells) {
             to.set(*from);
         }
-        for (from, to) in edge.left.iter().zip(self.left.iter_mut().skip(down)).take(n) {
-            *to = *from;
+        for (from, to) in edge.left.iter().zip(self.left.iter().skip(down)).take(n) {
+            to.set(*from);
         }
         for (from, to) in edge.left_cells.iter().zip(self.left_cells.iter_mut().skip(down >> 2)).take(cells) {
             *to = *from;

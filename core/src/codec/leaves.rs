@@ -23,13 +23,17 @@ impl<I: Iterator<Item = u8>> Opened<I> {
     ) -> Result<(), Error> {
         self.checked::<S>(self.header().profile == Profile::Streaming, 0, memory.len())?;
         let (header, crc, source) = self.into_parts();
-        let mut planes = Planes::new(header, 0, Cell::from_mut(memory).as_slice_of_cells());
+        let mut planes = Planes::new(header, 0, &mut Cell::from_mut(memory).as_slice_of_cells());
         let mut decoder = planes.decoder(source, crc);
         let mut row = 0;
         while row < header.size.height {
-            planes.decode(row, &mut decoder, 0, &mut seen)?;
+            let mut shown = |plane, leaf: &_, setting: &_, at, _| seen(plane, leaf, setting, at);
+            if !planes.decode(row, &mut decoder, 0, &mut shown) {
+                return Planes::<S>::verdict(&decoder, None);
+            }
             row += BAND;
         }
-        Planes::<S>::end(&mut decoder)
+        let stated = Planes::<S>::end(&mut decoder);
+        Planes::<S>::verdict(&decoder, stated)
     }
 }

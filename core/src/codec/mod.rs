@@ -26,6 +26,7 @@ mod domain;
 mod draw;
 mod edge;
 mod header;
+mod kept;
 mod leaf;
 mod leaves;
 mod models;
@@ -36,6 +37,7 @@ mod quadtree;
 mod range_decoder;
 #[cfg(feature = "embedded-io")]
 mod read;
+mod rolled;
 mod sample;
 mod settled;
 mod shape;

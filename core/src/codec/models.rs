@@ -5,6 +5,8 @@
 //!
 //! Format: 13 bits of probability, 3 bits that count the first bins.
 
+use super::rolled::rounds;
+
 /// The probability that a bin is 0. Size: 2 bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Model(u16);
@@ -62,14 +64,15 @@ const DOUBLINGS: u32 = 20;
 pub fn number(coder: &mut impl Coder, context: usize, value: u32) -> u32 {
     let value = value.saturating_add(1).min((1 << (DOUBLINGS + 1)) - 1);
     let wanted = 31 - value.leading_zeros();
-    let mut doublings = 0;
-    while doublings < DOUBLINGS && coder.bin(context + doublings.min(9) as usize, doublings < wanted) {
+    let (mut doublings, mut model, most) = (0, context, rounds(DOUBLINGS));
+    while doublings < most && coder.bin(model, doublings < wanted) {
         doublings += 1;
+        model = (model + 1).min(context + 9);
     }
     if doublings == 0 {
         return 0;
     }
-    let first = coder.bin(context + 10 + doublings.min(9) as usize, value >> (doublings - 1) & 1 == 1);
+    let first = coder.bin(model + 10, value >> (doublings - 1) & 1 == 1);
     let rest = coder.raw(doublings - 1, value & ((1 << (doublings - 1)) - 1));
     ((2 | u32::from(first)) << (doublings - 1) | rest) - 1
 }

@@ -3,6 +3,7 @@
 use super::crc::{Crc, crc32};
 use super::header::{Header, Profile, WHAT};
 use super::plane::Plane;
+use super::rolled::rolled;
 use super::sample::Sample;
 use super::shape::Shape;
 use crate::Error;
@@ -79,9 +80,13 @@ impl<I> Opened<I> {
     /// How many samples a decoder of it borrows at a scale of `2^scale`, from -2 to 2.
     #[inline(never)]
     pub fn samples(&self, scale: i32) -> usize {
-        let planes = self.header.shapes(scale.clamp(-2, 2));
-        // u8 and u16 take as many
-        planes.iter().map(Plane::<u8>::samples).sum()
+        let mut samples = 0;
+        for plane in 0..3 {
+            // u8 and u16 take as many
+            samples += Plane::<u8>::samples(&self.header.shape(plane, scale.clamp(-2, 2)));
+            rolled();
+        }
+        samples
     }
 
     /// The parts, for a decoder.

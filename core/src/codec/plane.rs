@@ -16,9 +16,11 @@
 use core::cell::Cell;
 
 use super::context;
+use super::kept::Unsettled;
 use super::leaf::{Leaf, Setting};
 use super::models::Coder;
 use super::quadtree::{SMALLEST, Walk};
+use super::rolled::rolled;
 use super::sample::Sample;
 use super::settled::Settled;
 use super::shape::Shape;
@@ -29,10 +31,12 @@ pub struct Plane<'a, S: Sample> {
     pub(super) shape: Shape,
     /// Rows as they are drawn: of the band, or all.
     pub(super) picture: &'a [Cell<S>],
-    /// Rows of the halved picture; none where all rows are there.
+    /// Rows of the halved picture, round and round; none where all rows are there.
     pub(super) half: &'a [Cell<S>],
-    /// Of the halved picture, the first row in `half`.
+    /// Of the halved picture, the first row of the window.
     pub(super) half_top: i32,
+    /// Which of the rows in `half` it is.
+    pub(super) half_first: u32,
     /// The base of the leaves above, along their lower edges.
     pub(super) above: &'a [Cell<S>],
     /// What leaves above are: [`cell`].
@@ -40,7 +44,7 @@ pub struct Plane<'a, S: Sample> {
     /// In sweeps: what stays as it is.
     pub(super) settled: Settled<'a, S>,
     /// The base of the leaves to the left, along their right edges.
-    pub(super) left: [S; 32],
+    pub(super) left: [Cell<S>; 32],
     pub(super) left_cells: [u8; 8],
     /// The first row of the band.
     pub(super) band: u32,
@@ -52,6 +56,28 @@ pub struct Plane<'a, S: Sample> {
 #[inline]
 pub(super) fn rounded<S: Sample>(value: i32) -> S {
     S::cut((value + 64) >> 7)
+}
+
+/// The sum of samples.
+#[inline(never)]
+fn total<S: Sample>(edge: Option<&[Cell<S>]>) -> i32 {
+    let mut sum = 0;
+    for sample in edge.unwrap_or(&[]) {
+        sum += sample.get().number();
+        rolled();
+    }
+    sum
+}
+
+/// Copies samples, from one place on, so far apart.
+#[inline(never)]
+fn copy<S: Sample>(to: Option<&[Cell<S>]>, from: &[Cell<S>], (mut at, step): (u32, u32)) {
+    for slot in to.unwrap_or(&[]) {
+        let Some(sample) = from.get(at as usize) else { return };
+        slot.set(sample.get());
+        at += step;
+        rolled();
+    }
 }
 
 /// Depth in the tree and whether there is a domain.
@@ -76,6 +102,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// All of them.
+    #[inline(never)]
     pub const fn samples(shape: &Shape) -> usize {
         let [picture, half, above, cells, settled] = Self::lengths(shape);
         picture + half + above + cells + settled
@@ -94,10 +121,11 @@ impl<'a, S: Sample> Plane<'a, S> {
             picture,
             half,
             half_top: 0,
+            half_first: 0,
             above,
             cells,
             settled: Settled::new(settled, shape.width),
-            left: [S::cut(0); 32],
+            left: core::array::from_fn(|_| Cell::new(S::cut(0))),
             left_cells: [0; 8],
             band: 0,
             done: 0,
@@ -129,12 +157,7 @@ impl<'a, S: Sample> Plane<'a, S> {
         if let Some(window) = self.shape.window {
             if band > 0 {
                 // what leaves the window makes room at its end
-                let gone = (self.shape.columns() >> 1) * self.shape.scaled(self.shape.side() >> 1);
-                let mut kept = self.half.iter().skip(gone as usize);
-                for to in self.half {
-                    let Some(from) = kept.next() else { break };
-                    to.set(from.get());
-                }
+                self.half_first = self.half_row(self.shape.scaled(self.shape.side() >> 1));
             }
             self.half_top = (band >> 1) as i32 - (window >> 1) as i32;
         }
@@ -142,15 +165,22 @@ impl<'a, S: Sample> Plane<'a, S> {
         self.band = band;
     }
 
-    /// Decodes a band, all squares or until `stop` says so; `seen` is shown each leaf, how it was said, and
-    /// where it is. False if a domain lies where nothing is decoded.
+    /// Where row `r` of the window is in `half`, at most as many rows after its first as there are.
+    #[inline]
+    pub(super) const fn half_row(&self, r: u32) -> u32 {
+        let (row, rows) = (self.half_first + r, self.shape.scaled(self.shape.half_rows()));
+        if row < rows { row } else { row - rows }
+    }
+
+    /// Decodes a band, all squares or until `stop` says so; `seen` is shown each leaf, how it was said,
+    /// where it is, and what the next sweep draws again of it. False if a domain lies where nothing is decoded.
     #[inline(never)]
     pub fn decode<C: Coder>(
         &mut self,
         coder: &mut C,
         leaf: &mut Leaf,
         mut stop: impl FnMut(&C) -> bool,
-        mut seen: impl FnMut(&Leaf, &Setting, [u32; 2]),
+        mut seen: impl FnMut(&Leaf, &Setting, [u32; 2], Option<Unsettled>),
     ) -> bool {
         let mut x = 0;
         while x < self.shape.width {
@@ -169,10 +199,8 @@ impl<'a, S: Sample> Plane<'a, S> {
                 }
                 leaf.levels.clear();
                 leaf.code(coder, &setting);
-                seen(leaf, &setting, [x, y]);
-                if !self.draw(leaf, x, y, size) {
-                    return false;
-                }
+                let Some(unsettled) = self.drawn(leaf, x, y, size) else { return false };
+                seen(leaf, &setting, [x, y], unsettled);
                 walk.pass();
             }
             if stop(coder) {
@@ -219,12 +247,11 @@ impl<'a, S: Sample> Plane<'a, S> {
         let (n, left) = (1_usize << size, (y - self.band) as usize);
         let (mut sum, mut doubled) = (0, 0);
         if y > 0 {
-            let x = x as usize;
-            self.above.get(x..x + n).unwrap_or(&[]).iter().for_each(|edge| sum += edge.get().number());
+            sum += total(self.above.get(x as usize..x as usize + n));
             doubled += 1;
         }
         if x > 0 {
-            self.left.get(left..left + n).unwrap_or(&[]).iter().for_each(|edge| sum += edge.number());
+            sum += total(self.left.get(left..left + n));
             doubled += 1;
         }
         match doubled {
@@ -244,23 +271,24 @@ impl<'a, S: Sample> Plane<'a, S> {
 
     /// The same base all along the edges of a square.
     #[inline(never)]
-    pub(super) fn level(&mut self, x: u32, y: u32, side: u32, base: S) {
-        let (x, y, side) = (x as usize, (y - self.band) as usize, side as usize);
-        for slot in self.above.get(x..x + side).unwrap_or(&[]) {
-            slot.set(base);
-        }
-        if let Some(slots) = self.left.get_mut(y..y + side) {
-            slots.fill(base);
-        }
+    pub(super) fn level(&self, x: u32, y: u32, side: u32, base: S) {
+        self.border(x, y, side as usize, &[Cell::new(base)], [(0, 0); 2]);
+    }
+
+    /// The base along the lower and the right edge of a square: from samples, each edge from a place on, so far
+    /// apart.
+    #[inline(never)]
+    pub(super) fn border(&self, x: u32, y: u32, n: usize, from: &[Cell<S>], lines: [(u32, u32); 2]) {
+        let (x, y, [lower, right]) = (x as usize, (y - self.band) as usize, lines);
+        copy(self.above.get(x..x + n), from, lower);
+        copy(self.left.get(y..y + n), from, right);
     }
 
     #[inline(never)]
     pub(super) fn mark(&mut self, x: u32, y: u32, size: u32, domain: bool) {
         let value = cell(5 - size, domain);
         let (x, y, cells) = (x as usize >> 2, (y - self.band) as usize >> 2, 1 << (size - 2));
-        for slot in self.cells.get(x..x + cells).unwrap_or(&[]) {
-            slot.set(S::cut(value.into()));
-        }
+        copy(self.cells.get(x..x + cells), &[Cell::new(S::cut(value.into()))], (0, 0));
         if let Some(slots) = self.left_cells.get_mut(y..y + cells) {
             slots.fill(value);
         }
@@ -274,9 +302,9 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     #[inline]
-    pub(super) fn set_left(&mut self, y: u32, base: S) {
-        if let Some(slot) = self.left.get_mut((y - self.band) as usize) {
-            *slot = base;
+    pub(super) fn set_left(&self, y: u32, base: S) {
+        if let Some(slot) = self.left.get((y - self.band) as usize) {
+            slot.set(base);
         }
     }
 }

@@ -6,6 +6,7 @@ use embedded_graphics_core::geometry::Size;
 
 use super::crc::Crc;
 use super::header::{Header, WHAT};
+use super::kept::{Kept, Unsettled};
 use super::leaf::{Leaf, Setting};
 use super::plane::Plane;
 use super::range_decoder::RangeDecoder;
@@ -25,51 +26,60 @@ pub(super) struct Planes<'a, S: Sample> {
 }
 
 impl<'a, S: Sample> Planes<'a, S> {
-    /// In lent memory of the length that was checked.
-    pub(super) fn new(header: Header, scale: i32, mut memory: &'a [Cell<S>]) -> Self {
-        let mut plane = |index| Plane::new(header.shape(index, scale), &mut memory);
+    /// In lent memory of the length that was checked, from its front.
+    pub(super) fn new(header: Header, scale: i32, memory: &mut &'a [Cell<S>]) -> Self {
+        let mut plane = |index| Plane::new(header.shape(index, scale), memory);
         let planes = [plane(0), plane(1), plane(2)];
         Self { header, planes, leaf: Leaf::default() }
     }
 
-    /// Decodes the band that begins at a row of luma.
+    /// Decodes the band that begins at a row of luma: whether all of it could be.
     pub(super) fn decode<I: Iterator<Item = u8>>(
         &mut self,
         row: u32,
         decoder: &mut RangeDecoder<I>,
         done: u32,
-        mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2]),
-    ) -> Result<(), Error> {
-        for (index, plane) in (0..self.header.count()).zip(&mut self.planes) {
+        mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2], Option<Unsettled>),
+    ) -> bool {
+        for (index, plane) in (0..self.header.count()).zip(self.planes.as_mut_slice()) {
             plane.begin(row >> self.header.halved(index), done);
-            let sound = plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at| {
-                seen(index, leaf, setting, at);
-            });
-            let position = decoder.taken();
-            if decoder.ended() {
-                return Err(Error::Ended { what: WHAT, position });
-            }
-            if !sound {
-                return Err(Error::Malformed { what: WHAT, position });
+            let sound =
+                plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at, map| {
+                    seen(index, leaf, setting, at, map);
+                });
+            if !sound || decoder.ended() {
+                return false;
             }
         }
-        Ok(())
+        true
     }
 
-    /// Reads what follows the last band: no byte of the payload may be left, and the checksum must be right.
-    pub(super) fn end<I: Iterator<Item = u8>>(decoder: &mut RangeDecoder<I>) -> Result<(), Error> {
-        let position = decoder.taken();
-        if decoder.left() > 0 {
-            return Err(Error::Malformed { what: WHAT, position });
+    /// Sweeps over leaves that were kept instead of a stream.
+    pub(super) fn redraw(&mut self, kept: &mut Kept<'a, S>) {
+        let planes = &mut self.planes;
+        kept.retain(&mut self.leaf.levels, |index, levels, map| {
+            planes.get_mut(index as usize).is_some_and(|plane| !plane.redraw(levels, map))
+        });
+    }
+
+    /// What follows the last band: the stated checksum, if all bytes of the payload were taken and it is there.
+    pub(super) fn end<I: Iterator<Item = u8>>(decoder: &mut RangeDecoder<I>) -> Option<u32> {
+        if decoder.left() > 0 { None } else { decoder.stated() }
+    }
+
+    /// What is to be said of a stream of which a decoder takes no more, with the checksum if it came so far.
+    #[inline(never)]
+    pub(super) fn verdict<I: Iterator<Item = u8>>(
+        decoder: &RangeDecoder<I>,
+        stated: Option<u32>,
+    ) -> Result<(), Error> {
+        let (position, computed) = (decoder.taken(), decoder.computed());
+        match stated {
+            _ if decoder.ended() => Err(Error::Ended { what: WHAT, position }),
+            None => Err(Error::Malformed { what: WHAT, position }),
+            Some(stated) if stated == computed => Ok(()),
+            Some(stated) => Err(Error::Checksum { what: WHAT, stated, computed }),
         }
-        let (source, crc) = decoder.rest();
-        let computed = crc.value();
-        let mut stated = 0;
-        for shift in [0, 8, 16, 24] {
-            let byte = source.next().ok_or(Error::Ended { what: WHAT, position })?;
-            stated |= u32::from(byte) << shift;
-        }
-        if stated == computed { Ok(()) } else { Err(Error::Checksum { what: WHAT, stated, computed }) }
     }
 
     /// A decoder at the beginning of the payload.

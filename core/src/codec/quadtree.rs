@@ -55,15 +55,46 @@ const fn every_other(place: u32) -> u32 {
     place & 1 | place >> 1 & 2 | place >> 2 & 4 | place >> 3 & 8
 }
 
-/// When a pixel is decoded: greater is later, within a band of squares of `2^largest`.
+/// Whether one pixel is decoded before another, within a band of squares of `2^largest`: by the square, then by
+/// the highest bit in which their places along Z differ, of which those of `y` come before those of `x`.
 #[inline]
-pub(super) const fn order(x: u32, y: u32, largest: u32) -> u32 {
-    let low = (1 << largest) - 1;
-    x >> largest << (2 * largest) | spread(x & low) | spread(y & low) << 1
+pub(super) const fn is_earlier([x, y]: [u32; 2], [other_x, other_y]: [u32; 2], largest: u32) -> bool {
+    let (across, down) = (x ^ other_x, y ^ other_y);
+    // in another square, or the highest bit of `across` is above that of `down`
+    if across >> largest != 0 || down < across && down < (down ^ across) { x < other_x } else { y < other_y }
 }
 
-/// Bits of a number below 32, each before a 0.
-#[inline]
-const fn spread(v: u32) -> u32 {
-    v & 1 | (v & 2) << 1 | (v & 4) << 2 | (v & 8) << 3 | (v & 16) << 4
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_is_earlier_as_a_walk_through_the_squares_has_it() {
+        let mut tried = 0;
+        for largest in [4, 5] {
+            // the cells of two squares of a band in the order of the walk
+            let mut cells = std::vec::Vec::new();
+            for square in 0..2 {
+                let mut walk = Walk::new(largest);
+                while let Some((x, y, size)) = walk.square() {
+                    if size > SMALLEST {
+                        walk.divide();
+                        continue;
+                    }
+                    cells.push([x + (square << largest), y]);
+                    walk.pass();
+                }
+            }
+            for (i, one) in cells.iter().enumerate() {
+                for (j, other) in cells.iter().enumerate() {
+                    assert_eq!(is_earlier(*one, *other, largest), i < j, "{one:?} {other:?}");
+                    let [x, y] = *one;
+                    // the last pixel of a cell
+                    assert!(i == j || is_earlier([x + 3, y + 3], *other, largest) == (i < j));
+                    tried += 1;
+                }
+            }
+        }
+        assert_eq!(tried, 128 * 128 + 32 * 32);
+    }
 }

@@ -80,9 +80,22 @@ impl<I: Iterator<Item = u8>> RangeDecoder<I> {
         self.left
     }
 
-    /// What follows the payload, and the checksum of what was taken.
-    pub(super) fn rest(&mut self) -> (&mut I, Crc) {
-        (&mut self.source, self.crc)
+    /// The checksum of what was taken.
+    pub(super) const fn computed(&self) -> u32 {
+        self.crc.value()
+    }
+
+    /// The checksum that follows the payload; none where the source ended before.
+    pub(super) fn stated(&mut self) -> Option<u32> {
+        let mut stated = 0;
+        for shift in [0, 8, 16, 24] {
+            let Some(byte) = self.source.next() else {
+                self.ended = true;
+                return None;
+            };
+            stated |= u32::from(byte) << shift;
+        }
+        Some(stated)
     }
 }
 

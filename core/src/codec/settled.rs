@@ -2,6 +2,7 @@
 
 use core::cell::Cell;
 
+use super::rolled::rolled;
 use super::sample::Sample;
 
 /// A bit for each cell, in lent samples, 8 of them a sample; all are set where there is no memory.
@@ -30,7 +31,7 @@ impl<'a, S: Sample> Settled<'a, S> {
 
     /// Whether all cells that a square of pixels touches are settled.
     pub(super) fn has(&self, x: u32, y: u32, side: u32) -> bool {
-        self.bits.is_empty() || self.each(x, y, side, false)
+        self.bits.is_empty() || self.each(x, y, side, !0)
     }
 
     /// Whether the cell of a pixel is.
@@ -42,13 +43,12 @@ impl<'a, S: Sample> Settled<'a, S> {
 
     /// They are from now on.
     pub(super) fn add(&self, x: u32, y: u32, side: u32) {
-        self.each(x, y, side, true);
+        self.each(x, y, side, 0);
     }
 
-    /// Goes through the cells of a square, eight at a time: whether all are settled, after they were, if so
-    /// wished.
+    /// Settles the cells of a square, eight at a time, until one of `wanted` is not: whether there is none.
     #[inline(never)]
-    fn each(&self, x: u32, y: u32, side: u32, settle: bool) -> bool {
+    fn each(&self, x: u32, y: u32, side: u32, wanted: i32) -> bool {
         let (first, last) = (x >> 2, (x + side - 1) >> 2);
         for row in y >> 2..=(y + side - 1) >> 2 {
             for eight in first >> 3..=(last >> 3).min(self.across - 1) {
@@ -57,12 +57,13 @@ impl<'a, S: Sample> Settled<'a, S> {
                 let mask = (2 << high) - (1 << low);
                 let Some(bits) = self.bits.get((row * self.across + eight) as usize) else { break };
                 let there = bits.get().number();
-                if settle {
-                    bits.set(S::cut(there | mask));
-                } else if there & mask != mask {
+                if mask & !there & wanted != 0 {
                     return false;
                 }
+                bits.set(S::cut(there | mask));
+                rolled();
             }
+            rolled();
         }
         true
     }

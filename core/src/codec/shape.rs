@@ -1,7 +1,7 @@
 //! Where a plane's squares are, how large they are drawn, and where domains may lie.
 
 use super::leaf::Domain;
-use super::quadtree::order;
+use super::quadtree::is_earlier;
 
 /// What a plane is before its memory.
 #[derive(Debug, Clone, Copy)]
@@ -28,13 +28,19 @@ impl Shape {
     /// A length that is a multiple of four pixels, as it is drawn.
     #[inline]
     pub const fn scaled(&self, v: u32) -> u32 {
-        if self.scale >= 0 { v << self.scale } else { v >> -self.scale }
+        (v << 2) >> self.fraction()
     }
 
     /// Any length, rounded up.
     #[inline]
     pub const fn scaled_up(&self, v: u32) -> u32 {
-        if self.scale >= 0 { v << self.scale } else { (v + (1 << -self.scale) - 1) >> -self.scale }
+        ((v << 2) + (1 << self.fraction()) - 1) >> self.fraction()
+    }
+
+    /// How many quarters of a drawn pixel a quarter of a pixel is, as a logarithm: scales are from -2 to 2.
+    #[inline]
+    const fn fraction(&self) -> u32 {
+        (2 - self.scale) as u32
     }
 
     /// A mean of so many steps in a leaf of `2^size`, with 7 fractional bits.
@@ -110,7 +116,7 @@ impl Shape {
         let (last_x, last_y) = (2 * right as u32 - 1, 2 * bottom as u32 - 1);
         let decoded = last_y < band
             || last_y < band + self.side()
-                && order(last_x, last_y - band, self.largest) < order(x, y - band, self.largest);
+                && is_earlier([last_x, last_y - band], [x, y - band], self.largest);
         let apart = |v: u32, from: i32, last: u32| last < v || 2 * from as u32 >= v + n as u32;
         let allowed = decoded || self.window.is_none() && (apart(x, px, last_x) || apart(y, py, last_y));
         allowed.then_some(Place { x: px as u32, y: py as u32, decoded })

@@ -24,7 +24,9 @@ pub struct Stream<'a, S: Sample, I> {
     decoder: RangeDecoder<I>,
     /// Of luma, the first row that is not decoded.
     next: u32,
-    ended: bool,
+    /// At the end, or where no more can be decoded: the checksum that is stated, if it came so far.
+    stated: Option<u32>,
+    over: bool,
 }
 
 impl<I: Iterator<Item = u8>> Opened<I> {
@@ -42,13 +44,13 @@ impl<I: Iterator<Item = u8>> Opened<I> {
     pub(super) fn stream_in<S: Sample>(
         self,
         scale: i32,
-        memory: &[Cell<S>],
+        mut memory: &[Cell<S>],
     ) -> Result<Stream<'_, S, I>, Error> {
         self.checked::<S>(true, scale, memory.len())?;
         let (header, crc, source) = self.into_parts();
-        let planes = Planes::new(header, scale, memory);
+        let planes = Planes::new(header, scale, &mut memory);
         let decoder = planes.decoder(source, crc);
-        Ok(Stream { planes, decoder, next: 0, ended: false })
+        Ok(Stream { planes, decoder, next: 0, stated: None, over: false })
     }
 }
 
@@ -65,20 +67,16 @@ impl<'a, S: Sample, I: Iterator<Item = u8>> Stream<'a, S, I> {
     /// or
     /// bytes of the payload are left over, [`Error::Checksum`].
     pub fn next_band(&mut self) -> Result<Option<Part<'a, S>>, Error> {
-        if self.ended {
-            return Ok(None);
+        if !self.over {
+            if self.next >= self.planes.header().size.height {
+                self.stated = Planes::<S>::end(&mut self.decoder);
+            } else if self.planes.decode(self.next, &mut self.decoder, 0, |_, _, _, _, _| {}) {
+                self.next += BAND;
+                return Ok(self.band());
+            }
+            self.over = true;
         }
-        let height = self.planes.header().size.height;
-        if self.next >= height {
-            Planes::<S>::end(&mut self.decoder)?;
-            self.ended = true;
-            return Ok(None);
-        }
-        self.planes.decode(self.next, &mut self.decoder, 0, |_, _, _, _| {})?;
-        let top = self.planes.drawn(self.next);
-        self.next += BAND;
-        let rows = self.planes.drawn(BAND).min(self.planes.size().height - top);
-        Ok(Some(self.planes.part(top, rows)))
+        Planes::<S>::verdict(&self.decoder, self.stated).map(|()| None)
     }
 
     /// The rows that the last band has; none before the first.

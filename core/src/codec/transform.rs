@@ -15,6 +15,7 @@
 //! signs.
 //! Source: N. Ahmed, T. Natarajan, K. R. Rao, "Discrete cosine transform", 1974.
 
+use super::rolled::rolled;
 use super::sample::Sample;
 
 /// Frequencies along each axis.
@@ -117,6 +118,7 @@ impl Levels {
             if let Some(levels) = self.levels.get_mut(column..column + FREQUENCIES) {
                 levels.fill(0);
             }
+            rolled();
             self.columns &= self.columns - 1;
         }
         (self.columns, self.rows) = (0, 0);
@@ -172,12 +174,6 @@ impl<'a> Inverse<'a> {
                 let mut levels = column.iter().take(self.rows).map(|level| i32::from(*level));
                 while let Some(level) = levels.next() {
                     even += c * level;
-                    phase += turn;
-                    let Some(level) = levels.next() else { break };
-                    odd += cosine(phase) * level;
-                    phase += turn;
-                    let Some(level) = levels.next() else { break };
-                    even += cosine(phase) * level;
                     phase += turn;
                     let Some(level) = levels.next() else { break };
                     odd += cosine(phase) * level;

@@ -458,7 +458,7 @@ pub fn decode(file: &[u8]) -> Decoded {
             let across = width.div_ceil(largest) * largest;
             let all = across * height.div_ceil(largest) * largest;
             let start = if plane == 0 { 0.0 } else { (peak + 1.0) / 2.0 };
-            let q8 = if plane == 0 { q8 } else { (q8 * chroma / 16).max(1) };
+            let q8 = if plane == 0 { q8 } else { (q8 * chroma / 16).clamp(1, (511 << 23) >> 4) };
             Plane {
                 width,
                 height,

@@ -9,9 +9,10 @@ static STREAMING: &[u8] = include_bytes!("../../../../tests/vectors/camera-strea
 static TWO_SWEEPS: &[u8] = include_bytes!("../../../../tests/vectors/camera-two-sweeps.atfi");
 static SWEEPS: &[u8] = include_bytes!("../../../../tests/vectors/camera-iterated.atfi");
 
-/// What `Opened::samples` asks for.
+/// What `Opened::samples` asks for in one pass.
 const WINDOW: usize = 13_760;
-const PICTURE: usize = 58_400;
+/// The picture and 4 KiB: more than that, so that sweeps keep the leaves that they draw again.
+const PICTURE: usize = 240 * 240 + 4096;
 
 /// One sample of each row.
 fn drawn(tally: &mut Tally, part: &Part<'_, u8>) {
