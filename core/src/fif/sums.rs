@@ -117,8 +117,8 @@ pub(crate) struct Width {
 /// A mantissa with a shift up to 31.
 #[inline(always)]
 fn short(mantissa: i32, shift: u32) -> (i32, u32) {
-    let most = shift.clamp(1, 31);
-    (mantissa >> (shift.saturating_sub(most) & 31), most)
+    let more = shift.saturating_sub(31);
+    (mantissa >> (more & 31), (shift - more).max(1))
 }
 
 /// The low word of `v mantissa / 2^shift`, of what fits one.

@@ -227,6 +227,12 @@ fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
     v.map(|v| (product(v, part) >> 16) as i32)
 }
 
+/// The surface over a box; none where it leaves the domain.
+#[inline(always)]
+fn above([x, y]: &[Ground<'_>; 2], at: [i32; 2], [along_x, along_y]: &[Side; 2]) -> Option<Slopes> {
+    Some(Slopes { x: x.around(x.place(at[0]), along_x)?, y: y.around(y.place(at[1]), along_y)? })
+}
+
 /// The surface over the box of a pixel, and half of the box: none where it leaves the domain. The mean plane
 /// is that above a box around where the ray comes in, three quarters of a pixel to both sides.
 #[inline(always)]
@@ -238,16 +244,13 @@ pub(super) fn whole(
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
     let [x, y] = ground;
-    let at = |[ax, ay]: [i32; 2], [sx, sy]: [Side; 2]| {
-        Some(Slopes { x: x.around(x.place(ax), &sx)?, y: y.around(y.place(ay), &sy)? })
-    };
     // eight pixels are within reach
     let near = (reach >> 4) + (reach >> 5);
-    let slopes = at(first.at, [x.side(near), y.side(near)])?;
+    let slopes = above(ground, first.at, &[x.side(near), y.side(near)])?;
     let [_, _, z] = sight.at(first.t);
     let place = sight.meet(first.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach);
     let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
-    Some((at(place.at, sides)?, half))
+    Some((above(ground, place.at, &sides)?, half))
 }
 
 impl Quality {
@@ -264,12 +267,11 @@ impl Quality {
     ) -> Option<Footprint> {
         let [x, y] = ground;
         let whole = edges(&first, sight, steepness(first.slope, sight.direction), pixel);
-        let (_, [sx, sy]) = sides(ground, whole);
+        let (_, own) = sides(ground, whole);
         // the leaf where the ray comes in may lie far off the mean plane
         let mut place = first;
         for _ in 0..if careful { 2 } else { 1 } {
-            let over_all =
-                Slopes { x: x.around(x.place(place.at[0]), &sx)?, y: y.around(y.place(place.at[1]), &sy)? };
+            let over_all = above(ground, place.at, &own)?;
             let [_, _, z] = sight.at(place.t);
             place = sight.meet(place.t, over_all.mean(), z.wrapping_sub(over_all.height()), reach);
         }

@@ -37,15 +37,22 @@ impl<'a> Ground<'a> {
     pub(super) fn new(sums: Sums<'a>, origin: i32, length: i32) -> Self {
         let length = NonZeroU32::new(length.unsigned_abs()).unwrap_or(NonZeroU32::MIN);
         let (mantissa, zeros) = reciprocal_of(length);
-        Self { sums, origin, per_length: (mantissa, 32_u32.saturating_sub(zeros)) }
+        Self { sums, origin, per_length: (mantissa, 32_u32.saturating_sub(zeros).clamp(1, 31)) }
     }
 
     /// A length as a part of the whole, saturated at twice the whole.
     #[inline(always)]
     pub(super) fn part(&self, length: i32) -> i32 {
         let (mantissa, shift) = self.per_length;
-        let part = product(length, mantissa) >> (shift & 63);
-        part.clamp(-2 * i64::from(WHOLE), 2 * i64::from(WHOLE) - 1) as i32
+        let product = product(length, mantissa);
+        let (high, low) = ((product >> 32) as i32, product as u32);
+        // twice the whole is where words end, and a shift is one of 1 to 31
+        let sign = high >> 31;
+        if high >> (shift.wrapping_sub(1) & 31) == sign {
+            high << 1 << (31_u32.wrapping_sub(shift) & 31) | (low >> (shift & 31)) as i32
+        } else {
+            sign ^ i32::MAX
+        }
     }
 
     /// A factor, 26 fractional bits, by which lengths become parts of the whole, for [`moved`].
