@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use attractor::num::{Near, Real, Unit, Vec3, Wide};
 use attractor::patch::{
-    Address, Barycentric, Mask, Patch, ProjectedCurve, Sheet, Tail, Tensor, Type, b_spline, bezier,
-    standard_curve, takagi,
+    Address, Barycentric, HeightMoments, Mask, Patch, ProjectedCurve, Sheet, SlopeMoments, Tail, Tensor, Type,
+    b_spline, bezier, standard_curve, takagi,
 };
 use attractor::plane::Point2;
 use attractor::trace::{PatchSurface, Ray, Surface as _};
@@ -141,9 +141,21 @@ fn any_numbers_make_a_surface_or_an_error() {
             let _ = (mask.entries(), mask.contraction());
             let heights = [Real::ONE; 25];
             let sheet = Sheet::<Mask, 16>::new(&mask, &heights, 2).unwrap();
+            let extremes = std::array::from_fn(|k| if k % 3 == 0 { Real::MIN } else { Real::MAX });
+            let (of_heights, of_slopes) = (HeightMoments::new(&mask), SlopeMoments::new(&mask));
+            for parts in [0, 1, 1 << 20, u32::MAX] {
+                if let Ok(moments) = of_heights {
+                    assert_eq!(moments.mean(&[Real::MAX; 16]), Real::MAX);
+                    let _ = (moments.over(&extremes, parts), moments.over(&[Real::MIN; 16], parts));
+                }
+                if let Ok(moments) = of_slopes {
+                    let _ = moments.over(&extremes, parts);
+                }
+            }
             for index in [0, 1, 7, 1 << 31, u32::MAX] {
                 for levels in [0, 1, 30, 31, 32, u32::MAX] {
                     let _ = (sheet.at([index, 3], levels), sheet.mean_normal([3, index], levels));
+                    let _ = sheet.part([index, 3], levels);
                     for tolerance in [Real::MIN, Real::ZERO, Real::MAX] {
                         let _ = sheet.normal([index, 3], levels, tolerance);
                     }

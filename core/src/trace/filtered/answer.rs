@@ -46,10 +46,10 @@ struct Facing {
 
 /// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes.
 #[derive(Debug, Clone, Copy, Default)]
-struct Shown {
-    boxes: i64,
-    matt: i64,
-    highlight: i64,
+pub(super) struct Shown {
+    pub(super) boxes: i64,
+    pub(super) matt: i64,
+    pub(super) highlight: i64,
 }
 
 /// `n . v`, 24 fractional bits.
@@ -151,6 +151,18 @@ impl<'a> View<'a> {
     #[inline(always)]
     fn add(&self, points: &[Slope; 4], shown: &mut Shown) -> Option<()> {
         shown.boxes += 1;
+        let (area, matt, highlight) = self.seen(points)?;
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
+        let over = |sum: i64| product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30;
+        shown.matt += over(matt);
+        shown.highlight += over(highlight);
+        Some(())
+    }
+
+    /// What four points show, each on its area: the sum of the areas, 20 fractional bits, and of what they
+    /// show times them, 50; none where one turns away from the eye.
+    #[inline(always)]
+    pub(super) fn seen(&self, points: &[Slope; 4]) -> Option<(u32, i64, i64)> {
         let (mut area, mut matt, mut highlight) = (0_u32, 0_i64, 0_i64);
         for slope in points {
             let facing = Facing::new(*slope, self);
@@ -171,11 +183,7 @@ impl<'a> View<'a> {
             };
             (matt, highlight) = (matt + product(a, weight), highlight + product(b, weight));
         }
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
-        let over = |sum: i64| product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30;
-        shown.matt += over(matt);
-        shown.highlight += over(highlight);
-        Some(())
+        Some((area, matt, highlight))
     }
 
     /// What the mirrored ray meets.
@@ -198,7 +206,7 @@ impl<'a> View<'a> {
 
     /// The tone of all boxes together.
     #[inline(always)]
-    fn finished(&self, shown: &Shown) -> Unit {
+    pub(super) fn finished(&self, shown: &Shown) -> Unit {
         const PART: [i32; 13] = {
             let (mut part, mut n) = ([0; 13], 1);
             while n < 13 {
