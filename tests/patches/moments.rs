@@ -111,9 +111,8 @@ fn moments_of_the_b_spline_are_its_closed_ones() {
         let h: [i128; 16] = p.map(|h| h.to_bits().into());
         let line = |a: &[i128; 4], b: &[i128; 4]| (0..16).map(|k| a[k / 4] * b[k % 4] * h[k]).sum::<i128>();
         let form = |a: &[[i128; 4]; 4], b: &[[i128; 4]; 4]| {
-            let row = |k: usize| {
-                (0..16).map(|l| a[k / 4][l / 4] * b[k % 4][l % 4] * h[l]).sum::<i128>() * h[k]
-            };
+            let row =
+                |k: usize| (0..16).map(|l| a[k / 4][l / 4] * b[k % 4][l % 4] * h[l]).sum::<i128>() * h[k];
             (0..16).map(row).sum::<i128>()
         };
         let transposed = |m: &[[i128; 4]; 4]| std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]));
@@ -152,7 +151,7 @@ fn moments_of_the_b_spline_are_its_closed_ones() {
 
 /// Of masks that leave planes planes, the same in all directions and seeded.
 #[test]
-fn moments_of_cells_are_those_of_the_reference() {
+fn moments_of_lattices_are_those_of_the_reference() {
     let mut words = Words(43);
     let (mut tried, mut worst) = (0, [0.0_f64; 11]);
     let given = [[0, 0, 0], [-123, 0, -204], [-327, 82, -123], [123, 82, -327]];
@@ -241,7 +240,8 @@ fn moments_of_parts_together_are_those_of_the_whole() {
             let parts = 3 << level;
             for [i, j] in (0..parts * parts).map(|k| [k / parts, k % parts]) {
                 let whole = over([i, j], level);
-                let below = [[0, 0], [0, 1], [1, 0], [1, 1]].map(|[a, b]| over([2 * i + a, 2 * j + b], level + 1));
+                let below =
+                    [[0, 0], [0, 1], [1, 0], [1, 1]].map(|[a, b]| over([2 * i + a, 2 * j + b], level + 1));
                 for (k, (a, b)) in whole.iter().zip(pooled(&below)).enumerate() {
                     // what heights are rounded by is `parts` times as much in slopes, and these count as they are
                     let scale = if [0, 3].contains(&k) { 1.0 } else { f64::from(parts) };
@@ -284,7 +284,8 @@ fn slopes_are_refused_where_their_squares_have_no_mean() {
         let mask = Mask::new(symmetric(entries)).unwrap();
         assert_eq!(SlopeMoments::new(&mask).unwrap_err(), rough, "{entries:?}");
         assert!(HeightMoments::new(&mask).is_ok());
-        println!("{}", growth(&mask)); assert!(growth(&mask) > 1.02, "{}", growth(&mask));
+        println!("{}", growth(&mask));
+        assert!(growth(&mask) > 1.02, "{}", growth(&mask));
     }
     let bent = loop {
         match seeded_mask(&mut words) {
@@ -294,5 +295,8 @@ fn slopes_are_refused_where_their_squares_have_no_mean() {
     };
     assert!(growth(&bent) > 1.02, "{}", growth(&bent));
     let text = SlopeMoments::new(&bent).unwrap_err().to_string();
-    assert_eq!(text, "moments of this mask are not to be had: it bends planes, and slopes grow from level to level");
+    assert_eq!(
+        text,
+        "moments of this mask are not to be had: it bends planes, and slopes grow from level to level"
+    );
 }

@@ -291,7 +291,9 @@ mod tests {
                 let sum: i32 = (0..25).filter(of).map(|k| entries[k / 5][k % 5]).sum();
                 entries[2 - class / 2][2 - class % 2] += (1 << 28) - sum;
             }
-            for (parts, free) in [(&CELL[..], Free::Level), (&SIDES[tried % 4][..], Free::Level), (&CELL[..], Free::Plane)] {
+            for (parts, free) in
+                [(&CELL[..], Free::Level), (&SIDES[tried % 4][..], Free::Level), (&CELL[..], Free::Plane)]
+            {
                 let Some(law) = Law::new(&entries, parts, free) else {
                     refused += 1;
                     continue;
@@ -301,7 +303,8 @@ mod tests {
                     refused += 1;
                     continue;
                 };
-                let seed = free.closed(combined(&dyad(&mean, &mean), &[[0; 16]; 16], |a, _| halved(2 * a, parts.len())));
+                let seed = free
+                    .closed(combined(&dyad(&mean, &mean), &[[0; 16]; 16], |a, _| halved(2 * a, parts.len())));
                 let again = combined(&law.round(&square), &seed, i64::wrapping_add);
                 let off = combined(&again, &square, i64::wrapping_sub);
                 // one of many rounds that add `2^-30` at most
@@ -323,7 +326,8 @@ mod tests {
             assert!((got - squares / 2).abs() <= 1 << shift, "{got} {squares}");
         }
         // a plane is nothing, however steep
-        let plane: [Real; 16] = core::array::from_fn(|k| Real::from_num(20 * (k as i32 / 4) - 9 * (k as i32 % 4)));
+        let plane: [Real; 16] =
+            core::array::from_fn(|k| Real::from_num(20 * (k as i32 / 4) - 9 * (k as i32 % 4)));
         let form = Form::new(Free::Plane, &Free::Plane.identity()).unwrap();
         assert_eq!((form.of(&plane), Free::Level.size(&Free::Level.identity())), (0, ONE.unsigned_abs()));
     }

@@ -176,7 +176,7 @@ impl HeightMoments {
     /// All over a cell with these heights, one of `parts` along the unit square.
     ///
     /// Error: of numbers below 8, 4 units, of slopes `parts` times as many
-    /// (`moments_of_cells_are_those_of_the_reference`). Cost: 48 products and three forms of 135.
+    /// (`moments_of_lattices_are_those_of_the_reference`). Cost: 48 products and three forms of 135.
     pub fn over(&self, heights: &[Real; 16], parts: u32) -> CellMoments {
         let [p, q] = self.covariance.each_ref().map(|form| real(form.of(heights) * i128::from(parts), 48));
         CellMoments {
@@ -237,7 +237,9 @@ fn leaves_planes(mask: &[[Q28; 5]; 5]) -> bool {
     let sum = |class: usize, axis: usize| {
         let mut sum = 0_i64;
         for (i, row) in mask.iter().enumerate() {
-            for (j, entry) in row.iter().enumerate().filter(|(j, _)| (i & 1, j & 1) == (class >> 1, class & 1)) {
+            for (j, entry) in
+                row.iter().enumerate().filter(|(j, _)| (i & 1, j & 1) == (class >> 1, class & 1))
+            {
                 let along = if axis == 0 { i } else { j };
                 sum += (along as i64 - 2) * i64::from(*entry);
             }

@@ -116,8 +116,11 @@ impl<'a, S: Scheme<J>, const J: usize> PatchCaster<'a, S, J> {
     /// The tone of a ray.
     #[inline(never)]
     fn tone(&self, direction: [Q28; 3]) -> Unit {
-        let Some(hit) = self.first_hit(direction, self.cone) else { return self.environment.towards(direction) };
-        match self.material.shade(unit(self.surface.normal(hit.level, &hit.heights)), direction, &self.light) {
+        let Some(hit) = self.first_hit(direction, self.cone) else {
+            return self.environment.towards(direction);
+        };
+        match self.material.shade(unit(self.surface.normal(hit.level, &hit.heights)), direction, &self.light)
+        {
             Shade::Tone(tone) => tone,
             Shade::Reflection(mirrored) => self.environment.towards(mirrored),
         }

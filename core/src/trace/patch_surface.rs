@@ -127,12 +127,7 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
     }
 
     /// Hands over the leaves at which a ray with a cone comes in, until `found` breaks off.
-    pub(super) fn strike(
-        &self,
-        ray: &Ray,
-        cone: Unit,
-        found: &mut impl FnMut(Struck<J>) -> ControlFlow<()>,
-    ) {
+    pub(super) fn strike(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Struck<J>) -> ControlFlow<()>) {
         self.walk(ray, Footprint::new(cone), &mut |leaf, heights| {
             found(Struck { t: leaf.span.0, level: leaf.level, heights: *heights })
         });

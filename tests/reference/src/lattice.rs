@@ -114,7 +114,8 @@ pub fn means(mask: &[[f64; 5]; 5], slopes: bool) -> CellMeans {
     let (one, none) = (vec![1.0; 16], vec![0.0; 16]);
     let level = |v: &Vec<f64>| (one.clone(), v.clone());
     let squares = products(mask, 1.0, &vec![level(&height)], &vec![level(&height)]);
-    let place = |axis: usize| (0..16).map(|k| if axis == 0 { k / 4 } else { k % 4 } as f64).collect::<Vec<_>>();
+    let place =
+        |axis: usize| (0..16).map(|k| if axis == 0 { k / 4 } else { k % 4 } as f64).collect::<Vec<_>>();
     let with_slopes = slopes.then(|| {
         let slope = [&along, &across];
         // sums of what is multiplied by the slope along an axis
@@ -198,14 +199,15 @@ mod tests {
 
     /// A mask that is the same in all eight directions.
     fn mask(edge: f64, corner: f64, side: f64) -> [[f64; 5]; 5] {
-        let entry = |i: usize, j: usize| match (i.abs_diff(2).min(j.abs_diff(2)), i.abs_diff(2).max(j.abs_diff(2))) {
-            (0, 0) => 1.0 - 4.0 * edge - 4.0 * corner,
-            (0, 1) => 0.5 - 2.0 * side,
-            (1, 1) => 0.25,
-            (0, _) => edge,
-            (1, _) => side,
-            _ => corner,
-        };
+        let entry =
+            |i: usize, j: usize| match (i.abs_diff(2).min(j.abs_diff(2)), i.abs_diff(2).max(j.abs_diff(2))) {
+                (0, 0) => 1.0 - 4.0 * edge - 4.0 * corner,
+                (0, 1) => 0.5 - 2.0 * side,
+                (1, 1) => 0.25,
+                (0, _) => edge,
+                (1, _) => side,
+                _ => corner,
+            };
         std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
     }
 

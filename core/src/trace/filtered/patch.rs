@@ -94,7 +94,7 @@ impl Pixel {
         let along = [along[0].wrapping_neg(), along[1].wrapping_neg(), t];
         let d = unit(sight.direction);
         let steep = into(place.slope, [d.x, d.y, d.z].map(Unit::to_bits)) >> 6;
-        let area = ((det.saturating_abs() >> 8).min(1 << 36) * steep.clamp(1, 1 << 27)) >> 24;
+        let area = ((det.saturating_abs() >> 8).min(1 << 35) * steep.clamp(1, 1 << 27)) >> 24;
         Some(Self { at: [place.at[0], place.at[1], z], across, along, reach, area })
     }
 
@@ -129,8 +129,9 @@ impl Pixel {
         }
         let part = |of: &[i32; 3]| {
             let [middle, width] = Self::linear(of, off, [half, half, 0]);
-            let inside = (HALF_PIXEL + width - middle.saturating_abs()).clamp(0, 2 * width.max(1));
-            // a cell that is wider than the pixel fills it at most
+            // what both have in common: no more than either
+            let inside = (HALF_PIXEL + width - middle.saturating_abs()).min(2 * HALF_PIXEL);
+            let inside = inside.clamp(0, 2 * width.max(1));
             ((inside << 12).checked_div(2 * width.max(1)).unwrap_or(0)) as u32
         };
         let [u, v] = self.across.each_ref().map(part);
@@ -314,7 +315,8 @@ impl<'a> FilteredPatch<'a> {
     fn is_near(&self, pixel: &Pixel, heights: &[Q24; 16], place: [u32; 2], parts: u32) -> bool {
         let [low, high] = self.caster.surface.sheet().scheme().bounds(heights);
         let ([x, y], half) = (Self::middle(place, parts), Self::half(parts).saturating_add(1));
-        let (z, up) = ((low >> 1).wrapping_add(high >> 1), (high >> 1).wrapping_sub(low >> 1).saturating_add(1));
+        let (z, up) =
+            ((low >> 1).wrapping_add(high >> 1), (high >> 1).wrapping_sub(low >> 1).saturating_add(1));
         pixel.meets([x, y, z], [half, half, up])
     }
 
@@ -333,10 +335,8 @@ impl<'a> FilteredPatch<'a> {
             return Some(());
         }
         let slopes = self.moments.over(&heights.map(Real::from_bits), parts);
-        let slopes = Spread {
-            mean: slopes.mean.map(Real::to_bits),
-            covariance: slopes.covariance.map(Real::to_bits),
-        };
+        let slopes =
+            Spread { mean: slopes.mean.map(Real::to_bits), covariance: slopes.covariance.map(Real::to_bits) };
         let (area, matt, highlight) = view.seen(&slopes.points())?;
         sum.area += u64::from(area) * u64::from(share);
         let part = |of: i64| (of >> 20) * i64::from(share);
