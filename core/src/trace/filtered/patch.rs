@@ -29,8 +29,9 @@ use crate::trace::ray_caster::rounded;
 /// Half a pixel, 24 fractional bits.
 const HALF: i32 = 1 << 23;
 
-/// The deepest level of cells that are looked up.
+/// The deepest level of cells that are looked up, and how many are for one pixel.
 const DEEPEST: u32 = 12;
+const MOST_NODES: u32 = 1 << 12;
 
 /// A lattice seen by a camera, the normals of each pixel integrated: a [`Field`] of [`Tone`]s.
 #[derive(Debug, Clone)]
@@ -227,7 +228,7 @@ impl<'a> FilteredPatch<'a> {
         if seen.abs_diff(whole) > whole.unsigned_abs() >> 2 {
             return None;
         }
-        let mean = |of: i64| (of << 6).checked_div((sum.area >> 14) as i64);
+        let mean = |of: i64| of.min(1 << 56).wrapping_shl(6).checked_div((sum.area >> 14) as i64);
         let shown = Shown { boxes: 1, matt: mean(sum.matt)?, highlight: mean(sum.highlight)? };
         Some(view.finished(&shown))
     }
@@ -264,11 +265,13 @@ impl<'a> FilteredPatch<'a> {
         Some((slope, height.saturating_add(rise.clamp(-(1 << 30), 1 << 30) as i32)))
     }
 
-    /// All cells of a level that lie in a pixel; none where one turns away from the eye.
+    /// All cells of a level that lie in a pixel; none where one turns away from the eye, or where they are too
+    /// many.
     fn sum(&self, pixel: &Pixel, view: &View<'_>, deepest: u32) -> Option<Sum> {
         let (surface, mut sum) = (&self.caster.surface, Sum::default());
         let (sheet, cells) = (surface.sheet(), surface.sheet().cells());
         let mut nodes = [Node { heights: [0; 16], place: [0; 2], next: 0 }; DEEPEST as usize + 1];
+        let mut left = MOST_NODES;
         for place in (0..cells).flat_map(|i| (0..cells).map(move |j| [i, j])) {
             let heights = sheet.cell(place);
             if !self.is_near(pixel, &heights, place, cells) {
@@ -288,6 +291,7 @@ impl<'a> FilteredPatch<'a> {
                 }
                 let digits = [node.next >> 1, node.next & 1];
                 node.next += 1;
+                left = left.checked_sub(1)?;
                 let place = [node.place[0] << 1 | digits[0], node.place[1] << 1 | digits[1]];
                 let heights = sheet.scheme().part(&node.heights, digits);
                 let parts = surface.parts(level as u32 + 1);
@@ -338,10 +342,10 @@ impl<'a> FilteredPatch<'a> {
         let slopes =
             Spread { mean: slopes.mean.map(Real::to_bits), covariance: slopes.covariance.map(Real::to_bits) };
         let (area, matt, highlight) = view.seen(&slopes.points())?;
-        sum.area += u64::from(area) * u64::from(share);
+        sum.area = sum.area.saturating_add(u64::from(area) * u64::from(share));
         let part = |of: i64| (of >> 20) * i64::from(share);
-        sum.matt += part(matt);
-        sum.highlight += part(highlight);
+        sum.matt = sum.matt.saturating_add(part(matt));
+        sum.highlight = sum.highlight.saturating_add(part(highlight));
         Some(())
     }
 }
