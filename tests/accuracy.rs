@@ -415,9 +415,25 @@ fn shading() -> Vec<Row> {
     let matt = reference::Finish::Diffuse { ambient: 0.125 };
     let shiny =
         Finish::Phong { ambient: Unit::ZERO, diffuse: Unit::ZERO, specular: Unit::ONE, shininess: 64 };
+    let (roughness, reflectance) = (0.25, 0.75);
+    let sheen = reference::Finish::TorranceSparrow {
+        ambient: 0.0,
+        diffuse: 0.0,
+        specular: 1.0,
+        roughness,
+        reflectance,
+    };
+    let rough = Finish::TorranceSparrow {
+        ambient: Unit::ZERO,
+        diffuse: Unit::ZERO,
+        specular: Unit::ONE,
+        roughness: Unit::from_num(roughness),
+        reflectance: Unit::from_num(reflectance),
+    };
     for (name, bound, fixed, exact) in [
         ("Finish::tone (diffuse)", two_to(-27), Finish::DIFFUSE, matt),
         ("Finish::tone (Phong, exponent 64)", two_to(-22), shiny, phong),
+        ("Finish::tone (Torrance-Sparrow)", two_to(-12), rough, sheen),
     ] {
         rows.push(row(
             name,

@@ -345,6 +345,8 @@ fn what_has_no_moments_is_refused() {
     let mut short = [Spread::ZERO; 6];
     let error = Moments::new(&f, &pyramid, &mut short).unwrap_err();
     assert!(matches!(error, Error::BufferLength { given: 6, needed: 7, .. }), "{error}");
+    let said = "a buffer of 6 spreads of 12 bytes beside the cells of the pyramid lent, 7 needed";
+    assert_eq!(error.to_string(), said);
     let other =
         [(0, 0), (1, 0), (2, 0), (3, 0)].map(|(x, y)| Knot::new(Wide::from_num(x), Wide::from_num(y)));
     let other = Fif::<3, 1>::interpolating(&other, &[Scaling::ZERO; 3]).unwrap();
@@ -364,7 +366,8 @@ fn what_has_no_moments_is_refused() {
     assert_eq!(error, Error::NotDifferentiable { map: 0 });
     let error = Sums::new(&f, 2, &mut [Sum::ZERO; 4]).unwrap_err();
     assert!(matches!(error, Error::BufferLength { given: 4, needed: 5, .. }), "{error}");
-    assert_eq!(error.to_string(), "a buffer of 4 places of the running sums lent, 5 needed");
+    assert_eq!(error.to_string(), "a buffer of 4 places of 12 bytes for the running sums lent, 5 needed");
+    assert_eq!(core::mem::size_of::<Sum>(), 12);
     let error = Sums::new(&f, 17, &mut []).unwrap_err();
     assert!(matches!(error, Error::Capacity { needed: 17, capacity: 16, .. }), "{error}");
     let mut places = [Sum::ZERO; 5];

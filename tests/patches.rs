@@ -5,5 +5,6 @@ mod contraction;
 mod curves;
 mod general;
 mod lattices;
+mod moments;
 mod products;
 mod seeded;

@@ -7,6 +7,8 @@ mod curves_at_the_edge;
 mod deep_zoom;
 mod faults;
 mod filtered;
+mod filtered_lattice;
+mod fractal_normals;
 mod ifs;
 mod imports;
 mod julia_sets;

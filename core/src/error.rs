@@ -109,6 +109,11 @@ pub enum Error {
         /// Index of the map.
         map: usize,
     },
+    /// A lattice's moments are not to be had.
+    NoMoments {
+        /// Why not.
+        why: &'static str,
+    },
     /// A text that cannot be read.
     Malformed {
         /// What it should be.
@@ -203,6 +208,7 @@ impl fmt::Display for Error {
                 f,
                 "map {map} has a vertical scaling no smaller than its horizontal one: no derivative exists"
             ),
+            Self::NoMoments { why } => write!(f, "moments of this mask are not to be had: {why}"),
             Self::Malformed { what, position } => write!(f, "this is no {what}: look at byte {position}"),
             Self::Ended { what, position } => write!(f, "this {what} ends too early: after byte {position}"),
             Self::Checksum { what, stated, computed } => {

@@ -20,6 +20,7 @@ pub(crate) const SCENES: &[(&str, &str)] = scenes![
     "figure-6-gg-phong",
     "figure-6-gg-filtered",
     "figure-6-gg-phong-filtered",
+    "figure-6-without-grain",
     "sunspots",
     "sierpinski",
     "fern",

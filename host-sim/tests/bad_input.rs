@@ -19,7 +19,7 @@ const SURFACE: &str = "kind = \"fif-surface\"\nmaterial = \"mirror\"\nsamples = 
 /// All the same with good input, so that the tests below change one thing only.
 #[test]
 fn the_good_files_are_good() {
-    for (i, scene) in [CURVE, IFS, MANDELBROT, JULIA, SURFACE].into_iter().enumerate() {
+    for (i, scene) in [CURVE, IFS, MANDELBROT, JULIA, SURFACE, LATTICE].into_iter().enumerate() {
         let directory = tempfile::tempdir().unwrap();
         fs::write(directory.path().join("scene.toml"), scene).unwrap();
         crate::common::good(directory.path(), &["dump", "scene.toml", "-o", "out.png", "--size", "16x16"]);
@@ -409,5 +409,47 @@ fn a_deep_view_beyond_the_range_is_told_what_is_allowed() {
     said.change(MANDELBROT, "\"0.5\"", "\"1e-101\"");
     let deep = MANDELBROT.replacen("\"0.5\"", "\"1e-40\"", 1);
     said.change(&deep, "[\"-0.75\", \"0.1\"]", "[\"100\", \"0\"]");
+    assert_snapshot!(said);
+}
+
+/// A lattice of 2 x 2 cells, the same in all directions, as a matt height field.
+const LATTICE: &str = "kind = \"patch-surface\"\nmodel = \"lattice\"\nnumbers = [\n  0, 0, 0, 0, 0,\n  0, \"0.25\", 0,\n  0, \"0.5\", 0,\n  0, \"0.25\", \"0.5\", \"0.25\", 0,\n  0, 0, 0, 0, 0,\n]\ncells = 2\nheights = [\n  0, 0, 0, 0, 0,\n  0, 0, 0, 0, 0,\n  0, 0, \"0.5\", 0, 0,\n  0, 0, 0, 0, 0,\n  0, 0, 0, 0, 0,\n]\nmaterial = \"torrance-sparrow\"\nsamples = 2\n[camera]\neye = [-2, -3, 2]\nlook_at = [0.5, 0.5, 0.2]\n[filter]\nquality = \"fine\"\n";
+
+/// Materials of height fields, and normals that have no moments.
+#[test]
+fn materials_and_filters_that_are_none_are_refused() {
+    let mut said = Said::default();
+    said.change(SURFACE, "\"mirror\"", "\"chrome\"");
+    said.change(SURFACE, "samples = 1", "samples = 1\ntorrance-sparrow = { roughness = 0.25 }");
+    let sheen = SURFACE.replace("\"mirror\"", "\"torrance-sparrow\"");
+    for table in
+        ["roughness = 0.01", "roughness = 1.5", "reflectance = -1", "reflectance = 1.001", "gloss = 1"]
+    {
+        said.change(&sheen, "samples = 1", &format!("samples = 1\ntorrance-sparrow = {{ {table} }}"));
+    }
+    // the slopes of what is not integrated have no moments
+    let filtered = format!("{SURFACE}[filter]\nquality = \"fine\"\n");
+    said.change(&filtered, "\"fine\"", "\"finer\"");
+    said.change(
+        &filtered,
+        "vertical_scaling = [0.5, 0.5]\nintegrate = 1\n[g]",
+        "vertical_scaling = [0.5, 0.5]\n[g]",
+    );
+    // a lattice that bends planes, and one whose slopes are too rough
+    said.change(LATTICE, "[\n  0, 0, 0, 0, 0,\n  0, \"0.25\"", "[\n  0, \"0.0625\", 0, 0, 0,\n  0, \"0.25\"");
+    said.change(
+        LATTICE,
+        "numbers = [\n  0, 0, 0, 0, 0,\n  0, \"0.25\", 0,\n  0, \"0.5\", 0,\n  0, \"0.25\", \"0.5\", \"0.25\", 0,\n  0, 0, 0, 0, 0,\n]",
+        "numbers = [\n  \"-0.03125\", \"-0.078125\", 0, \"-0.078125\", \"-0.03125\",\n  \"-0.078125\", \"0.25\", \"-0.078125\",\n  0, \"0.65625\", 0,\n  \"-0.078125\", \"0.25\", \"0.65625\", \"0.25\", \"-0.078125\",\n  \"-0.03125\", \"-0.078125\", 0, \"-0.078125\", \"-0.03125\",\n]",
+    );
+    said.change(LATTICE, "cells = 2", "cells = 2\nheight = 1");
+    said.change(LATTICE, "material = \"torrance-sparrow\"\n", "");
+    said.change(LATTICE, "material = \"torrance-sparrow\"\n", "palette = \"dusk\"\n");
+    said.change(
+        LATTICE,
+        "eye = [-2, -3, 2]\nlook_at = [0.5, 0.5, 0.2]\n[filter]\nquality = \"fine\"",
+        "eye = [0.5, 0.5, 2]\nlook_at = [0.5, 0.5, 0.2]",
+    );
+    said.change(LATTICE, "samples = 2", "samples = 9");
     assert_snapshot!(said);
 }

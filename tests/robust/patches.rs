@@ -4,11 +4,15 @@ use std::ops::ControlFlow;
 
 use attractor::num::{Near, Real, Unit, Vec3, Wide};
 use attractor::patch::{
-    Address, Barycentric, Mask, Patch, ProjectedCurve, Sheet, Tail, Tensor, Type, b_spline, bezier,
-    standard_curve, takagi,
+    Address, Barycentric, HeightMoments, Mask, Patch, ProjectedCurve, Sheet, SlopeMoments, Tail, Tensor,
+    Type, b_spline, bezier, standard_curve, takagi,
 };
-use attractor::plane::Point2;
-use attractor::trace::{PatchSurface, Ray, Surface as _};
+use attractor::plane::{Field as _, Point2};
+use attractor::trace::{
+    Camera, Environment, Filter, FilteredPatch, Finish, Found, Light, PatchCaster, PatchSurface, Quality,
+    Ray, Sampling, Surface as _,
+};
+use embedded_graphics::geometry::Size;
 
 /// Seeded words.
 fn words(seed: u64) -> impl FnMut() -> u32 {
@@ -141,9 +145,21 @@ fn any_numbers_make_a_surface_or_an_error() {
             let _ = (mask.entries(), mask.contraction());
             let heights = [Real::ONE; 25];
             let sheet = Sheet::<Mask, 16>::new(&mask, &heights, 2).unwrap();
+            let extremes = std::array::from_fn(|k| if k % 3 == 0 { Real::MIN } else { Real::MAX });
+            let (of_heights, of_slopes) = (HeightMoments::new(&mask), SlopeMoments::new(&mask));
+            for parts in [0, 1, 1 << 20, u32::MAX] {
+                if let Ok(moments) = of_heights {
+                    assert_eq!(moments.mean(&[Real::MAX; 16]), Real::MAX);
+                    let _ = (moments.over(&extremes, parts), moments.over(&[Real::MIN; 16], parts));
+                }
+                if let Ok(moments) = of_slopes {
+                    let _ = moments.over(&extremes, parts);
+                }
+            }
             for index in [0, 1, 7, 1 << 31, u32::MAX] {
                 for levels in [0, 1, 30, 31, 32, u32::MAX] {
                     let _ = (sheet.at([index, 3], levels), sheet.mean_normal([3, index], levels));
+                    let _ = sheet.part([index, 3], levels);
                     for tolerance in [Real::MIN, Real::ZERO, Real::MAX] {
                         let _ = sheet.normal([index, 3], levels, tolerance);
                     }
@@ -178,4 +194,46 @@ fn any_numbers_make_a_surface_or_an_error() {
         (u32::MAX as usize + 3).saturating_mul(u32::MAX as usize + 3)
     );
     assert!(Patch::<3, 2, 4>::from_grid(&[[Near::MIN; 4]; 16]).is_err());
+}
+
+/// A lattice as a height field, from any place, of any material, in any light.
+#[test]
+fn any_picture_of_a_lattice() {
+    let cubic = [1, 4, 6, 4, 1];
+    let mask = Mask::new(cubic.map(|a| cubic.map(|b| Near::from_bits((a * b) << 22)))).unwrap();
+    let moments = SlopeMoments::new(&mask).unwrap();
+    let mut word = words(61);
+    let mut count = [0; 3];
+    for round in 0..60 {
+        let mut number = |bits: u32| Real::from_bits((word() as i32) >> bits);
+        let heights: [Real; 25] = std::array::from_fn(|_| number(2 + round % 5));
+        let Ok(sheet) = Sheet::<Mask, 16>::new(&mask, &heights, 2) else { continue };
+        let Ok(surface) = PatchSurface::new(sheet, round % 13) else { continue };
+        let [eye, at] = [(); 2].map(|()| Vec3::new(number(5), number(5), number(6)));
+        let Ok(camera) = Camera::new(eye, at, Vec3::Z, Real::from_num(10 + round)) else { continue };
+        let size = Size::new(7, 5);
+        let finish =
+            [Finish::DIFFUSE, Finish::PHONG, Finish::TORRANCE_SPARROW, Finish::Mirror][round as usize % 4];
+        let Ok(caster) = PatchCaster::new(surface, camera, size) else { continue };
+        let caster = caster.with_finish(finish).unwrap().with_environment(Environment::CHECKERBOARD).unwrap();
+        let Ok(caster) = caster.with_sampling(Sampling::Grid(1 + (round % 3) as u8), Filter::Box) else {
+            continue;
+        };
+        let Ok(light) = Light::new(Vec3::new(number(5), number(5), number(5))) else { continue };
+        let caster = caster.with_light(light);
+        for quality in [Quality::Coarse, Quality::Fine, Quality::Finest] {
+            let filtered = FilteredPatch::new(caster.clone(), &moments, quality);
+            assert_eq!((filtered.size(), filtered.caster().size()), (size, size));
+            for (x, y) in (0..35).map(|k| (k % 7, k / 7)) {
+                let _ = (filtered.at(x, y), caster.at(x, y));
+                count[match filtered.found(x, y) {
+                    Found::Filtered => 0,
+                    Found::Sampled => 1,
+                    _ => 2,
+                }] += 1;
+            }
+            assert_eq!(filtered.found(7, 4), Found::Beyond);
+        }
+    }
+    assert!(count.iter().all(|count| *count > 50), "{count:?}");
 }

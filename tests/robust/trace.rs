@@ -29,6 +29,11 @@ fn shading() -> impl Strategy<Value = (Finish, Environment, Sampling, Filter)> {
         (unit(), unit(), unit(), any::<u16>()).prop_map(|(ambient, diffuse, specular, shininess)| {
             Finish::Phong { ambient, diffuse, specular, shininess }
         }),
+        (unit(), unit(), unit(), unit(), unit()).prop_map(
+            |(ambient, diffuse, specular, roughness, reflectance)| {
+                Finish::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance }
+            }
+        ),
     ];
     let scale = prop_oneof![real(), (1 << 18..=64 << 24).prop_map(Real::from_bits)];
     let environment = prop_oneof![
@@ -158,6 +163,11 @@ fn tones_of_any_direction() {
                     .tone(extreme, extreme, &light, &sky),
             );
             within(Finish::Diffuse { ambient: ends }.tone(extreme, d, &light, &sky));
+            let [roughness, reflectance] = [ends; 2];
+            let (ambient, diffuse, specular) = (ends, ends, ends);
+            let sheen = Finish::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance };
+            within(sheen.tone(extreme, extreme, &light, &sky));
+            within(sheen.tone(n, d, &light, &sky));
         }
         true
     });

@@ -112,7 +112,7 @@ impl<'a> Moments<'a> {
         memory: &'a mut [Spread],
     ) -> Result<Self, Error> {
         let (given, needed) = (memory.len(), pyramid.all().len());
-        let what = "spreads beside the cells of the pyramid";
+        let what = "spreads of 12 bytes beside the cells of the pyramid";
         let spreads = memory.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         if pyramid.starts() != fif.starts.as_slice() {
             let (given, expected) = (fif.maps.len(), pyramid.starts().len());

@@ -169,7 +169,7 @@ impl<'a> Sums<'a> {
             return Err(Error::Capacity { what: "levels", needed, capacity });
         }
         let (given, needed) = (memory.len(), Sums::places(fif.maps.len(), depth));
-        let what = "places of the running sums";
+        let what = "places of 12 bytes for the running sums";
         let places = memory.get_mut(..needed).ok_or(Error::BufferLength { what, given, needed })?;
         let mut extra = [0; 2];
         above::walk(fif, depth, |level, cell| {

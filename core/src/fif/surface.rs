@@ -4,6 +4,13 @@
 //! `(f(x1) - f(x0)) (G(y1) - G(y0)) / area`, `G` the integral of `g`: one evaluation a corner instead of many
 //! samples.
 //!
+//! Its normal is fractal in its own right: above a line along an axis both slopes are multiples of a fractal
+//! interpolation function. Those over one partition with the same vertical scalings are a space, as knots and
+//! polynomials are added and multiplied, so that surfaces which share a factor have sums and multiples among
+//! themselves, with the sums and multiples of their normals
+//! (`normals_of_surfaces_that_share_a_factor_are_a_space` in the tests, to the last bit). The sum of products
+//! without a common factor is a height field with the sum of their normals, but no product.
+//!
 //! Source: Cochran, Lewis, Hart, section 3.1; the mean is left as future work there (section 6.1).
 
 use super::function::Fif;

@@ -41,6 +41,7 @@ pub(crate) type Q29 = i32;
 pub(crate) type Q30 = i32;
 pub(crate) type Q31 = i32;
 pub(crate) type Q32 = i64;
+pub(crate) type Q44 = i64;
 pub(crate) type Q46 = i64;
 pub(crate) type Q48 = i64;
 pub(crate) type Q52 = i64;

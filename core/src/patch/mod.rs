@@ -25,19 +25,23 @@
 //! | a patch with rough inner curves | `M M` | [`Patch`], of 72 numbers for `N` = 2, `M` = 3 |
 //! | a lattice of any size | 4 x 4 a cell | [`Mask`], of 21 numbers |
 //!
-//! [`Sheet`] puts many cells side by side, which [`crate::trace`] shows.
+//! [`Sheet`] puts many cells side by side, which [`crate::trace`] shows. A lattice is a fractal function of two
+//! variables with a calculus of its own: [`HeightMoments`], [`SlopeMoments`].
 
 mod address;
 mod affine;
 mod aspect;
 mod barycentric;
 mod catalogue;
+mod columns;
 mod contraction;
 mod curve;
+mod form;
 mod grid;
 mod joining;
 mod lattice;
 mod mask_step;
+mod moments;
 mod scheme;
 #[cfg(test)]
 mod seeded;
@@ -54,6 +58,7 @@ pub use contraction::Contraction;
 pub use curve::{Polyline, ProjectedCurve};
 pub use grid::Patch;
 pub use lattice::Mask;
+pub use moments::{CellMoments, CellSlopes, HeightMoments, SlopeMoments};
 pub(crate) use scheme::CORNERS;
 pub use scheme::Scheme;
 pub use sheet::Sheet;

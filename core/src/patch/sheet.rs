@@ -99,6 +99,27 @@ impl<'a, S: Scheme<J>, const J: usize> Sheet<'a, S, J> {
         heights
     }
 
+    /// The control heights of the part of this size at `index`; those of the last for one beyond it.
+    ///
+    /// Error: half a unit of `2^-24` a level, as much as later maps make of it
+    /// (`moments_of_parts_together_are_those_of_the_whole`).
+    pub fn part(&self, index: [u32; 2], levels: u32) -> [Real; J] {
+        self.part_bits(index, levels).map(Real::from_bits)
+    }
+
+    pub(crate) fn part_bits(&self, index: [u32; 2], levels: u32) -> [Q24; J] {
+        let base = S::BASE.max(1);
+        let mut places = base.checked_pow(levels).unwrap_or(u32::MAX).max(1);
+        let mut heights = self.cell(index.map(|place| place / places));
+        let mut rest = index.map(|place| place % places);
+        while places > 1 {
+            places = (places / base).max(1);
+            heights = self.scheme.part(&heights, rest.map(|place| (place / places).min(base - 1)));
+            rest = rest.map(|place| place % places);
+        }
+        heights
+    }
+
     /// The height at `index / (cells N^levels)` of both parameters, which end at 1.
     ///
     /// Error: as that of the scheme's weights times the sum of the heights' magnitudes, and half a unit of

@@ -1,6 +1,7 @@
-//! How a surface answers light: diffuse, Phong, mirror.
+//! How a surface answers light: diffuse, Phong, Torrance-Sparrow, mirror.
 
 use super::environment::{Environment, between};
+use super::material::{Sight, TorranceSparrow};
 use super::power::{power, times};
 use crate::Error;
 use crate::num::{Unit, Vec3, Wide, unit};
@@ -52,6 +53,22 @@ pub enum Finish {
         /// Its exponent.
         shininess: u16,
     },
+    /// `ambient + diffuse max(0, n . l) + specular F D G / (4 n . v)`: the highlight of tiny mirrors that lean at
+    /// random, as [`TorranceSparrow`] has it.
+    ///
+    /// [`TorranceSparrow`]: super::material::TorranceSparrow
+    TorranceSparrow {
+        /// The part that is seen in the shade.
+        ambient: Unit,
+        /// The matt part.
+        diffuse: Unit,
+        /// The highlight.
+        specular: Unit,
+        /// By how much the mirrors' slopes deviate: 1/32 to 1.
+        roughness: Unit,
+        /// What they reflect at right angles.
+        reflectance: Unit,
+    },
     /// The environment in the direction of the mirrored ray.
     Mirror,
 }
@@ -67,10 +84,23 @@ impl Finish {
         shininess: 32,
     };
 
+    /// Half matt with the sheen of brushed metal.
+    pub const TORRANCE_SPARROW: Self = Self::TorranceSparrow {
+        ambient: Unit::from_bits(1 << 27),
+        diffuse: Unit::from_bits(1 << 29),
+        specular: Unit::from_bits(3 << 27),
+        roughness: Unit::from_bits(1 << 28),
+        reflectance: Unit::from_bits(3 << 28),
+    };
+
     pub(crate) fn checked(self) -> Result<Self, Error> {
+        if let Self::TorranceSparrow { roughness, reflectance, .. } = self {
+            TorranceSparrow::new(roughness, reflectance)?;
+        }
         let parts = match self {
             Self::Diffuse { ambient } => [ambient, Unit::ZERO, Unit::ZERO],
-            Self::Phong { ambient, diffuse, specular, .. } => [ambient, diffuse, specular],
+            Self::Phong { ambient, diffuse, specular, .. }
+            | Self::TorranceSparrow { ambient, diffuse, specular, .. } => [ambient, diffuse, specular],
             Self::Mirror => [Unit::ZERO; 3],
         };
         for (index, part) in parts.into_iter().enumerate() {
@@ -83,8 +113,9 @@ impl Finish {
     /// away is turned round.
     ///
     /// Domain: any parts; `RayCaster::with_finish` takes only those in `[0, 1]`. Result: in `[0, 1]`.
-    /// Error: below `2^-27` for diffuse light, `2^-22` for Phong's with an exponent up to 64 (rows
-    /// `Finish::tone (diffuse)` and `Finish::tone (Phong, exponent 64)`).
+    /// Error: below `2^-27` for diffuse light, `2^-22` for Phong's with an exponent up to 64,
+    /// `2^-12` for a Torrance-Sparrow highlight (rows `Finish::tone (diffuse)`, `Finish::tone (Phong, exponent
+    /// 64)` and `Finish::tone (Torrance-Sparrow)`).
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
         match self.shade(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
@@ -114,6 +145,13 @@ impl Finish {
                 // three parts of at most 1 each would leave the format
                 let matt = ambient.saturating_add(times(diffuse, lit())).min(Unit::ONE);
                 matt.saturating_add(times(specular, power(highlight, shininess)))
+            }
+            Self::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance } => {
+                let [x, y, z] = [n.x, n.y, n.z].map(|c| if along > 0 { c.saturating_neg() } else { c });
+                let view = Sight { normal: Vec3::new(x, y, z), direction: unit(d), tangent: Vec3::default() };
+                let model = TorranceSparrow::within(roughness, reflectance);
+                let matt = ambient.saturating_add(times(diffuse, lit())).min(Unit::ONE);
+                matt.saturating_add(times(specular, model.tone(&view, light.towards)))
             }
             Self::Mirror => return Shade::Reflection(mirrored(n, d, along)),
         };
@@ -315,6 +353,24 @@ mod tests {
         ] {
             assert_eq!(refused(Finish::Phong { ambient, diffuse, specular, shininess: 1 }), index);
         }
+        for (index, part) in [(None, zero), (Some(0), above)] {
+            let (ambient, diffuse, specular) = (part, one, zero);
+            let (roughness, reflectance) = (Unit::ONE / 4, Unit::ONE);
+            let sheen = Finish::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance };
+            assert_eq!(refused(sheen), index);
+        }
+        let what = |roughness, reflectance| {
+            let (ambient, diffuse, specular) = (zero, zero, zero);
+            let sheen = Finish::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance };
+            match sheen.checked() {
+                Err(Error::OutOfRange { what, .. }) => what,
+                _ => "",
+            }
+        };
+        assert_eq!(
+            (what(Unit::ONE / 64, one), what(one, above), what(one, one)),
+            ("roughness", "reflectance", "")
+        );
         assert_eq!(refused(Finish::Mirror), None);
         let nowhere = Vec3::new(Real::ZERO, Real::ZERO, Real::ZERO);
         assert_eq!(Light::new(nowhere), Err(Error::Degenerate { what: "direction of the light" }));
@@ -328,7 +384,15 @@ mod tests {
             for part in ends {
                 let phong = Finish::Phong { ambient: part, diffuse: part, specular: part, shininess: 9 };
                 let sky = Environment::Gradient { zenith: part, horizon: Unit::MAX, nadir: Unit::MIN };
-                for material in [Finish::Mirror, Finish::Diffuse { ambient: part }, phong] {
+                let (roughness, reflectance) = (part, part);
+                let sheen = Finish::TorranceSparrow {
+                    ambient: part,
+                    diffuse: part,
+                    specular: part,
+                    roughness,
+                    reflectance,
+                };
+                for material in [Finish::Mirror, Finish::Diffuse { ambient: part }, phong, sheen] {
                     let tone = material.tone(n, d, &Light::ORDINARY, &sky);
                     assert!((Unit::ZERO..=Unit::ONE).contains(&tone), "{tone} of {material:?}: {n:?} {d:?}");
                 }

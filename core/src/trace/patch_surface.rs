@@ -58,6 +58,14 @@ struct Leaf {
     span: (i32, i32),
 }
 
+/// A leaf at which a ray comes in, and its control heights.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Struck<const J: usize> {
+    pub(super) t: Q24,
+    pub(super) level: u32,
+    pub(super) heights: [Q24; J],
+}
+
 impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
     /// The sheet down to `depth` levels below its cells.
     ///
@@ -96,7 +104,7 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
     }
 
     /// How many nodes of a level lie along a side.
-    fn parts(&self, level: u32) -> u32 {
+    pub(super) fn parts(&self, level: u32) -> u32 {
         S::BASE.saturating_pow(level).saturating_mul(self.sheet.cells())
     }
 
@@ -111,6 +119,18 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
         let parts = parts.max(1);
         let (first, rest) = ((index << 12) / parts, (index << 12) % parts);
         ((first << 12) | ((rest << 12) / parts)).cast_signed()
+    }
+
+    /// The sheet.
+    pub(super) const fn sheet(&self) -> &Sheet<'a, S, J> {
+        &self.sheet
+    }
+
+    /// Hands over the leaves at which a ray with a cone comes in, until `found` breaks off.
+    pub(super) fn strike(&self, ray: &Ray, cone: Unit, found: &mut impl FnMut(Struck<J>) -> ControlFlow<()>) {
+        self.walk(ray, Footprint::new(cone), &mut |leaf, heights| {
+            found(Struck { t: leaf.span.0, level: leaf.level, heights: *heights })
+        });
     }
 
     /// Hands over the leaves that a ray meets, in order, with their control heights.
@@ -236,23 +256,8 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
         [along(x, frame.place[0]), along(y, frame.place[1])]
     }
 
-    /// The control heights of a node, from its cell down.
-    fn node(&self, level: u32, place: [u32; 2]) -> [Q24; J] {
-        let mut places = S::BASE.saturating_pow(level).max(1);
-        let mut rest = place;
-        let cell = rest.map(|place| place / places);
-        rest = rest.map(|place| place % places);
-        let mut heights = self.sheet.cell(cell);
-        for _ in 0..level {
-            places = (places / S::BASE.max(1)).max(1);
-            heights = self.sheet.scheme().part(&heights, rest.map(|place| place / places));
-            rest = rest.map(|place| place % places);
-        }
-        heights
-    }
-
     /// The mean normal over a node with these control heights, components saturated at ±64.
-    fn normal(&self, level: u32, heights: &[Q24; J]) -> [i32; 3] {
+    pub(super) fn normal(&self, level: u32, heights: &[Q24; J]) -> [i32; 3] {
         let corners = CORNERS.map(|corner| i64::from(self.sheet.scheme().corner(heights, corner)));
         let normal = mean_normal(corners, self.parts(level).into());
         [normal.x, normal.y, normal.z].map(Real::to_bits)
@@ -321,7 +326,7 @@ impl<S: Scheme<J>, const J: usize> Surface for PatchSurface<'_, S, J> {
         let position = ray.at(crossing.t);
         let [first, second] = crossing.memo;
         let level = first >> 24;
-        let normal = self.normal(level, &self.node(level, [first & ((1 << 24) - 1), second]));
+        let normal = self.normal(level, &self.sheet.part_bits([first & ((1 << 24) - 1), second], level));
         let chart = if charted {
             let rise = |slope: i32| Real::from_bits(slope.saturating_neg());
             Chart {

@@ -42,6 +42,11 @@ impl Screen {
         Ok(Self { corner, right, down, footprint: Unit::from_bits(footprint as i32) })
     }
 
+    /// From a pixel to the next, to the right and downwards, 28 fractional bits.
+    pub(super) fn edges(&self) -> [[i32; 3]; 2] {
+        [self.right, self.down].map(|edge| edge.map(narrow))
+    }
+
     /// The direction through the centre of pixel `(x, y)`, 60 fractional bits.
     pub(super) fn direction(&self, x: u32, y: u32) -> [i64; 3] {
         let mut direction = self.corner;

@@ -47,7 +47,7 @@ const NAMES: [(&str, &str); 20] = [
     ("attractor::trace::world", "Lamp Leaf Object Op World WorldCaster"),
     (
         "attractor_gallery",
-        "Floor Ground ImagePicture Lines Method Named PatchSurfacePicture Pencil Shading Standpoint TerrainPicture Tones",
+        "Floor Ground ImagePicture LatticePicture Lines Method Named PatchSurfacePicture Pencil Shading Standpoint TerrainPicture Tones",
     ),
     ("attractor::curve", "catalogue"),
     ("embedded_graphics::geometry", "Size"),

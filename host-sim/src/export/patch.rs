@@ -4,9 +4,10 @@ use attractor_gallery::Standpoint;
 
 use super::module::{Module, lit, lits, variant};
 use super::palette;
+use super::surface::{look as of_look, named};
 use crate::reconstruction::family::Family;
 use crate::scene::patch_curve::{PatchCurve, Shape};
-use crate::scene::patch_surface::PatchSurfaceScene;
+use crate::scene::patch_surface::{Look, PatchSurfaceScene};
 
 /// A curve: its maps, column by column, its ends and its control points.
 pub(super) fn curve(scene: &PatchCurve, module: &mut Module, gallery: bool) {
@@ -69,7 +70,10 @@ pub(super) fn surface(scene: &PatchSurfaceScene, module: &mut Module, gallery: b
     );
     module.array("The control heights.", "HEIGHTS", "Real", scene.heights.iter().map(|h| lit("Real", *h)));
     module.constant("Cells along a side.", "CELLS", "u32", scene.cells);
-    module.constant("How high 1 is, on a square from -1 to 1.", "HEIGHT", "Real", lit("Real", scene.height));
+    if scene.look.is_none() {
+        let doc = "How high 1 is, on a square from -1 to 1.";
+        module.constant(doc, "HEIGHT", "Real", lit("Real", scene.height));
+    }
     let (kind, width, build) = match scene.family {
         Family::Standard => ("Patch<2, 3, 9>", 9, vec!["Patch::standard(&NUMBERS)".to_owned()]),
         Family::Lattice => ("Mask", 16, vec!["Mask::from_numbers(&NUMBERS)".to_owned()]),
@@ -104,6 +108,9 @@ pub(super) fn surface(scene: &PatchSurfaceScene, module: &mut Module, gallery: b
             ("field_of_view", lit("Real", field_of_view)),
         ];
         module.constant("The camera.", "VIEW", "Standpoint", variant("Standpoint", &view));
+        if let Some(look) = &scene.look {
+            return lattice(scene, look, module);
+        }
         module.constant("Towards the sun.", "SUN", "Vec3", vector(scene.sun));
         module.function(
             "The picture.",
@@ -118,4 +125,30 @@ pub(super) fn surface(scene: &PatchSurfaceScene, module: &mut Module, gallery: b
             )],
         );
     }
+}
+
+/// The picture of a lattice in tones.
+fn lattice(scene: &PatchSurfaceScene, look: &Look, module: &mut Module) {
+    of_look(look.light, look.material, look.environment, module);
+    palette::plain(look.palette, module, false);
+    let light = if look.light.is_some() { "Some(LIGHT)" } else { "None" };
+    let quality = look.quality.map_or("None".to_owned(), |quality| format!("Some({})", named(quality)));
+    let (kind, _) = palette::of_core(look.palette);
+    module.function(
+        "The picture.",
+        "None: the command has built it.",
+        &format!("fn picture(scheme: &Mask) -> Result<LatticePicture<'_, {kind}>, Error>"),
+        &[
+            "Ok(LatticePicture {".to_owned(),
+            "    sheet: sheet(scheme)?,".to_owned(),
+            "    view: VIEW,".to_owned(),
+            "    material: MATERIAL,".to_owned(),
+            "    environment: ENVIRONMENT,".to_owned(),
+            format!("    light: {light},"),
+            format!("    samples: {},", scene.samples),
+            format!("    quality: {quality},"),
+            "    palette: PALETTE,".to_owned(),
+            "})".to_owned(),
+        ],
+    );
 }

@@ -38,7 +38,7 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
     );
     module.constant(&doc, "DEPTH", "Option<u32>", format_args!("{:?}", scene.depth));
     camera(&scene.standpoint, module);
-    light(scene, module);
+    look(scene.light, scene.material, scene.environment, module);
     let mut lines = vec![
         "let caster = RayCaster::new(surface, camera()?, size)?;",
         "let caster = caster.with_finish(MATERIAL)?;",
@@ -61,16 +61,20 @@ pub(super) fn surface(scene: &FifSurface, module: &mut Module, gallery: bool) {
         &lines,
     );
     if let Some(quality) = scene.filter {
-        let quality = match quality {
-            Quality::Coarse => "Quality::Coarse",
-            Quality::Fine => "Quality::Fine",
-            Quality::Finest => "Quality::Finest",
-            other => unreachable!("no scene is filtered by {other:?}"),
-        };
         let doc = "How fine the normals of a pixel are integrated.";
-        module.constant(doc, "QUALITY", "Quality", quality);
+        module.constant(doc, "QUALITY", "Quality", named(quality));
     }
     palette::plain(scene.palette, module, gallery);
+}
+
+/// A quality by its name.
+pub(super) fn named(quality: Quality) -> &'static str {
+    match quality {
+        Quality::Coarse => "Quality::Coarse",
+        Quality::Fine => "Quality::Fine",
+        Quality::Finest => "Quality::Finest",
+        other => unreachable!("no scene is filtered by {other:?}"),
+    }
 }
 
 fn vector(v: Vec3) -> String {
@@ -92,11 +96,11 @@ pub(super) fn camera(at: &Standpoint, module: &mut Module) {
 }
 
 /// Light, material and surroundings.
-fn light(scene: &FifSurface, module: &mut Module) {
-    if let Some(light) = scene.light {
+pub(super) fn look(light: Option<Vec3>, material: Finish, environment: Environment, module: &mut Module) {
+    if let Some(light) = light {
         module.constant("Towards the light.", "LIGHT", "Vec3", vector(light));
     }
-    let material = match scene.material {
+    let material = match material {
         Finish::Diffuse { ambient } => format!("Finish::Diffuse {{ ambient: {} }}", lit("Unit", ambient)),
         Finish::Phong { ambient, diffuse, specular, shininess } => variant(
             "Finish::Phong",
@@ -107,11 +111,21 @@ fn light(scene: &FifSurface, module: &mut Module) {
                 ("shininess", shininess.to_string()),
             ],
         ),
+        Finish::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance } => variant(
+            "Finish::TorranceSparrow",
+            &[
+                ("ambient", lit("Unit", ambient)),
+                ("diffuse", lit("Unit", diffuse)),
+                ("specular", lit("Unit", specular)),
+                ("roughness", lit("Unit", roughness)),
+                ("reflectance", lit("Unit", reflectance)),
+            ],
+        ),
         Finish::Mirror => "Finish::Mirror".to_owned(),
         other => unreachable!("no scene is made of {other:?}"),
     };
     module.constant("What it is made of.", "MATERIAL", "Finish", material);
-    let environment = match scene.environment {
+    let environment = match environment {
         Environment::Plain(tone) => format!("Environment::Plain({})", lit("Unit", tone)),
         Environment::Gradient { zenith, horizon, nadir } => variant(
             "Environment::Gradient",

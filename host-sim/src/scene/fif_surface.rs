@@ -18,6 +18,7 @@ use toml::Spanned;
 
 use super::environment::{Around, Board, Sky, Surroundings};
 use super::fif_curve::abscissa;
+use super::finish::{self, Filtering, Made, Mirrors};
 use super::function::{DEGREE, Description, Function, MAPS};
 use super::motion::Motion;
 use super::orbit::{Orbit, carried};
@@ -41,7 +42,9 @@ struct File {
     g: Spanned<Description>,
     camera: Spanned<Eye>,
     light: Option<Spanned<Lamp>>,
-    material: Option<Surfaced>,
+    material: Option<finish::Named>,
+    #[serde(rename = "torrance-sparrow")]
+    torrance_sparrow: Option<Spanned<Mirrors>>,
     environment: Option<Around>,
     gradient: Option<Spanned<Sky>>,
     checkerboard: Option<Spanned<Board>>,
@@ -55,28 +58,6 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Lamp {
     direction: Spanned<[Num; 3]>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Filtering {
-    quality: Level,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Level {
-    Coarse,
-    Fine,
-    Finest,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Surfaced {
-    Diffuse,
-    Phong,
-    Mirror,
 }
 
 /// A factor of the height, and where its file says how rough it is.
@@ -125,6 +106,7 @@ pub(crate) struct FifSurface {
 impl FifSurface {
     pub(super) fn load(source: &Source) -> Result<Self, Fail> {
         let file: File = source.parse()?;
+        let material = Made { named: file.material, torrance_sparrow: file.torrance_sparrow };
         let (gradient, checkerboard) = (file.gradient, file.checkerboard);
         let environment = Surroundings { named: file.environment, gradient, checkerboard };
         let light = file.light.map(|light| {
@@ -158,18 +140,10 @@ impl FifSurface {
             orbit,
             light: light.transpose()?,
             is_lit_anew: false,
-            material: match file.material.unwrap_or(Surfaced::Diffuse) {
-                Surfaced::Diffuse => Finish::DIFFUSE,
-                Surfaced::Phong => Finish::PHONG,
-                Surfaced::Mirror => Finish::Mirror,
-            },
+            material: material.compile(source)?,
             environment: environment.compile(source)?,
             samples,
-            filter: file.filter.map(|filter| match filter.quality {
-                Level::Coarse => Quality::Coarse,
-                Level::Fine => Quality::Fine,
-                Level::Finest => Quality::Finest,
-            }),
+            filter: file.filter.as_ref().map(Filtering::quality),
             depth: file.depth.as_ref().map(|depth| *depth.get_ref()),
             palette: file.palette.unwrap_or(Named::Dusk),
         };

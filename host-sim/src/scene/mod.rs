@@ -10,6 +10,7 @@ mod environment;
 pub(crate) mod escape;
 pub(crate) mod fif_curve;
 pub(crate) mod fif_surface;
+mod finish;
 pub(crate) mod function;
 mod graph;
 mod halving;

@@ -1,17 +1,21 @@
 //! `kind = "patch-surface"`: heights over a square, refined by a patch, a product of curves or a lattice.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
 use attractor::Error;
 use attractor::num::{Near, Real, Rgb, Vec3};
-use attractor::patch::{Scheme as Refining, Sheet};
+use attractor::patch::{Mask, Scheme as Refining, Sheet, SlopeMoments};
 use attractor::trace::world::Lamp;
-use attractor_gallery::{PatchSurfacePicture, Watch};
+use attractor::trace::{Environment, Finish, Quality};
+use attractor_gallery::{LatticePicture, PatchSurfacePicture, Watch};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::environment::{Around, Board, Sky, Surroundings};
+use super::finish::{self, Filtering, Made, Mirrors};
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::request::Request;
@@ -19,6 +23,7 @@ use super::standpoint::{Eye, Standpoint, camera, vector};
 use crate::color::Depth;
 use crate::fail::Fail;
 use crate::number::exact;
+use crate::palette::Named;
 use crate::reconstruction::family::Family;
 use crate::reconstruction::scheme::Scheme;
 use crate::reconstruction::table::Table;
@@ -39,7 +44,78 @@ struct File {
     height: Option<Num>,
     camera: Spanned<Eye>,
     light: Option<Light>,
+    material: Option<Spanned<finish::Named>>,
+    #[serde(rename = "torrance-sparrow")]
+    torrance_sparrow: Option<Spanned<Mirrors>>,
+    environment: Option<Spanned<Around>>,
+    gradient: Option<Spanned<Sky>>,
+    checkerboard: Option<Spanned<Board>>,
+    filter: Option<Spanned<Filtering>>,
+    palette: Option<Spanned<Named>>,
     samples: Option<Spanned<u8>>,
+}
+
+/// How a lattice looks that has a material.
+#[derive(Debug)]
+pub(crate) struct Look {
+    pub(crate) material: Finish,
+    pub(crate) environment: Environment,
+    /// Towards the light, if it is not the ordinary one.
+    pub(crate) light: Option<Vec3>,
+    pub(crate) quality: Option<Quality>,
+    pub(crate) palette: Named,
+}
+
+impl File {
+    /// A key that only a surface with a material understands.
+    fn of_a_material(&self) -> Option<(Range<usize>, &'static str)> {
+        let Self { torrance_sparrow, environment, gradient, checkerboard, filter, palette, .. } = self;
+        let keys = [
+            (torrance_sparrow.as_ref().map(Spanned::span), "torrance-sparrow"),
+            (environment.as_ref().map(Spanned::span), "environment"),
+            (gradient.as_ref().map(Spanned::span), "gradient"),
+            (checkerboard.as_ref().map(Spanned::span), "checkerboard"),
+            (filter.as_ref().map(Spanned::span), "filter"),
+            (palette.as_ref().map(Spanned::span), "palette"),
+        ];
+        keys.into_iter().find_map(|(span, key)| Some((span?, key)))
+    }
+
+    /// How it looks, if it has a material.
+    fn look(self, source: &Source, light: Option<Vec3>, scheme: &Scheme) -> Result<Option<Look>, Fail> {
+        let Some(named) = &self.material else {
+            return match self.of_a_material() {
+                Some((span, key)) => Err(source.fail(span, key, "there is no material")),
+                None => Ok(None),
+            };
+        };
+        let Scheme::Lattice(mask) = scheme else {
+            return Err(source.fail(named.span(), "material", "allowed is that of a lattice"));
+        };
+        if let Some(height) = &self.height {
+            let reason = "heights of a surface with a material are as they are, over the unit square";
+            return Err(source.fail(height.span(), "height", reason));
+        }
+        let quality = match &self.filter {
+            None => None,
+            Some(filter) => {
+                // normals are integrated where slopes have moments
+                SlopeMoments::new(mask).map_err(|error| source.fail(filter.span(), "filter", error))?;
+                Some(filter.get_ref().quality())
+            }
+        };
+        let made = Made { named: Some(*named.get_ref()), torrance_sparrow: self.torrance_sparrow };
+        let (gradient, checkerboard) = (self.gradient, self.checkerboard);
+        let environment =
+            Surroundings { named: self.environment.map(Spanned::into_inner), gradient, checkerboard };
+        Ok(Some(Look {
+            material: made.compile(source)?,
+            environment: environment.compile(source)?,
+            light,
+            quality,
+            palette: self.palette.map_or(Named::Dusk, Spanned::into_inner),
+        }))
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -62,6 +138,8 @@ pub(crate) struct PatchSurfaceScene {
     orbit: Option<Orbit>,
     pub(crate) sun: Vec3,
     pub(crate) samples: u8,
+    /// In tones, over the unit square.
+    pub(crate) look: Option<Look>,
     place: Place,
 }
 
@@ -90,8 +168,12 @@ impl PatchSurfaceScene {
             None => Real::ONE / 2,
         };
         let (_, view, orbit) = camera(source, &file.camera)?;
-        let sun = match &file.light {
-            Some(light) => vector(source, &light.direction, "light.direction")?,
+        let light = match &file.light {
+            Some(light) => Some(vector(source, &light.direction, "light.direction")?),
+            None => None,
+        };
+        let sun = match light {
+            Some(light) => light,
             None => Vec3::new(Real::from_num(-3), Real::from_num(-1), Real::from_num(4)),
         };
         Lamp::distant(sun, Rgb::WHITE).map_err(|error| {
@@ -102,10 +184,15 @@ impl PatchSurfaceScene {
         if let Some(given) = file.samples.as_ref().filter(|samples| !(1..=8).contains(samples.get_ref())) {
             return Err(source.fail(given.span(), "samples", "allowed is 1 to 8"));
         }
-        let place = source.place(file.heights.span(), "heights");
+        let (place, span) = (source.place(file.heights.span(), "heights"), file.heights.span());
+        let look = file.look(source, light, &scheme)?;
         let scene =
-            Self { family, numbers, heights, cells, height, scheme, view, orbit, sun, samples, place };
-        scene.with(&mut Check).map_err(|error| source.fail(file.heights.span(), "heights", error))?;
+            Self { family, numbers, heights, cells, height, scheme, view, orbit, sun, samples, look, place };
+        let checked = match scene.lattice() {
+            Some(lattice) => lattice.and_then(|(picture, _)| picture.caster(Size::new(8, 8), 1).map(drop)),
+            None => scene.with(&mut Check),
+        };
+        checked.map_err(|error| source.fail(span, "heights", error))?;
         Ok(scene)
     }
 
@@ -116,6 +203,19 @@ impl PatchSurfaceScene {
             Scheme::Tensor(scheme) => show.show(&self.picture(&**scheme)?),
             Scheme::Lattice(scheme) => show.show(&self.picture(&**scheme)?),
         }
+    }
+
+    /// The picture of a lattice with a material.
+    fn lattice(&self) -> Option<Result<(LatticePicture<'_, Named>, &Mask), Error>> {
+        let (Some(look), Scheme::Lattice(mask)) = (&self.look, &self.scheme) else { return None };
+        let Look { material, environment, light, quality, palette } = *look;
+        let Self { view, samples, .. } = *self;
+        let picture = |sheet| {
+            let picture =
+                LatticePicture { sheet, view, material, environment, light, samples, quality, palette };
+            (picture, &**mask)
+        };
+        Some(Sheet::new(&**mask, &self.heights, self.cells).map(picture))
     }
 
     fn picture<'a, S: Refining<J>, const J: usize>(
@@ -149,8 +249,13 @@ impl PatchSurfaceScene {
         D: DrawTarget<Error = Infallible>,
         D::Color: Depth,
     {
-        self.with(&mut Draw { request, target, watch })
-            .map_err(|error| self.place.fail_at(request.size, error))
+        let drawn = match self.lattice() {
+            Some(lattice) => lattice.and_then(|(picture, mask)| {
+                picture.draw((request.size, request.seed as u32), mask, target, watch)
+            }),
+            None => self.with(&mut Draw { request, target, watch }),
+        };
+        drawn.map_err(|error| self.place.fail_at(request.size, error))
     }
 
     /// `x,y,height,reference` on a grid of about so many points.

@@ -19,6 +19,7 @@ mod height_field;
 mod ifs;
 pub mod koch;
 pub mod l_system;
+pub mod lattice;
 pub mod moments;
 pub mod patch;
 mod picture;

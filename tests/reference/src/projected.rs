@@ -55,7 +55,16 @@ fn table(factor: &Factor, n: usize) -> Vec<Part> {
     (0..n).map(part).collect()
 }
 
-/// The interior pixels of a picture of `side x side` pixels, from `n x n` places.
+/// A place of a surface: where it is, and its slopes.
+#[derive(Debug, Clone, Copy)]
+pub struct Place {
+    /// Coordinates.
+    pub at: Vector,
+    /// Along x and y.
+    pub slopes: [f64; 2],
+}
+
+/// The interior pixels of a picture of `side x side` pixels, from `n x n` places of a product.
 pub fn interior(
     (x, y): (&Factor, &Factor),
     camera: &Camera,
@@ -65,12 +74,34 @@ pub fn interior(
     n: usize,
 ) -> Vec<Pixel> {
     let (xs, ys) = (table(x, n), table(y, n));
+    let length = |t: &[Part]| t[1].at - t[0].at;
+    let ground = length(&xs) * length(&ys);
+    let sign = |odd: bool| if odd { -1.0 } else { 1.0 };
+    let place = |(i, j): (usize, usize)| {
+        let (x, y) = (&xs[i], &ys[j]);
+        // along x in turns with j, along y with i and half as often with j: all four pairs alike
+        let f = x.slope + x.deviation * sign(j % 2 == 1);
+        let g = y.slope + y.deviation * sign((i + j / 2) % 2 == 1);
+        Place { at: [x.at, y.at, x.value * y.value], slopes: [f * y.value, x.value * g] }
+    };
+    let places = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(place);
+    interior_of(places, ground, camera, light, looks, side)
+}
+
+/// The same from any places, each above as much `ground`.
+pub fn interior_of(
+    places: impl Iterator<Item = Place>,
+    ground: f64,
+    camera: &Camera,
+    light: Vector,
+    looks: &[Look],
+    side: usize,
+) -> Vec<Pixel> {
     let w = normalised([0, 1, 2].map(|i| camera.look_at[i] - camera.eye[i]));
     let r = normalised(cross(w, camera.up));
     let u = cross(r, w);
     let per_pixel = camera.footprint(side, 1);
-    let length = |t: &[Part]| t[1].at - t[0].at;
-    let scale = length(&xs) * length(&ys) / (per_pixel * per_pixel);
+    let scale = ground / (per_pixel * per_pixel);
     let (half, light) = (side as f64 / 2.0, normalised(light));
     struct Sum {
         area: f64,
@@ -80,29 +111,23 @@ pub fn interior(
     }
     let empty = || Sum { area: 0.0, turned: false, places: 0, tones: vec![0.0; looks.len()] };
     let mut sums: Vec<Sum> = (0..side * side).map(|_| empty()).collect();
-    let sign = |odd: bool| if odd { -1.0 } else { 1.0 };
-    for (i, x) in xs.iter().enumerate() {
-        for (j, y) in ys.iter().enumerate() {
-            let v = [x.at - camera.eye[0], y.at - camera.eye[1], x.value * y.value - camera.eye[2]];
-            let depth = dot(v, w);
-            let column = half + dot(v, r) / depth / per_pixel;
-            let row = half - dot(v, u) / depth / per_pixel;
-            if column < 0.0 || row < 0.0 || column >= side as f64 || row >= side as f64 {
-                continue;
-            }
-            let sum = &mut sums[row as usize * side + column as usize];
-            // along x in turns with j, along y with i and half as often with j: all four pairs alike
-            let f = x.slope + x.deviation * sign(j % 2 == 1);
-            let g = y.slope + y.deviation * sign((i + j / 2) % 2 == 1);
-            let normal = [-f * y.value, -x.value * g, 1.0];
-            let area = -dot(normal, v) / (depth * depth * depth) * scale;
-            sum.turned |= area <= 0.0;
-            sum.area += area;
-            sum.places += 1;
-            let facing = Facing::new(normal, v, light);
-            for (tone, (finish, environment)) in sum.tones.iter_mut().zip(looks) {
-                *tone += area * finish.answer(&facing, environment);
-            }
+    for Place { at, slopes: [p, q] } in places {
+        let v = [0, 1, 2].map(|i| at[i] - camera.eye[i]);
+        let depth = dot(v, w);
+        let column = half + dot(v, r) / depth / per_pixel;
+        let row = half - dot(v, u) / depth / per_pixel;
+        if column < 0.0 || row < 0.0 || column >= side as f64 || row >= side as f64 {
+            continue;
+        }
+        let sum = &mut sums[row as usize * side + column as usize];
+        let normal = [-p, -q, 1.0];
+        let area = -dot(normal, v) / (depth * depth * depth) * scale;
+        sum.turned |= area <= 0.0;
+        sum.area += area;
+        sum.places += 1;
+        let facing = Facing::new(normal, v, light);
+        for (tone, (finish, environment)) in sum.tones.iter_mut().zip(looks) {
+            *tone += area * finish.answer(&facing, environment);
         }
     }
     let inside = |(index, sum): (usize, Sum)| {

@@ -26,6 +26,19 @@ pub enum Finish {
         /// The exponent.
         shininess: f64,
     },
+    /// `a + kd max(0, n^ . l) + ks F D G / (4 n^ . v)`, the last where `n^ . l > 0`.
+    TorranceSparrow {
+        /// The part `a` that needs no light.
+        ambient: f64,
+        /// `kd`.
+        diffuse: f64,
+        /// `ks`.
+        specular: f64,
+        /// `s` of `D`.
+        roughness: f64,
+        /// `f` of `F`.
+        reflectance: f64,
+    },
     /// The environment in the mirror direction.
     Mirror,
 }
@@ -104,6 +117,11 @@ impl Finish {
                 let highlight = power(facing.straight.max(0.0), shininess);
                 ambient + diffuse * lambert + specular * highlight
             }
+            Finish::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance } => {
+                let highlight =
+                    if facing.lit > 0.0 { facing.sheen(roughness, reflectance).min(1.0) } else { 0.0 };
+                ambient + diffuse * lambert + specular * highlight
+            }
             Finish::Mirror => environment.tone(facing.mirrored),
         };
         tone.clamp(0.0, 1.0)
@@ -118,6 +136,10 @@ pub(crate) struct Facing {
     lit: f64,
     /// The mirrored ray against the light.
     straight: f64,
+    /// `n^ . v`.
+    eye: f64,
+    /// `v . l`.
+    across: f64,
 }
 
 impl Facing {
@@ -125,7 +147,22 @@ impl Facing {
     pub(crate) fn new(n: Vector, d: Vector, light: Vector) -> Self {
         let n = normalised(n);
         let mirrored = normalised(along(d, -2.0 * dot(d, n), n));
-        Self { mirrored, lit: dot(n, light), straight: dot(mirrored, light) }
+        let v = normalised(d).map(|c| -c);
+        let (eye, across) = (dot(n, v), dot(v, light));
+        Self { mirrored, lit: dot(n, light), straight: dot(mirrored, light), eye, across }
+    }
+
+    /// `F D G / (4 n . v)`, `D` without its `1 / pi`: CONTRIBUTING.md, "The picture of a world, defined".
+    fn sheen(&self, s: f64, f: f64) -> f64 {
+        // h = (v + l) / |v + l|
+        let length = libm::sqrt(2.0 + 2.0 * self.across);
+        let eye = self.eye.max(f64::powi(2.0, -12));
+        let (a, between) = ((self.eye + self.lit) / length, length / 2.0);
+        let cos2 = a * a;
+        let d = libm::exp(-(1.0 - cos2) / (cos2 * s * s)) / (s * s * cos2 * cos2);
+        let g = (2.0 * a * eye / between).min(2.0 * a * self.lit / between).min(1.0);
+        let fresnel = f + (1.0 - f) * (1.0 - between).powi(5);
+        fresnel * d * g / (4.0 * eye)
     }
 }
 

@@ -8,14 +8,16 @@ use core::ops::ControlFlow;
 
 use attractor::Error;
 use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread, Sum, Sums};
-use attractor::num::{RandomField, Real, Scaling, Unit, Vec3, Wide};
+use attractor::num::{Near, RandomField, Real, Scaling, Unit, Vec3, Wide};
+use attractor::patch::{HeightMoments, Mask, Sheet, SlopeMoments};
 use attractor::plane::Field;
 use attractor::terrain::{
     Heights, InnerGeometry, Law, Magnification, PlaneToLine, Rows, Seam, Seamed, Side, Triangles,
 };
 use attractor::trace::{
-    Camera, DeepTerrain, Environment, Filter, FilteredCaster, Finish, HeightField, HeightRange, Light,
-    Quality, Ray, RayCaster, Sampling, Statistics, Surface, Terrain,
+    Camera, DeepTerrain, Environment, Filter, FilteredCaster, FilteredPatch, Finish, HeightField,
+    HeightRange, Light, PatchCaster, PatchSurface, Quality, Ray, RayCaster, Sampling, Statistics, Surface,
+    Terrain,
 };
 use attractor_cortex_m::{Wire, entry, semihosting};
 use embedded_graphics::pixelcolor::Rgb565;
@@ -27,6 +29,7 @@ fn main() -> ! {
     // what is refused is refused: only panics count
     let _ = bb(rays());
     let _ = bb(terrain());
+    let _ = bb(lattice());
     semihosting::process::exit(0)
 }
 
@@ -57,6 +60,27 @@ fn rays() -> Result<(), Error> {
     let sums = Sums::new(&f, bb(4), &mut places)?;
     bb(sums.over(bb(Wide::ZERO), bb(Wide::ONE)));
     let filtered = FilteredCaster::new(caster, &sums, &sums, bb(Quality::Fine))?;
+    bb((filtered.row(bb(0), bb(0)..bb(100)).last(), filtered.found(bb(3), bb(4))));
+    Ok(())
+}
+
+/// A lattice, its moments, and its pictures.
+fn lattice() -> Result<(), Error> {
+    let mask = Mask::from_numbers(bb(&[Near::DELTA; 21]))?;
+    let heights = bb([Real::ONE; 25]);
+    let sheet = Sheet::<Mask, 16>::new(&mask, bb(&heights[..]), bb(2))?;
+    let part = sheet.part(bb([3, 4]), bb(3));
+    let (of_heights, of_slopes) = (HeightMoments::new(&mask)?, SlopeMoments::new(&mask)?);
+    bb((of_heights.over(&part, bb(16)), of_heights.mean(&part), of_slopes.over(&part, bb(16))));
+    let v = Vec3::new(bb(Real::ONE), bb(Real::ONE), bb(Real::ONE));
+    let camera = Camera::new(v, bb(v), bb(v), bb(Real::ONE))?;
+    let caster = PatchCaster::new(PatchSurface::new(sheet, bb(5))?, camera, bb(Wire::<Rgb565>::SIZE))?
+        .with_finish(bb(Finish::PHONG))?
+        .with_light(Light::new(v)?)
+        .with_environment(bb(Environment::SKY))?
+        .with_sampling(bb(Sampling::Centre), bb(Filter::Box))?;
+    bb(caster.row(bb(0), bb(0)..bb(100)).last());
+    let filtered = FilteredPatch::new(caster, &of_slopes, bb(Quality::Fine));
     bb((filtered.row(bb(0), bb(0)..bb(100)).last(), filtered.found(bb(3), bb(4))));
     Ok(())
 }

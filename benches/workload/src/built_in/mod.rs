@@ -120,6 +120,7 @@ pub(crate) const IN_MONO: &[Scene] = &[
     both_roomy(patch_surface!("patch-diagonal", patch_diagonal))[1],
     both_roomy(patch_surface!("patch-mountain", patch_mountain))[1],
     both_roomy(patch_surface!("patch-joinings", patch_joinings))[1],
+    both_roomy(lattice!("figure-6-without-grain", figure_6_without_grain))[1],
 ];
 
 /// Encoded pictures, which have an image of their own: their decoders take more flash than that of the others

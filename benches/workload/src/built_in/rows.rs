@@ -305,6 +305,12 @@ macro_rules! patch_curve {
 }
 
 /// A surface by control points.
+macro_rules! lattice {
+    ($name:literal, $scene:ident) => {
+        both!($name, |stage, C, S| patches::lattice::<C, _>(stage, of::$scene::scheme, of::$scene::picture))
+    };
+}
+
 macro_rules! patch_surface {
     ($name:literal, $scene:ident) => {
         both!($name, |stage, C, S| patches::surface::<C, _, _>(

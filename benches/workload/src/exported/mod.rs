@@ -36,6 +36,7 @@ pub mod figure_6_gg;
 pub mod figure_6_gg_filtered;
 pub mod figure_6_gg_phong;
 pub mod figure_6_gg_phong_filtered;
+pub mod figure_6_without_grain;
 pub mod figure_7;
 pub mod figure_7_jittered;
 pub mod filaments;

@@ -14,6 +14,7 @@ mod fif;
 mod filled;
 mod filtered;
 mod ifs;
+mod lattice;
 mod num;
 mod patch;
 mod picture;
@@ -177,6 +178,11 @@ const TABLE: &[Kernel] = &[
     roomy(alone("filtered highlight, finest", "pixel of G x G", filtered::highlight_finest)),
     roomy(alone("plain mirror", "pixel of G x G", filtered::plain_mirror)),
     roomy(alone("filtered mirror, fine", "pixel of G x G", filtered::mirror_fine)),
+    roomy(alone("slopes of a lattice", "cell", lattice::slopes)),
+    roomy(alone("moments of a lattice", "mask", lattice::moments)),
+    roomy(alone("lattice mirror", "pixel of a cone", lattice::mirror)),
+    roomy(alone("filtered lattice mirror, coarse", "pixel of a cone", lattice::mirror_coarse)),
+    roomy(alone("filtered lattice mirror, fine", "pixel of a cone", lattice::mirror_fine)),
     beside("noise", "value", texture::noise_fixed, texture::noise_float::<f32>, texture::noise_float::<f64>),
     beside("turbulence", "octave of four", texture::turbulence_fixed, texture::turbulence_float::<f32>, texture::turbulence_float::<f64>),
     roomy(beside("sphere", "ray, both crossings", shapes::sphere, shapes::sphere_float::<f32>, shapes::sphere_float::<f64>)),

@@ -4,6 +4,7 @@
 //! `w = -n . d`: the box shows `sum w tone / sum w`. With `n^ = n / |n|`:
 //! - diffuse `n^ . l`;
 //! - Phong's mirrored ray against the light, `m . l = d . l - 2 (n^ . d) (n^ . l)`;
+//! - tiny mirrors that lean at random about each of the normals: Torrance and Sparrow's highlight;
 //! - the mirrored ray itself, `d - 2 (n^ . d) n^`.
 //!
 //! Diffuse light changes so little over a pixel that four points stand for all of its boxes, and one box is
@@ -19,6 +20,7 @@ use super::slopes::{Pool, Slope, Spread, times};
 use crate::num::{Unit, Vec3, product, reciprocal_of, reciprocal_sqrt_of};
 use crate::trace::environment::Environment;
 use crate::trace::finish::Finish;
+use crate::trace::material::{Sight, TorranceSparrow};
 use crate::trace::power::{power, times as part_of};
 
 /// What light a box is seen in.
@@ -46,10 +48,10 @@ struct Facing {
 
 /// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes.
 #[derive(Debug, Clone, Copy, Default)]
-struct Shown {
-    boxes: i64,
-    matt: i64,
-    highlight: i64,
+pub(super) struct Shown {
+    pub(super) boxes: i64,
+    pub(super) matt: i64,
+    pub(super) highlight: i64,
 }
 
 /// `n . v`, 24 fractional bits.
@@ -151,6 +153,18 @@ impl<'a> View<'a> {
     #[inline(always)]
     fn add(&self, points: &[Slope; 4], shown: &mut Shown) -> Option<()> {
         shown.boxes += 1;
+        let (area, matt, highlight) = self.seen(points)?;
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
+        let over = |sum: i64| product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30;
+        shown.matt += over(matt);
+        shown.highlight += over(highlight);
+        Some(())
+    }
+
+    /// What four points show, each on its area: the sum of the areas, 20 fractional bits, and of what they
+    /// show times them, 50; none where one turns away from the eye.
+    #[inline(always)]
+    pub(super) fn seen(&self, points: &[Slope; 4]) -> Option<(u32, i64, i64)> {
         let (mut area, mut matt, mut highlight) = (0_u32, 0_i64, 0_i64);
         for slope in points {
             let facing = Facing::new(*slope, self);
@@ -162,6 +176,10 @@ impl<'a> View<'a> {
             area = area.wrapping_add(weight.unsigned_abs());
             let (a, b) = match self.finish {
                 Finish::Diffuse { .. } => (facing.lit.max(0), 0),
+                Finish::TorranceSparrow { roughness, reflectance, .. } => {
+                    let model = TorranceSparrow::within(roughness, reflectance);
+                    (facing.lit.max(0), self.sheen(*slope, &facing, model).to_bits())
+                }
                 Finish::Phong { shininess, .. } => {
                     let along = self.straight.saturating_add(unit_product(facing.eye, facing.lit) << 1);
                     let along = Unit::from_bits(along.clamp(0, 1 << 30));
@@ -171,11 +189,18 @@ impl<'a> View<'a> {
             };
             (matt, highlight) = (matt + product(a, weight), highlight + product(b, weight));
         }
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
-        let over = |sum: i64| product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30;
-        shown.matt += over(matt);
-        shown.highlight += over(highlight);
-        Some(())
+        Some((area, matt, highlight))
+    }
+
+    /// The highlight of tiny mirrors.
+    fn sheen(&self, [p, q]: Slope, facing: &Facing, model: TorranceSparrow) -> Unit {
+        let [x, y, z] = [p.wrapping_neg(), q.wrapping_neg(), 1 << 24]
+            .map(|c| Unit::from_bits(scaled(c, facing.root).clamp(-1 << 30, 1 << 30)));
+        let vector =
+            |[x, y, z]: [i32; 3]| Vec3::new(Unit::from_bits(x), Unit::from_bits(y), Unit::from_bits(z));
+        let direction = vector(self.direction);
+        let sight = Sight { normal: Vec3::new(x, y, z), direction, tangent: Vec3::default() };
+        model.tone(&sight, vector(self.light))
     }
 
     /// What the mirrored ray meets.
@@ -198,7 +223,7 @@ impl<'a> View<'a> {
 
     /// The tone of all boxes together.
     #[inline(always)]
-    fn finished(&self, shown: &Shown) -> Unit {
+    pub(super) fn finished(&self, shown: &Shown) -> Unit {
         const PART: [i32; 13] = {
             let (mut part, mut n) = ([0; 13], 1);
             while n < 13 {
@@ -214,7 +239,8 @@ impl<'a> View<'a> {
         let (matt, highlight) = (mean(shown.matt), mean(shown.highlight));
         match self.finish {
             Finish::Diffuse { ambient } => matte(ambient, matt),
-            Finish::Phong { ambient, diffuse, specular, .. } => {
+            Finish::Phong { ambient, diffuse, specular, .. }
+            | Finish::TorranceSparrow { ambient, diffuse, specular, .. } => {
                 let matt = ambient.saturating_add(part_of(diffuse, matt)).min(Unit::ONE);
                 matt.saturating_add(part_of(specular, highlight)).min(Unit::ONE)
             }

@@ -36,7 +36,7 @@ pub enum Quality {
 impl Quality {
     /// Parts of the shorter and of the longer edge.
     #[inline(always)]
-    const fn parts(self) -> [i32; 2] {
+    pub(super) const fn parts(self) -> [i32; 2] {
         match self {
             Self::Coarse => [1, 2],
             Self::Fine => [2, 4],
@@ -69,7 +69,7 @@ pub(super) fn into([p, q]: Slope, [x, y, z]: [i32; 3]) -> i64 {
 /// The reciprocal of how much a ray goes into a plane, which is seen at no flatter an angle than some 4
 /// degrees.
 #[inline(always)]
-fn steepness(slope: Slope, direction: [i32; 3]) -> (i32, u32) {
+pub(super) fn steepness(slope: Slope, direction: [i32; 3]) -> (i32, u32) {
     let [p, q] = slope.map(|s| i64::from(s.unsigned_abs()));
     let least = (p + q + (1 << 24)) >> 1; // a 32nd of 28 bits
     let steep = into(slope, direction).max(least).min(i64::from(i32::MAX));
@@ -78,7 +78,7 @@ fn steepness(slope: Slope, direction: [i32; 3]) -> (i32, u32) {
 
 /// `v / g` for a reciprocal of `g`, in a format with `bits` more than `v` over `g` has, saturated.
 #[inline(always)]
-fn over(v: i64, (mantissa, zeros): (i32, u32), bits: u32) -> i32 {
+pub(super) fn over(v: i64, (mantissa, zeros): (i32, u32), bits: u32) -> i32 {
     let v = v.clamp(-(1 << 31), (1 << 31) - 1) as i32;
     let shift = 62_u32.saturating_sub(zeros + bits);
     (product(v, mantissa) >> (shift & 63)).clamp(-(1 << 30), 1 << 30) as i32
@@ -107,7 +107,7 @@ impl Sight {
 
 /// A pixel's edges along the plane that its ray meets.
 #[inline(always)]
-fn edges(place: &Place, sight: &Sight, steep: (i32, u32), edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
+pub(super) fn edges(place: &Place, sight: &Sight, steep: (i32, u32), edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
     let [dx, dy, _] = sight.direction;
     edges.map(|r| {
         let along = over(into(place.slope, r), steep, 28);
@@ -220,7 +220,7 @@ impl Footprint {
 
 /// One of `n` parts, `n` up to 6.
 #[inline(always)]
-fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
+pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
     /// `2^16 / n`.
     const PART: [i32; 7] = [0, 1 << 16, 1 << 15, 21845, 1 << 14, 13107, 10923];
     let part = PART.get(n as usize).copied().unwrap_or(0);

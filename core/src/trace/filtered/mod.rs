@@ -5,7 +5,9 @@ mod answer;
 mod caster;
 mod footprint;
 mod ground;
+mod patch;
 mod slopes;
 
 pub use caster::{FilteredCaster, Found};
 pub use footprint::Quality;
+pub use patch::FilteredPatch;

@@ -134,6 +134,28 @@ impl Spread {
         Self { mean, covariance: [central(pp, p, p), central(pq, p, q), central(qq, q, q)] }
     }
 
+    /// Four points of equal weight with the mean and the covariance of it: `(s, c / s -+ r)` and `(-s, -c /
+    /// s -+ r)` around the mean, `s^2 = S_pp`, `c = S_pq`, `r^2 = S_qq - (c / s)^2`; where `q` varies more
+    /// than `p`, the two change places, so that what is rounded off stays small.
+    #[inline(always)]
+    pub(super) fn points(&self) -> [Slope; 4] {
+        let Self { mean: [p, q], covariance: [pp, pq, qq] } = *self;
+        let first = pp >= qq;
+        let (more, less) = if first { (pp, qq) } else { (qq, pp) };
+        let more = more.max(1);
+        let (mantissa, half) = reciprocal_sqrt_of(u64::from(more.unsigned_abs()) << 24);
+        let per_s = |c: i32| (product(c, mantissa) >> ((half + 7) & 63)) as i32;
+        let (s, c) = (per_s(more), per_s(pq));
+        let rest = less.saturating_sub(times(c, c)).max(0);
+        let r = rough_sqrt(u64::from(rest.unsigned_abs()) << 24) as i32;
+        let at = |s: i32, c: i32| {
+            let (dp, dq) = if first { (s, c) } else { (c, s) };
+            [p.saturating_add(dp), q.saturating_add(dq)]
+        };
+        let (more, less) = (c.saturating_add(r), c.saturating_sub(r));
+        [at(s, more), at(s, less), at(-s, more.saturating_neg()), at(-s, less.saturating_neg())]
+    }
+
     /// Of one box.
     #[inline(always)]
     pub(super) fn of(slopes: &Slopes, half: [i32; 2]) -> Self {
@@ -167,29 +189,12 @@ impl Pool {
         self.squares.iter_mut().zip(squares).for_each(|(sum, square)| *sum += product(square, share));
     }
 
-    /// Four points of equal weight with the mean and the covariance of all: `(s, c / s -+ r)` and `(-s, -c /
-    /// s -+ r)` around the mean, `s^2 = S_pp`, `c = S_pq`, `r^2 = S_qq - (c / s)^2`; where `q` varies more
-    /// than `p`, the two change places, so that what is rounded off stays small.
+    /// Four points for all; none without a share.
     #[inline(always)]
     pub(super) fn points(&self) -> Option<[Slope; 4]> {
         let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(self.share)?);
         // a sum is below the share times 2^31
         let over = |sum: i64| (product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30) as i32;
-        let Spread { mean: [p, q], covariance: [pp, pq, qq] } =
-            Spread::new(self.means.map(over), self.squares.map(over));
-        let first = pp >= qq;
-        let (more, less) = if first { (pp, qq) } else { (qq, pp) };
-        let more = more.max(1);
-        let (mantissa, half) = reciprocal_sqrt_of(u64::from(more.unsigned_abs()) << 24);
-        let per_s = |c: i32| (product(c, mantissa) >> ((half + 7) & 63)) as i32;
-        let (s, c) = (per_s(more), per_s(pq));
-        let rest = less.saturating_sub(times(c, c)).max(0);
-        let r = rough_sqrt(u64::from(rest.unsigned_abs()) << 24) as i32;
-        let at = |s: i32, c: i32| {
-            let (dp, dq) = if first { (s, c) } else { (c, s) };
-            [p.saturating_add(dp), q.saturating_add(dq)]
-        };
-        let (more, less) = (c.saturating_add(r), c.saturating_sub(r));
-        Some([at(s, more), at(s, less), at(-s, more.saturating_neg()), at(-s, less.saturating_neg())])
+        Some(Spread::new(self.means.map(over), self.squares.map(over)).points())
     }
 }

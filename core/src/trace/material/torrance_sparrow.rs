@@ -35,6 +35,22 @@ impl TorranceSparrow {
         Ok(Self { square: times(roughness, roughness), reflectance })
     }
 
+    /// The same of any numbers, brought into their ranges.
+    pub(crate) fn within(roughness: Unit, reflectance: Unit) -> Self {
+        let roughness = roughness.clamp(Unit::ONE >> 5, Unit::ONE);
+        let reflectance = reflectance.clamp(Unit::ZERO, Unit::ONE);
+        Self { square: times(roughness, roughness), reflectance }
+    }
+
+    /// The part of the light that is seen, at most 1; none of a light below the surface.
+    pub(crate) fn tone(&self, view: &Sight, towards: Vec3<Unit>) -> Unit {
+        if view.normal.dot(towards) <= 0 {
+            return Unit::ZERO;
+        }
+        let part = self.part(view, towards).to_bits().min(1 << 16);
+        Unit::from_bits((part << 14) as i32)
+    }
+
     /// `D`, 20 fractional bits, saturated: at most 2^10 and a little.
     fn facing(&self, cos: Unit) -> u64 {
         let square = times(cos, cos);
