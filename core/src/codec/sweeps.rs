@@ -28,8 +28,8 @@ use crate::plane::Field;
 /// More is used as well: a leaf takes 9 samples and 2 for each coefficient, if it depends on itself or on what
 /// comes after it. So 4 KiB beyond the picture do for 240 x 240 at 0.27 bits a pixel.
 ///
-/// Cost: in all, with those 4 KiB, about 67 instructions a pixel for a stream that was made for two sweeps,
-/// kernel `decode sweeps`, and 104 for four, kernel `decode four sweeps`; without, 95 and 184.
+/// Cost: in all, with those 4 KiB, about 70 instructions a pixel for a stream that was made for two sweeps,
+/// kernel `decode sweeps`, and 107 for four, kernel `decode four sweeps`; without, 99 and 191.
 #[derive(Debug)]
 pub struct Sweeps<'a, S: Sample, I> {
     planes: Planes<'a, S>,
