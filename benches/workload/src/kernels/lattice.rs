@@ -24,9 +24,11 @@ pub(super) fn slopes(watch: &mut Watch<'_>) -> Tally {
         let parts: [[Real; 16]; 8] = cells.map(|index| sheet.part(index, 3));
         Some(watch.over(&parts, |heights| {
             let slopes = moments.over(&heights, 48);
-            slopes.covariance.iter().chain(&slopes.mean).fold(0, |sum, part| {
-                u32::rotate_left(sum, 1) ^ part.to_bits().cast_unsigned()
-            })
+            slopes
+                .covariance
+                .iter()
+                .chain(&slopes.mean)
+                .fold(0, |sum, part| u32::rotate_left(sum, 1) ^ part.to_bits().cast_unsigned())
         }))
     };
     tally().unwrap_or_default()
