@@ -257,10 +257,10 @@ pub(crate) struct Encode {
           value_parser = clap::value_parser!(u64).range(1..=1 << 28))]
     pub(crate) bytes: Option<u64>,
     /// How many bits a pixel
-    #[arg(long, allow_hyphen_values = true, value_name = "X", group = "target", value_parser = positive)]
+    #[arg(long, allow_hyphen_values = true, value_name = "X", group = "target", value_parser = bits_a_pixel)]
     pub(crate) bpp: Option<f64>,
     /// How many decibels of peak signal to noise
-    #[arg(long, allow_hyphen_values = true, value_name = "DB", group = "target", value_parser = positive)]
+    #[arg(long, allow_hyphen_values = true, value_name = "DB", group = "target", value_parser = decibels)]
     pub(crate) psnr: Option<f64>,
     /// How it is decoded
     #[arg(long, value_name = "PROFILE", default_value = "streaming")]
@@ -412,11 +412,20 @@ pub(crate) struct Window {
     pub(crate) look: Look,
 }
 
-/// A number above 0.
-fn positive(text: &str) -> Result<f64, String> {
+/// No picture has more bins.
+fn bits_a_pixel(text: &str) -> Result<f64, String> {
+    above_0(text, 64.0)
+}
+
+/// The last pixel of the largest picture of 16 bits that is off by 1 is 180.6 dB.
+fn decibels(text: &str) -> Result<f64, String> {
+    above_0(text, 180.0)
+}
+
+fn above_0(text: &str, most: f64) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
-        _ => Err(format!("`{text}` is no number above 0")),
+        Ok(number) if number > 0.0 && number <= most => Ok(number),
+        _ => Err(format!("`{text}` is no number above 0 and up to {most}")),
     }
 }
 

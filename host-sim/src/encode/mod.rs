@@ -9,6 +9,7 @@ mod range_encoder;
 mod rate;
 mod samples;
 mod search;
+mod settled;
 
 use std::io::Write as _;
 
@@ -29,7 +30,7 @@ use crate::still::Still;
 impl Effort {
     /// How hard to look.
     pub(crate) const FAST: Self = Self { isometries: 1, candidates: 2, far: false };
-    pub(crate) const BEST: Self = Self { isometries: 8, candidates: 8, far: true };
+    pub(crate) const BEST: Self = Self { isometries: 8, candidates: 16, far: true };
 }
 
 impl Plan {
