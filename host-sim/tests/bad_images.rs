@@ -138,7 +138,8 @@ fn streams_that_cannot_be_written_are_named() {
     assert_snapshot!(said);
 }
 
-/// Flat pictures, so that what comes back is exact to a step of chroma.
+/// Flat pictures, so that what comes back is off by no more than what a pixel of `YCoCg` and its steps are rounded
+/// by.
 #[test]
 fn what_shines_through_shows_the_ground_that_was_named() {
     let directory = room();
@@ -156,7 +157,7 @@ fn what_shines_through_shows_the_ground_that_was_named() {
         good(dir, &["decode", "out.atfi", "-o", "back.png"]);
         let back = decode(&dir.join("back.png"));
         assert_eq!(back.color, ColorType::Rgb, "{name}");
-        let near = |p: &[u8]| p.iter().zip(want).all(|(a, b)| a.abs_diff(b) <= 1);
+        let near = |p: &[u8]| p.iter().zip(want).all(|(a, b)| a.abs_diff(b) <= 2);
         assert!(back.data.chunks_exact(3).all(near), "{name}: {:?}, wanted {want:?}", &back.data[..3]);
     }
 }
@@ -181,10 +182,14 @@ fn the_smallest_and_the_longest_pictures_are_encoded() {
 fn targets_of_bits_and_decibels_are_met_within_1_per_cent() {
     let directory = room();
     let dir = directory.path();
-    // waves with a little noise
+    // waves with noise that grows: everywhere the same, all of it would be worth its bits at one step
     let value = |x: u32, y: u32| {
         let wave = 60.0 * (f64::from(x) * 0.11).sin() + 40.0 * (f64::from(y) * 0.07).cos();
-        (128.0 + wave + f64::from((x * 7919 + y * 104_729 + x * y * 31) % 23)) as u8
+        let hash = (x * 374_761 + y * 66_826 + 1)
+            .wrapping_mul(0x9e37_79b9)
+            .rotate_left(13)
+            .wrapping_mul(0x85eb_ca6b);
+        (110.0 + wave + f64::from((hash >> 8) % 41) * f64::from(x) / 128.0) as u8
     };
     let data: Vec<u8> = (0..96).flat_map(|y| (0..128).map(move |x| value(x, y))).collect();
     png(&dir.join("waves.png"), (128, 96), ColorType::Grayscale, BitDepth::Eight, &data);

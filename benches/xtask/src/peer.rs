@@ -15,17 +15,14 @@ use crate::grey::{Grey, Likeness};
 /// A codec.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Peer {
-    pub(crate) name: &'static str,
     /// Its command, which may not be there.
-    pub(crate) tool: &'static str,
+    tool: &'static str,
     /// Bytes and samples of a quality.
     encode: fn(&Grey, &Path, u32) -> Result<(usize, Vec<u8>)>,
 }
 
-pub(crate) const PEERS: [Peer; 2] = [
-    Peer { name: "libjpeg, optimised", tool: "cjpeg", encode: jpeg },
-    Peer { name: "WebP -m6", tool: "cwebp", encode: webp },
-];
+pub(crate) const PEERS: [Peer; 2] =
+    [Peer { tool: "cjpeg", encode: jpeg }, Peer { tool: "cwebp", encode: webp }];
 
 impl Peer {
     pub(crate) fn is_there(self) -> bool {

@@ -1,7 +1,8 @@
 //! `cargo xtask peers-images IMAGE...`: the image codec beside libjpeg with optimised tables and WebP -m6;
 //! what each of its parts is worth; how many sweeps it takes, and what twice the size is worth.
 //!
-//! PSNR and MS-SSIM at 0.25, 0.5 and 1 bit a pixel, container included, of pictures made grey. What one pass
+//! PSNR and MS-SSIM at 0.25, 0.5 and 1 bit a pixel or at other rates, container included, of pictures made
+//! grey. What one pass
 //! in a window of 64 rows costs: bytes of profile streaming, interpolated between two rates, at the PSNR that
 //! profile iterated, whose domains lie anywhere, has at 0.25 bits. A peer that is not installed is left out.
 //! The attractor command must have been built: `benches/peers/images` does that, and fetches photographs.
@@ -27,9 +28,10 @@ pub(crate) struct Options {
     /// Instead: what each sweep brings, and twice the size against the nearest pixel
     #[arg(long)]
     decoding: bool,
+    /// Bits a pixel
+    #[arg(long, value_name = "X", default_values = ["0.25", "0.5", "1"])]
+    rate: Vec<f64>,
 }
-
-const RATES: [f64; 3] = [0.25, 0.5, 1.0];
 
 /// The command, where it may write, and what it encodes.
 struct Own<'a> {
@@ -75,9 +77,9 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
         }
         let own = Own { attractor: &attractor, scratch: &scratch, image: &own };
         match (&grey, options) {
-            (_, Options { ablation: true, .. }) => ablation(&own, &name)?,
+            (_, Options { ablation: true, .. }) => ablation(&own, &name, &options.rate)?,
             (Some(grey), Options { decoding: true, .. }) => decoding(&own, &name, grey)?,
-            (Some(grey), _) => peers(&own, &name, grey)?,
+            (Some(grey), _) => peers(&own, &name, grey, &options.rate)?,
             (None, _) => println!("| {name} | 16 bits: no peer |"),
         }
     }
@@ -89,8 +91,8 @@ fn shown(like: Option<Likeness>) -> String {
     like.map_or_else(|| "-".to_owned(), |like| format!("{:.2} dB, {:.4}", like.psnr, like.ms_ssim))
 }
 
-fn peers(own: &Own<'_>, name: &str, grey: &Grey) -> Result<()> {
-    for rate in RATES {
+fn peers(own: &Own<'_>, name: &str, grey: &Grey, rates: &[f64]) -> Result<()> {
+    for &rate in rates {
         let target = ["--bpp", &rate.to_string()];
         let streaming = own.encode(target, &[])?;
         let iterated = own.encode(target, &["--profile", "iterated"])?;
@@ -129,8 +131,8 @@ fn window(less: Said, more: Said, global: Said) -> String {
     format!("{:+.1} %", 100.0 * ((bytes - global.bytes.ln()).exp() - 1.0))
 }
 
-fn ablation(own: &Own<'_>, name: &str) -> Result<()> {
-    for rate in RATES {
+fn ablation(own: &Own<'_>, name: &str, rates: &[f64]) -> Result<()> {
+    for &rate in rates {
         let target = ["--bpp", &rate.to_string()];
         let mut cells = Vec::new();
         let parts: [&[&str]; 5] = [

@@ -192,7 +192,8 @@ impl<S: Sample> Partition<'_, '_, S> {
         }
         likely.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut frequencies = [0.0; 256];
-        for (_, domain, dot, energy, late) in likely.into_iter().take(WEIGHED) {
+        let most = if setting.transform { WEIGHED } else { likely.len() };
+        for (_, domain, dot, energy, late) in likely.into_iter().take(most) {
             self.plane.copied(&domain, x, y, size, &mut copied);
             copy.iter_mut().zip(&copied).take(count).for_each(|(to, from)| *to = *from as f32 / 128.0);
             self.cosine.forward(size, &copy[..count], &mut frequencies);

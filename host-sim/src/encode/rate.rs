@@ -41,7 +41,10 @@ const FIRST: [u16; 2] = [0x780, 0x900];
 const PASSES: usize = 12;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
 const FINER: [u16; 4] = [0, 2, 7, 19];
-const BETWEEN: usize = 6;
+const BETWEEN: usize = 10;
+/// What part of the bytes is filled at least, and what is enough where that is not met soon.
+const NEAR: f64 = 0.998;
+const ENOUGH: f64 = 0.993;
 /// What is aimed at: a shade below the target, so that the next one is allowed.
 const AIM: f64 = -0.001;
 
@@ -54,12 +57,12 @@ impl Target {
         }
     }
 
-    /// Whether it is met: within 1 per cent of the bytes and not above, within 0.05 dB and not below.
-    fn is_met(self, encoded: &Encoded) -> bool {
+    /// Whether it is met: a part of the bytes or more, and not above them; within 0.05 dB and not below.
+    fn is_met(self, encoded: &Encoded, part: f64) -> bool {
         match self {
             Self::Bytes(bytes) => {
                 let length = encoded.bytes.len() as f64;
-                length <= bytes && (length >= bytes * 0.998 || length + 1.0 > bytes)
+                length <= bytes && (length >= bytes * part || length + 1.0 > bytes)
             }
             Self::Decibels(decibels) => (0.0..0.05).contains(&(encoded.psnr - decibels)),
         }
@@ -165,21 +168,25 @@ pub(crate) fn meet(
     }
     // between two steps: bits a little dearer at the coarsest step that is too fine
     let finest = tried.iter().filter(|e| !target.allows(e)).map(|e| e.step).max();
+    let finest = finest.filter(|_| tried.iter().any(|e| target.allows(e)));
     if let (Target::Bytes(_), Some(step)) = (target, finest) {
         for finer in FINER {
+            let part = if finer == 0 { NEAR } else { ENOUGH };
             // logarithms of what a bit is worth, and what is missed
             let (mut over, mut under) = ((0.0, f64::from(finer) * 0.0035), None::<(f64, f64)>);
             if finer == 0 {
                 let there = tried.iter().find(|e| e.step == step);
                 over.1 = there.map_or(0.0, |e| target.miss(e));
             }
-            for _ in 0..BETWEEN {
-                if tried.iter().any(|e| target.is_met(e)) {
+            for turn in 0..BETWEEN {
+                if tried.iter().any(|e| target.is_met(e, part)) {
                     break;
                 }
                 let thrift = match under {
                     Some((dear, below)) => {
-                        let share = (over.1 - AIM) / (over.1 - below).max(1e-9);
+                        // a straight line, and in turn the middle: there are pictures whose bytes jump
+                        let straight = (over.1 - AIM) / (over.1 - below).max(1e-9);
+                        let share = if turn % 2 == 0 { straight } else { 0.5 };
                         over.0 + (dear - over.0) * share.clamp(0.05, 0.95)
                     }
                     None => over.0 + 2.0 * (over.1 - AIM),
@@ -228,7 +235,7 @@ fn narrow(
 ) -> Result<(), Error> {
     let aim = if enough > 0.0 { 0.0 } else { AIM };
     while tried.len() < passes {
-        if tried.iter().any(|e| target.is_met(e) || target.miss(e).abs() < enough) {
+        if tried.iter().any(|e| target.is_met(e, NEAR) || target.miss(e).abs() < enough) {
             break;
         }
         // 256 an octave: nearly a logarithm
