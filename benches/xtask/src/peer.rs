@@ -12,13 +12,15 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::grey::{Grey, Likeness};
 
+/// Bytes and decoded samples of a quality.
+type Encode = fn(&Grey, &Path, u32) -> Result<(usize, Vec<u8>)>;
+
 /// A codec.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Peer {
     /// Its command, which may not be there.
     tool: &'static str,
-    /// Bytes and samples of a quality.
-    encode: fn(&Grey, &Path, u32) -> Result<(usize, Vec<u8>)>,
+    encode: Encode,
 }
 
 pub(crate) const PEERS: [Peer; 2] =
