@@ -245,6 +245,7 @@ pub(crate) struct Brdf {
   attractor encode heights.png -o heights.atfi --psnr 60        a grey PNG of 16 bits too
 
 The format is written down in docs/IMAGE-FORMAT.md. A file has at most the bytes asked for, at least 99 per cent of them, or at least the decibels; what is out of reach is said.")]
+#[command(group(clap::ArgGroup::new("target").required(true)))]
 pub(crate) struct Encode {
     /// A PNG file: grey of 1 to 16 bits, colour or palette of 8 bits; no animation
     #[arg(value_name = "IMAGE.png")]
@@ -253,14 +254,13 @@ pub(crate) struct Encode {
     #[arg(short, long, value_name = "FILE.atfi")]
     pub(crate) output: PathBuf,
     /// How many bytes it may have, header and checksum included
-    #[arg(long, allow_hyphen_values = true, value_name = "N", group = "target", required_unless_present_any = ["bpp", "psnr"],
-          value_parser = clap::value_parser!(u64).range(1..=1 << 28))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", group = "target", value_parser = bytes)]
     pub(crate) bytes: Option<u64>,
     /// How many bits a pixel
-    #[arg(long, allow_hyphen_values = true, value_name = "X", group = "target", value_parser = positive)]
+    #[arg(long, allow_hyphen_values = true, value_name = "X", group = "target", value_parser = bits_a_pixel)]
     pub(crate) bpp: Option<f64>,
     /// How many decibels of peak signal to noise
-    #[arg(long, allow_hyphen_values = true, value_name = "DB", group = "target", value_parser = positive)]
+    #[arg(long, allow_hyphen_values = true, value_name = "DB", group = "target", value_parser = decibels)]
     pub(crate) psnr: Option<f64>,
     /// How it is decoded
     #[arg(long, value_name = "PROFILE", default_value = "streaming")]
@@ -412,11 +412,29 @@ pub(crate) struct Window {
     pub(crate) look: Look,
 }
 
-/// A number above 0.
-fn positive(text: &str) -> Result<f64, String> {
+/// No stream is longer.
+fn bytes(text: &str) -> Result<u64, String> {
+    let most = 1 << 28;
+    match text.parse::<u64>() {
+        Ok(number) if (1..=most).contains(&number) => Ok(number),
+        _ => Err(format!("`{text}` is no whole number from 1 to {most}")),
+    }
+}
+
+/// No picture has more bins.
+fn bits_a_pixel(text: &str) -> Result<f64, String> {
+    above_0(text, 64.0)
+}
+
+/// The last pixel of the largest picture of 16 bits that is off by 1 is 180.6 dB.
+fn decibels(text: &str) -> Result<f64, String> {
+    above_0(text, 180.0)
+}
+
+fn above_0(text: &str, most: f64) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
-        _ => Err(format!("`{text}` is no number above 0")),
+        Ok(number) if number > 0.0 && number <= most => Ok(number),
+        _ => Err(format!("`{text}` is no number above 0 and up to {most}")),
     }
 }
 

@@ -29,6 +29,11 @@ pub(crate) fn decoded(bytes: &[u8], scale: i32, sweeps: Option<u32>) -> Result<S
     } else {
         all_planes::<u8>(bytes, scale, sweeps)?
     };
+    Ok(still(&header, planes, size))
+}
+
+/// The picture of luma and chroma.
+fn still(header: &Header, planes: Vec<[u16; 3]>, size: Size) -> Still {
     let narrow = |v: u16| v as u8;
     let pixels = match (header.planes, header.deep) {
         (Planes::Grey, true) => Pixels::Deep(planes.into_iter().map(|[luma, ..]| luma).collect()),
@@ -41,7 +46,7 @@ pub(crate) fn decoded(bytes: &[u8], scale: i32, sweeps: Option<u32>) -> Result<S
             Pixels::Colour(planes.into_iter().map(rgb).collect())
         }
     };
-    Ok(Still { size, pixels })
+    Still { size, pixels }
 }
 
 /// Luma and chroma of every pixel.
@@ -83,8 +88,8 @@ pub(crate) fn samples(bytes: &[u8], sweeps: Option<u32>) -> Result<(Vec<[u16; 3]
     if check(bytes)?.deep { all_planes::<u16>(bytes, 0, sweeps) } else { all_planes::<u8>(bytes, 0, sweeps) }
 }
 
-/// The planes as they lie, for an encoder that takes its domains from them.
-pub(crate) fn planes_of(bytes: &[u8]) -> Result<Vec<Vec<u16>>, Error> {
+/// A whole stream, and its planes as they lie, for an encoder that takes its domains from them.
+pub(crate) fn decoded_with_planes(bytes: &[u8]) -> Result<(Still, Vec<Vec<u16>>), Error> {
     let header = check(bytes)?;
     let (pixels, size) = samples(bytes, None)?;
     let count = if header.planes == Planes::Grey { 1 } else { 3 };
@@ -94,7 +99,8 @@ pub(crate) fn planes_of(bytes: &[u8]) -> Result<Vec<Vec<u16>>, Error> {
             (0..size.height).step_by(step).flat_map(|y| (0..size.width).step_by(step).map(move |x| (x, y)));
         places.map(|(x, y)| pixels[(y * size.width + x) as usize][index as usize]).collect()
     };
-    Ok((0..count).map(plane).collect())
+    let planes = (0..count).map(plane).collect();
+    Ok((still(&header, pixels, size), planes))
 }
 
 /// The most bytes that are read of a file.

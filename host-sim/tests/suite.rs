@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bad_curves;
+mod bad_images;
 mod bad_input;
 mod bad_terrain;
 mod bad_world;

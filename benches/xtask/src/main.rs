@@ -9,13 +9,18 @@ mod emulator;
 mod exhaust;
 mod fuzz_codec;
 mod gate;
+mod grey;
 mod host;
 mod images;
 mod kinds;
 mod lines;
 mod measure;
 mod multiplications;
+mod peer;
 mod peers_images;
+/// PSNR and MS-SSIM as the command has them.
+#[path = "../../../host-sim/src/encode/quality.rs"]
+mod quality;
 mod readme;
 mod report;
 mod stack;

@@ -1,53 +1,50 @@
-//! `cargo xtask peers-images IMAGE.png...`: the image codec beside libjpeg with optimised tables and WebP
-//! -m6, and
-//! what each part of it is worth. Peers: Debian's libjpeg-turbo-progs and webp; one that is not there is left
-//! out.
+//! `cargo xtask peers-images IMAGE...`: the image codec beside libjpeg with optimised tables and WebP -m6;
+//! what each of its parts is worth; how many sweeps it takes, and what twice the size is worth.
 //!
-//! PSNR at 0.25, 0.5 and 1 bit a pixel, container included; the peers' quality is swept and their PSNR
-//! interpolated over the logarithm of the bytes. MS-SSIM beside our own. What one pass in a window of 64 rows
-//! costs: bytes of profile streaming at the PSNR that profile iterated, whose domains lie anywhere, has at
-//! 0.25
-//! bits. The attractor command must have been built: `cargo build --release -p attractor-sim`.
+//! PSNR and MS-SSIM at 0.25, 0.5 and 1 bit a pixel or at other rates, container included, of pictures made
+//! grey. What one pass
+//! in a window of 64 rows costs: bytes of profile streaming, interpolated between two rates, at the PSNR that
+//! profile iterated, whose domains lie anywhere, has at 0.25 bits. A peer that is not installed is left out.
+//! The attractor command must have been built: `benches/peers/images` does that, and fetches photographs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context as _, Result, bail};
 use clap::Args;
+
+use crate::grey::{Grey, Likeness};
+use crate::peer::PEERS;
 
 #[derive(Debug, Args)]
 pub(crate) struct Options {
-    /// Grey PNG files of 8 bits
-    #[arg(value_name = "IMAGE.png", required = true)]
+    /// PNG files, grey or colour, or JPEG files
+    #[arg(value_name = "IMAGE", required = true)]
     images: Vec<PathBuf>,
-    /// Also without domains, transform or division of squares, each alone; what the adaptive models are
-    /// worth,
-    /// `attractor inspect` says
+    /// Instead: without domains, transform, division of squares or adaptive models, each alone
     #[arg(long)]
     ablation: bool,
+    /// Instead: what each sweep brings, and twice the size against the nearest pixel
+    #[arg(long)]
+    decoding: bool,
+    /// Bits a pixel
+    #[arg(long, value_name = "X", default_values = ["0.25", "0.5", "1"])]
+    rate: Vec<f64>,
 }
 
-const RATES: [f64; 3] = [0.25, 0.5, 1.0];
-
-/// A grey picture.
-struct Grey {
-    width: usize,
-    height: usize,
-    samples: Vec<u8>,
+/// The command, where it may write, and what it encodes.
+struct Own<'a> {
+    attractor: &'a Path,
+    scratch: &'a Path,
+    image: &'a Path,
 }
 
-impl Grey {
-    fn psnr(&self, other: &[u8]) -> f64 {
-        let square: f64 =
-            self.samples.iter().zip(other).map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum();
-        10.0 * (255.0_f64.powi(2) * self.samples.len() as f64 / square).log10()
-    }
-
-    fn pgm(&self) -> Vec<u8> {
-        let head = format!("P5\n{} {}\n255\n", self.width, self.height);
-        [head.as_bytes(), &self.samples].concat()
-    }
+/// What the command says of an encoding.
+#[derive(Debug, Clone, Copy)]
+struct Said {
+    bytes: f64,
+    like: Likeness,
 }
 
 pub(crate) fn run(options: &Options) -> Result<bool> {
@@ -57,151 +54,175 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
     }
     let scratch = std::env::temp_dir().join(format!("attractor-peers-{}", std::process::id()));
     fs::create_dir_all(&scratch)?;
-    println!("PSNR at 0.25 / 0.5 / 1 bit a pixel");
+    let tables = match options {
+        Options { ablation: true, .. } => {
+            "image | bits a pixel | all | without domains | without transform | \
+            without split | maps alone | bytes that adaptive models save"
+        }
+        Options { decoding: true, .. } => "image | sweeps 1 to 6 | twice the size | nearest pixel",
+        _ => {
+            "image | bits a pixel | streaming | iterated | `--effort fast` | libjpeg, optimised | WebP -m6 | \
+            streaming over libjpeg | bytes of the window"
+        }
+    };
+    println!("| {tables} |");
+    println!("|{}", " --- |".repeat(tables.split('|').count()));
     for image in &options.images {
-        println!("{}", image.display());
-        let grey = load(image)?;
-        let mut lines: Vec<(&str, Vec<&str>)> = vec![
-            ("iterated", vec!["--profile", "iterated"]),
-            ("streaming", vec![]),
-            ("streaming, fast", vec!["--effort", "fast"]),
-            ("pure", vec!["--profile", "pure"]),
-        ];
-        if options.ablation {
-            for part in ["domains", "transform", "split"] {
-                lines.push((part, vec!["--without", part]));
-            }
+        let name = image.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let grey = Grey::load(image).with_context(|| image.display().to_string())?;
+        let own = scratch.join("in.png");
+        match &grey {
+            Some(grey) => grey.write(&own)?,
+            None => fs::copy(image, &own).map(|_| ())?,
         }
-        for (name, extra) in lines {
-            let (mut row, mut alike) = (Vec::new(), Vec::new());
-            for rate in RATES {
-                let own = own(&attractor, image, &scratch, ["--bpp", &rate.to_string()], &extra);
-                let own = own.unwrap_or(Own { bytes: f64::NAN, psnr: f64::NAN, alike: f64::NAN });
-                row.push(own.psnr);
-                alike.push(format!("{:.4}", own.alike));
-            }
-            let name =
-                if extra.first() == Some(&"--without") { format!("without {name}") } else { name.to_owned() };
-            print(&name, &row, &format!("   MS-SSIM {}", alike.join(" / ")));
-        }
-        let global = own(&attractor, image, &scratch, ["--bpp", "0.25"], &["--profile", "iterated"])?;
-        let window = own(&attractor, image, &scratch, ["--psnr", &global.psnr.to_string()], &[])?;
-        let more = 100.0 * (window.bytes / global.bytes - 1.0);
-        println!("    a window of 64 rows    {more:+.1} % bytes at {:.2} dB", global.psnr);
-        for (name, encode) in [("libjpeg, optimised", jpeg as Peer), ("WebP -m6", webp)] {
-            match sweep(&grey, &scratch, encode) {
-                Ok(row) => print(name, &row, ""),
-                Err(error) => println!("    {name:22} skipped: {error:#}"),
-            }
+        let own = Own { attractor: &attractor, scratch: &scratch, image: &own };
+        match (&grey, options) {
+            (_, Options { ablation: true, .. }) => ablation(&own, &name, &options.rate)?,
+            (Some(grey), Options { decoding: true, .. }) => decoding(&own, &name, grey)?,
+            (Some(grey), _) => peers(&own, &name, grey, &options.rate)?,
+            (None, _) => println!("| {name} | 16 bits: no peer |"),
         }
     }
     fs::remove_dir_all(&scratch)?;
     Ok(true)
 }
 
-fn print(name: &str, row: &[f64], more: &str) {
-    let row: Vec<String> = row.iter().map(|psnr| format!("{psnr:6.2}")).collect();
-    println!("    {name:22} {}{more}", row.join(" / "));
+fn shown(like: Option<Likeness>) -> String {
+    like.map_or_else(|| "-".to_owned(), |like| format!("{:.2} dB, {:.4}", like.psnr, like.ms_ssim))
 }
 
-/// What the command says of its own encoding.
-struct Own {
-    bytes: f64,
-    psnr: f64,
-    alike: f64,
-}
-
-/// Encodes to a target.
-fn own(attractor: &Path, image: &Path, scratch: &Path, target: [&str; 2], extra: &[&str]) -> Result<Own> {
-    let to = scratch.join("own.atfi");
-    let output = Command::new(attractor)
-        .arg("encode")
-        .arg(image)
-        .arg("-o")
-        .arg(to)
-        .args(target)
-        .args(extra)
-        .output()?;
-    // out of reach is said on standard error
-    if !output.stderr.is_empty() {
-        bail!("{}", String::from_utf8_lossy(&output.stderr))
+fn peers(own: &Own<'_>, name: &str, grey: &Grey, rates: &[f64]) -> Result<()> {
+    for &rate in rates {
+        let target = ["--bpp", &rate.to_string()];
+        let streaming = own.encode(target, &[])?;
+        let iterated = own.encode(target, &["--profile", "iterated"])?;
+        let fast = own.encode(target, &["--effort", "fast"])?;
+        let bytes = rate * grey.samples.len() as f64 / 8.0;
+        let mut likes = Vec::new();
+        for peer in PEERS {
+            likes.push(if peer.is_there() { peer.at(grey, own.scratch, bytes)? } else { None });
+        }
+        let over = match (streaming, likes[0]) {
+            (Some(own), Some(peer)) => format!("{:+.2} dB", own.like.psnr - peer.psnr),
+            _ => "-".to_owned(),
+        };
+        let window = match (streaming, iterated) {
+            (Some(streaming), Some(iterated)) if rate < 0.3 => {
+                let more = own.encode(["--bpp", &(1.06 * rate).to_string()], &[])?;
+                more.map_or_else(|| "-".to_owned(), |more| window(streaming, more, iterated))
+            }
+            _ => String::new(),
+        };
+        let cells: Vec<String> = [streaming, iterated, fast]
+            .into_iter()
+            .map(|said| said.map(|said| said.like))
+            .chain(likes)
+            .map(shown)
+            .collect();
+        println!("| {name} | {rate} | {} | {over} | {window} |", cells.join(" | "));
     }
-    // FILE: N bytes, X bits a pixel, PSNR P dB, MS-SSIM M
-    let text = String::from_utf8(output.stdout)?;
-    let number = |text: Option<&str>| {
-        let text =
-            text.and_then(|rest| rest.split([' ', ',', '\n']).next()).context("a number is missing")?;
-        Ok::<f64, anyhow::Error>(text.parse()?)
-    };
-    Ok(Own {
-        bytes: number(text.rsplit(": ").next())?,
-        psnr: number(text.split("PSNR ").nth(1))?,
-        alike: number(text.split("MS-SSIM ").nth(1)).unwrap_or(f64::NAN),
-    })
+    Ok(())
 }
 
-/// Bytes and decoded samples at a quality.
-type Peer = fn(&Grey, &Path, u32) -> Result<(usize, Vec<u8>)>;
+/// By how many bytes one pass in a window has more at equal PSNR, of two of its encodings.
+fn window(less: Said, more: Said, global: Said) -> String {
+    let slope = (more.bytes / less.bytes).ln() / (more.like.psnr - less.like.psnr).max(1e-3);
+    let bytes = less.bytes.ln() + slope * (global.like.psnr - less.like.psnr);
+    format!("{:+.1} %", 100.0 * ((bytes - global.bytes.ln()).exp() - 1.0))
+}
 
-fn tool(command: &mut Command) -> Result<Vec<u8>> {
-    let output = command.output().with_context(|| format!("{:?} is not there", command.get_program()))?;
-    if !output.status.success() {
-        bail!("{}", String::from_utf8_lossy(&output.stderr));
+fn ablation(own: &Own<'_>, name: &str, rates: &[f64]) -> Result<()> {
+    for &rate in rates {
+        let target = ["--bpp", &rate.to_string()];
+        let mut cells = Vec::new();
+        let parts: [&[&str]; 5] = [
+            &[],
+            &["--without", "domains"],
+            &["--without", "transform"],
+            &["--without", "split"],
+            &["--profile", "pure"],
+        ];
+        let mut saved = String::new();
+        for part in parts {
+            let said = own.encode(target, part)?;
+            cells.push(said.map_or_else(|| "-".to_owned(), |said| format!("{:.2}", said.like.psnr)));
+            if part.is_empty() {
+                saved = own.coder()?;
+            }
+        }
+        println!("| {name} | {rate} | {} | {saved} |", cells.join(" | "));
     }
-    Ok(output.stdout)
+    Ok(())
 }
 
-fn jpeg(grey: &Grey, scratch: &Path, quality: u32) -> Result<(usize, Vec<u8>)> {
-    let (from, to) = (scratch.join("in.pgm"), scratch.join("out.jpg"));
-    fs::write(&from, grey.pgm())?;
-    tool(
-        Command::new("cjpeg")
-            .args(["-optimize", "-grayscale", "-quality", &quality.to_string(), "-outfile"])
-            .arg(&to)
-            .arg(&from),
-    )?;
-    let decoded = tool(Command::new("djpeg").args(["-grayscale", "-pnm"]).arg(&to))?;
-    Ok((fs::metadata(&to)?.len() as usize, decoded[decoded.len() - grey.samples.len()..].to_vec()))
+fn decoding(own: &Own<'_>, name: &str, grey: &Grey) -> Result<()> {
+    own.encode(["--bpp", "0.25"], &["--profile", "iterated"])?;
+    let mut sweeps = Vec::new();
+    for count in 1..=6 {
+        let decoded = own.decode(&["--sweeps", &count.to_string()])?;
+        sweeps.push(format!("{:.2}", grey.likeness(&decoded.samples).psnr));
+    }
+    let half = grey.halved();
+    half.write(own.image)?;
+    own.encode(["--bpp", "0.5"], &[])?;
+    let (one, two) = (own.decode(&[])?, own.decode(&["--scale", "2"])?);
+    let whole = grey.part(2 * half.width, 2 * half.height);
+    let [two, nearest] = [two.samples, one.nearest().samples].map(|samples| whole.likeness(&samples).psnr);
+    println!("| {name} | {} | {two:.2} dB | {nearest:.2} dB |", sweeps.join(" / "));
+    Ok(())
 }
 
-fn webp(grey: &Grey, scratch: &Path, quality: u32) -> Result<(usize, Vec<u8>)> {
-    let (from, to, back) = (scratch.join("in.pgm"), scratch.join("out.webp"), scratch.join("out.ppm"));
-    fs::write(&from, grey.pgm())?;
-    tool(
-        Command::new("cwebp")
-            .args(["-quiet", "-m", "6", "-q", &quality.to_string()])
-            .arg(&from)
+impl Own<'_> {
+    /// Encodes to a target; none where it is out of reach.
+    fn encode(&self, target: [&str; 2], extra: &[&str]) -> Result<Option<Said>> {
+        let output = Command::new(self.attractor)
+            .arg("encode")
+            .arg(self.image)
             .arg("-o")
-            .arg(&to),
-    )?;
-    tool(Command::new("dwebp").arg("-quiet").arg(&to).args(["-ppm", "-o"]).arg(&back))?;
-    let decoded = fs::read(&back)?;
-    let rgb = &decoded[decoded.len() - 3 * grey.samples.len()..];
-    Ok((fs::metadata(&to)?.len() as usize, rgb.chunks_exact(3).map(|p| p[1]).collect()))
+            .arg(self.scratch.join("own.atfi"))
+            .args(target)
+            .args(extra)
+            .output()?;
+        // out of reach is said on standard error
+        if !output.status.success() {
+            bail!("{}", String::from_utf8_lossy(&output.stderr))
+        }
+        if !output.stderr.is_empty() {
+            return Ok(None);
+        }
+        // FILE: N bytes, X bits a pixel, PSNR P dB, MS-SSIM M
+        let text = String::from_utf8(output.stdout)?;
+        let like = Likeness {
+            psnr: number(text.split("PSNR ").nth(1))?,
+            ms_ssim: number(text.split("MS-SSIM ").nth(1)).unwrap_or(f64::NAN),
+        };
+        Ok(Some(Said { bytes: number(text.rsplit(": ").next())?, like }))
+    }
+
+    /// What is left of the payload by the models' learning.
+    fn coder(&self) -> Result<String> {
+        let output =
+            Command::new(self.attractor).arg("inspect").arg(self.scratch.join("own.atfi")).output()?;
+        // without adaptive models: N bytes of payload instead of M
+        let text = String::from_utf8(output.stdout)?;
+        let without: f64 = number(text.split("without adaptive models: ").nth(1))?;
+        let with: f64 = number(text.split("of payload instead of ").nth(1))?;
+        Ok(format!("{:.0} %", 100.0 * (1.0 - with / without)))
+    }
+
+    fn decode(&self, extra: &[&str]) -> Result<Grey> {
+        let (from, to) = (self.scratch.join("own.atfi"), self.scratch.join("own.png"));
+        let output =
+            Command::new(self.attractor).arg("decode").arg(from).arg("-o").arg(&to).args(extra).output()?;
+        if !output.status.success() {
+            bail!("{}", String::from_utf8_lossy(&output.stderr))
+        }
+        Grey::load(&to)?.context("16 bits")
+    }
 }
 
-fn sweep(grey: &Grey, scratch: &Path, encode: Peer) -> Result<Vec<f64>> {
-    let mut points = Vec::new();
-    for quality in (0..=100).step_by(2) {
-        let (bytes, samples) = encode(grey, scratch, quality)?;
-        points.push(((bytes as f64).ln(), grey.psnr(&samples)));
-    }
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let at = |rate: f64| {
-        let wanted = (rate * grey.samples.len() as f64 / 8.0).ln();
-        let after = points.iter().position(|point| point.0 >= wanted)?;
-        let (a, b) = (points[after.checked_sub(1)?], points[after]);
-        Some(a.1 + (b.1 - a.1) * (wanted - a.0) / (b.0 - a.0).max(1e-12))
-    };
-    Ok(RATES.iter().map(|rate| at(*rate).unwrap_or(f64::NAN)).collect())
-}
-
-fn load(path: &Path) -> Result<Grey> {
-    let mut reader = png::Decoder::new(std::io::BufReader::new(fs::File::open(path)?)).read_info()?;
-    let mut samples = vec![0; reader.output_buffer_size().context("too large")?];
-    let info = reader.next_frame(&mut samples)?;
-    if (info.color_type, info.bit_depth) != (png::ColorType::Grayscale, png::BitDepth::Eight) {
-        bail!("{}: no grey PNG of 8 bits", path.display());
-    }
-    Ok(Grey { width: info.width as usize, height: info.height as usize, samples })
+/// The number that a text begins with.
+fn number(text: Option<&str>) -> Result<f64> {
+    let text = text.and_then(|rest| rest.split([' ', ',', '\n']).next()).context("a number is missing")?;
+    Ok(text.parse()?)
 }

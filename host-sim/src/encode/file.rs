@@ -8,13 +8,14 @@ use attractor::codec::{Header, Planes, Profile, Sample, Step};
 use embedded_graphics::geometry::Size;
 
 use super::cosine::Cosine;
-use super::partition::{Partition, Settled, Without};
-use super::range_encoder::{Prices, RangeEncoder};
+use super::partition::{Partition, Without};
+use super::range_encoder::{Counts, Prices, RangeEncoder};
 use super::samples::Samples;
 use super::search::{Candidates, Effort};
+use super::settled::Settled;
 
 /// The exchange rate of squared error and bits, in squares of the step.
-const LAMBDA: f32 = 0.1;
+const LAMBDA: f32 = 0.12;
 const LAMBDA_PURE: f32 = 0.14;
 
 /// How a picture is encoded, but for the step.
@@ -121,11 +122,12 @@ impl<'a> Source<'a> {
         (step, thrift): (Step, f32),
         candidates: &[Candidates],
         pools: Option<&[Pool]>,
-    ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
+        counts: Option<&Counts>,
+    ) -> Result<(Vec<u8>, Vec<Settled>, Counts), Error> {
         if self.deep {
-            self.encode_as::<u16>((step, thrift), candidates, pools)
+            self.encode_as::<u16>((step, thrift), candidates, pools, counts)
         } else {
-            self.encode_as::<u8>((step, thrift), candidates, pools)
+            self.encode_as::<u8>((step, thrift), candidates, pools, counts)
         }
     }
 
@@ -134,7 +136,8 @@ impl<'a> Source<'a> {
         (step, thrift): (Step, f32),
         candidates: &[Candidates],
         pools: Option<&[Pool]>,
-    ) -> Result<(Vec<u8>, Vec<Settled>), Error> {
+        counts: Option<&Counts>,
+    ) -> Result<(Vec<u8>, Vec<Settled>, Counts), Error> {
         let header = self.header(step, 0);
         let shapes = self.shapes(step);
         let mut memory = vec![S::default(); shapes.iter().map(Plane::<S>::samples).sum()];
@@ -167,19 +170,21 @@ impl<'a> Source<'a> {
                     lambda: thrift * self.lambda() * q * q,
                     late: self.late(),
                     without: self.plan.without,
-                    models: out.models,
+                    rates: self.prices.rates(&out.models, counts, shapes[index as usize].chroma),
+                    counts,
                     before: pools.map(|pools| &pools[index as usize].settled),
                     settled: &mut settled[index as usize],
                 };
                 partition.band(band, &mut out);
             }
         }
+        let now = out.counts;
         let payload = out.finish();
         let mut start = [0; Header::LONGEST];
         let length = self.header(step, payload.len() as u32).write(&mut start)?;
         let mut bytes = [&start[..length], &payload].concat();
         bytes.extend(crc32(&bytes).to_le_bytes());
-        Ok((bytes, settled))
+        Ok((bytes, settled, now))
     }
 }
 

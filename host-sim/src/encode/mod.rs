@@ -9,6 +9,7 @@ mod range_encoder;
 mod rate;
 mod samples;
 mod search;
+mod settled;
 
 use std::io::Write as _;
 
@@ -29,7 +30,7 @@ use crate::still::Still;
 impl Effort {
     /// How hard to look.
     pub(crate) const FAST: Self = Self { isometries: 1, candidates: 2, far: false };
-    pub(crate) const BEST: Self = Self { isometries: 8, candidates: 8, far: true };
+    pub(crate) const BEST: Self = Self { isometries: 8, candidates: 16, far: true };
 }
 
 impl Plan {
@@ -67,8 +68,10 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
         transform: args.without == Some(EncodePart::Transform),
         split: args.without == Some(EncodePart::Split),
     };
-    if args.sweeps.is_some() && plan.profile == Profile::Streaming {
-        return Err(Fail::new(format_args!("--sweeps: profile streaming is decoded in one pass")));
+    if let (Some(sweeps), Profile::Streaming) = (args.sweeps, plan.profile) {
+        return Err(Fail::new(format_args!(
+            "--sweeps {sweeps}: profile streaming is decoded in one pass; iterated and pure have sweeps"
+        )));
     }
     let plan = Plan { without, reach: args.sweeps.unwrap_or(plan.reach), ..plan };
     let effort = match args.effort {
@@ -94,6 +97,9 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
         )),
         Target::Bytes(bytes) if (length as f64) < 0.99 * bytes - 1.0 && best.step == 0 => {
             say(&format!("{} bytes are more than the finest step takes: {length}", bytes as u64));
+        }
+        Target::Bytes(bytes) if (length as f64) < 0.99 * bytes - 1.0 => {
+            say(&format!("{} bytes are not met: the nearest file below has {length}", bytes as u64));
         }
         Target::Decibels(decibels) if best.psnr < decibels => {
             say(&format!("{decibels} dB are out of reach: {:.2} dB", best.psnr));

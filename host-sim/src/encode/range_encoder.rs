@@ -1,7 +1,7 @@
 //! What writes bins: a binary range coder whose carry waits behind bytes of 255, as in I. Pavlov's LZMA, and
 //! what only counts them.
 
-use attractor::codec::shared::{Coder, MODELS, Model};
+use attractor::codec::shared::{Coder, MODELS, Model, NUMBER, context, number};
 
 /// All models as a stream begins.
 pub(super) const NEW: [Model; MODELS] = [Model::NEW; MODELS];
@@ -16,11 +16,20 @@ pub(super) struct RangeEncoder {
     pending: u64,
     bytes: Vec<u8>,
     pub(super) models: [Model; MODELS],
+    pub(super) counts: Counts,
 }
 
 impl RangeEncoder {
     pub(super) const fn new() -> Self {
-        Self { low: 0, range: u32::MAX, cache: None, pending: 1, bytes: Vec::new(), models: NEW }
+        Self {
+            low: 0,
+            range: u32::MAX,
+            cache: None,
+            pending: 1,
+            bytes: Vec::new(),
+            models: NEW,
+            counts: [[0; 2]; MODELS],
+        }
     }
 
     fn shift(&mut self) {
@@ -72,6 +81,7 @@ impl Coder for RangeEncoder {
             self.range = bound;
         }
         *model = model.learn(bin);
+        self.counts[context][usize::from(bin)] += 1;
         self.normalise();
         bin
     }
@@ -88,6 +98,12 @@ impl Coder for RangeEncoder {
     }
 }
 
+/// The part of what a model was on the whole.
+const WHOLE: f32 = 0.7;
+
+/// How often each model had a 0 and a 1.
+pub(super) type Counts = [[u32; 2]; MODELS];
+
 /// What a bin of each probability takes, in bits.
 pub(super) struct Prices(Vec<f32>);
 
@@ -96,25 +112,66 @@ impl Prices {
         Self((0..=8192_u16).map(|p| -(f32::from(p.max(1)) / 8192.0).log2()).collect())
     }
 
-    /// A bin under a model.
-    #[inline]
-    pub(super) fn bin(&self, model: Model, bin: bool) -> f32 {
-        let zero = model.zero() as usize;
-        self.0[if bin { 8192 - zero } else { zero }]
+    /// What a 0 and a 1 take under each model as it stands; if there was an encoding before, rather as it was
+    /// there on the whole: a model that learns fast follows noise as well.
+    pub(super) fn rates(&self, models: &[Model; MODELS], before: Option<&Counts>, chroma: u32) -> Rates {
+        let bins = std::array::from_fn(|i| {
+            let mut zero = models[i].zero() as f32;
+            if let Some(before) = before {
+                let [zeros, ones] = before[i].map(|count| count as f32 + 2.0);
+                zero += WHOLE * (8192.0 * zeros / (zeros + ones) - zero);
+            }
+            let zero = (zero as usize).clamp(8, 8184);
+            [self.0[zero], self.0[8192 - zero]]
+        });
+        let mut rates = Rates { bins, last: [[0.0; 256]; 4], magnitudes: [0.0; MAGNITUDES] };
+        let bits = |context: usize, value: usize| {
+            let mut cost = Cost { rates: &rates, bits: 0.0 };
+            number(&mut cost, context, value as u32);
+            cost.bits
+        };
+        let last = std::array::from_fn(|k| {
+            std::array::from_fn(|i| bits(context::LAST + (4 * chroma as usize + k) * NUMBER, i))
+        });
+        let magnitudes = std::array::from_fn(|i| bits(context::MAGNITUDE, i));
+        (rates.last, rates.magnitudes) = (last, magnitudes);
+        rates
+    }
+}
+
+/// Numbers whose bits are kept.
+const MAGNITUDES: usize = 64;
+
+/// What bins take, in bits.
+pub(super) struct Rates {
+    /// A 0 and a 1 under each model.
+    pub(super) bins: [[f32; 2]; MODELS],
+    /// The place of the last coefficient, by size.
+    pub(super) last: [[f32; 256]; 4],
+    magnitudes: [f32; MAGNITUDES],
+}
+
+impl Rates {
+    /// A magnitude less 2.
+    pub(super) fn magnitude(&self, value: u32) -> f32 {
+        self.magnitudes.get(value as usize).copied().unwrap_or_else(|| {
+            let mut cost = Cost { rates: self, bits: 0.0 };
+            number(&mut cost, context::MAGNITUDE, value);
+            cost.bits
+        })
     }
 }
 
 /// Adds up bits; the models learn nothing.
 pub(super) struct Cost<'a> {
-    pub(super) models: &'a [Model; MODELS],
-    pub(super) prices: &'a Prices,
+    pub(super) rates: &'a Rates,
     pub(super) bits: f32,
 }
 
 impl Coder for Cost<'_> {
     #[inline]
     fn bin(&mut self, context: usize, bin: bool) -> bool {
-        self.bits += self.prices.bin(self.models[context], bin);
+        self.bits += self.rates.bins[context][usize::from(bin)];
         bin
     }
 
