@@ -286,7 +286,7 @@ impl Contraction {
                 index: None,
                 value,
                 min: Wide::ZERO,
-                max: Wide::lit("15"),
+                max: const { Wide::lit("15") },
             });
         }
         Ok(self)

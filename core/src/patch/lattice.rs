@@ -76,7 +76,8 @@ impl Mask {
         }
         for (index, entry) in bits.iter().flatten().enumerate() {
             if entry.unsigned_abs() >= 2 << 28 {
-                let (what, value, max) = ("entry of a mask", wide(i64::from(*entry)), Wide::lit("2"));
+                let (what, value, max) =
+                    ("entry of a mask", wide(i64::from(*entry)), const { Wide::lit("2") });
                 return Err(Error::OutOfRange { what, index: Some(index), value, min: -max, max });
             }
         }
