@@ -1,6 +1,6 @@
 //! Tells the kernel whether the target multiplies 32 by 32 bits to 64 in one instruction, and whether it adds
-//! 64 bits with a carry: which is asked of the target, so that no user has to set a feature; and collects what
-//! the private files say of themselves for the page `methods` of the documentation.
+//! 64 bits with a carry: which is asked of the target, so that no user has to set a feature; and collects
+//! what the private files say of themselves for the page `methods` of the documentation.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -193,8 +193,8 @@ fn two_sweeps_settle_a_stream_that_was_made_for_two() {
     assert!((500..20_000).contains(&late) && left < 300, "{late} {left}");
 }
 
-/// A stream by sweeps in so much memory beyond what it must have: after each of five its bytes taken so far and
-/// its picture.
+/// A stream by sweeps in so much memory beyond what it must have: after each of five its bytes taken so far
+/// and its picture.
 fn swept<S: Sample + Default + Debug>(bytes: &[u8], scale: i32, beyond: usize) -> Vec<(u32, Vec<[S; 3]>)> {
     let taken = Cell::new(0);
     let opened = open(Counted(bytes.iter().copied(), &taken)).unwrap();
@@ -471,7 +471,8 @@ fn an_endless_reader_is_read_to_the_end_of_the_picture_and_no_further() {
     }
 }
 
-/// Streams of tossed coins, of every profile, depth, kind of planes and reach, against the reference to the bit.
+/// Streams of tossed coins, of every profile, depth, kind of planes and reach, against the reference to the
+/// bit.
 #[test]
 fn streams_that_no_encoder_wrote_decode_to_the_bits_of_the_format() {
     let mut random = Random::new(12);

@@ -164,8 +164,8 @@ fn rms(truth: &[Pixel], look: usize, picture: &impl Field<Value = attractor::pla
     (truth.iter().map(|p| off(p) * off(p)).sum::<f64>() / truth.len() as f64).sqrt()
 }
 
-/// Errors by look: of 1, 16 and 64 samples, then of each quality. How many of the pixels took the samples of the
-/// caster at fine quality, 16, and what the others are off, is printed after them.
+/// Errors by look: of 1, 16 and 64 samples, then of each quality. How many of the pixels took the samples of
+/// the caster at fine quality, 16, and what the others are off, is printed after them.
 fn table(view: &View, looks: &[usize], side: u32, depth: u32, places: usize) -> Vec<[f64; 6]> {
     let truth = view.truth(looks, side, places);
     let least = truth.iter().map(|p| p.places).min().unwrap_or(0);

@@ -1,14 +1,14 @@
-//! Normals that are fractal functions in their own right: what the sum and the multiple of two surfaces have for
-//! a normal, exactly.
+//! Normals that are fractal functions in their own right: what the sum and the multiple of two surfaces have
+//! for a normal, exactly.
 //!
 //! The functions through knots above the same abscissae, with the same vertical scalings, are a space: knots
-//! are added and multiplied, and values with them, since `f(L_j u) = alpha_j f(u) + q_j(u)` is linear in `f` and
-//! `q_j`. The slope of a tensor product `F(x) G(y)` is `(f(x) G(y), F(x) g(y))`: above each line along an axis
-//! both components are such functions themselves, multiples of `f` and `F`. So the normals of surfaces
-//! that share one factor are a space; and of the sum `F(x) + G(y)` the normal is `(-f, -g, 1)`, two functions of
-//! the text. The sum of two products with four factors is none: it is a height field all the same, whose normal
-//! is the sum of both. A lattice's slopes are such functions of two variables: the lattice of the sum of
-//! heights is the sum of lattices.
+//! are added and multiplied, and values with them, since `f(L_j u) = alpha_j f(u) + q_j(u)` is linear in `f`
+//! and `q_j`. The slope of a tensor product `F(x) G(y)` is `(f(x) G(y), F(x) g(y))`: above each line along an
+//! axis both components are such functions themselves, multiples of `f` and `F`. So the normals of surfaces
+//! that share one factor are a space; and of the sum `F(x) + G(y)` the normal is `(-f, -g, 1)`, two functions
+//! of the text. The sum of two products with four factors is none: it is a height field all the same, whose
+//! normal is the sum of both. A lattice's slopes are such functions of two variables: the lattice of the sum
+//! of heights is the sum of lattices.
 //!
 //! All numbers here are halves of halves, so that nothing is rounded.
 

@@ -1,5 +1,5 @@
-//! Streams of the image codec that no encoder wrote: made by the decoder's own walk over the syntax, with a coder
-//! that tosses coins for bins and writes what it tossed.
+//! Streams of the image codec that no encoder wrote: made by the decoder's own walk over the syntax, with a
+//! coder that tosses coins for bins and writes what it tossed.
 
 use std::cell::Cell;
 
@@ -120,8 +120,8 @@ impl Coder for Writer<'_> {
     }
 }
 
-/// Payload of a picture in this memory. Where it is to be sound, a domain that lies where none may is taken back
-/// until none does.
+/// Payload of a picture in this memory. Where it is to be sound, a domain that lies where none may is taken
+/// back until none does.
 fn payload<S: Sample>(header: &Header, random: &mut Random, sound: bool, memory: &mut [S]) -> Vec<u8> {
     let [divided, domains, ones] =
         [[40, 200, 230, 250], [4, 12, 40, 120], [20, 70, 128, 200]].map(|rates| rates[random.below(4)]);
@@ -168,9 +168,9 @@ fn walk<S: Sample>(header: &Header, writer: &mut Writer<'_>, memory: &mut [S]) -
     })
 }
 
-/// A stream of up to 48 x 48 or 16 x 144 pixels. If it is to be whole it can be decoded. Else three of four could
-/// be; then bytes are changed here and there in two of three, header, length and checksum stay right in seven of
-/// eight, so that the changed bins are read.
+/// A stream of up to 48 x 48 or 16 x 144 pixels. If it is to be whole it can be decoded. Else three of four
+/// could be; then bytes are changed here and there in two of three, header, length and checksum stay right in
+/// seven of eight, so that the changed bins are read.
 ///
 /// # Errors
 /// None: a payload is far below what a header can say.

@@ -17,8 +17,8 @@ fn drawn(directory: &Path, keys: &str, size: &str) -> Vec<u8> {
     decode(&directory.join("scene.png")).data
 }
 
-/// A file beside the scene shows what `attractor decode` makes of it, each frame after its sweeps, and so does
-/// a PNG file of that.
+/// A file beside the scene shows what `attractor decode` makes of it, each frame after its sweeps, and so
+/// does a PNG file of that.
 #[test]
 fn a_scene_shows_what_the_decoder_makes() {
     let directory = tempfile::tempdir().unwrap();

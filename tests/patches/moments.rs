@@ -243,7 +243,8 @@ fn moments_of_parts_together_are_those_of_the_whole() {
                 let below =
                     [[0, 0], [0, 1], [1, 0], [1, 1]].map(|[a, b]| over([2 * i + a, 2 * j + b], level + 1));
                 for (k, (a, b)) in whole.iter().zip(pooled(&below)).enumerate() {
-                    // what heights are rounded by is `parts` times as much in slopes, and these count as they are
+                    // what heights are rounded by is `parts` times as much in slopes, and these count as they
+                    // are
                     let scale = if [0, 3].contains(&k) { 1.0 } else { f64::from(parts) };
                     let size = if k < 8 { 1.0 } else { 1.0 + whole[1].abs() + whole[2].abs() };
                     worst[k] = worst[k].max((a - b).abs() * UNITS / scale / size);
@@ -257,8 +258,8 @@ fn moments_of_parts_together_are_those_of_the_whole() {
     assert!(worst.iter().all(|off| *off < 12.0 && *off > 0.3), "{worst:?}");
 }
 
-/// The mean square of the slopes from corner to corner grows from level to level where slopes are refused, and
-/// settles where they are not.
+/// The mean square of the slopes from corner to corner grows from level to level where slopes are refused,
+/// and settles where they are not.
 #[test]
 fn slopes_are_refused_where_their_squares_have_no_mean() {
     let growth = |mask: &Mask| {

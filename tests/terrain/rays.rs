@@ -194,7 +194,8 @@ fn a_surface_is_watertight_however_steep_it_is() {
     assert!(met > 8000 && most >= 5, "{met} {most}");
 }
 
-/// From below the plain a ray comes out where land and plain end, not at the plain under the land; sides alternate.
+/// From below the plain a ray comes out where land and plain end, not at the plain under the land; sides
+/// alternate.
 #[test]
 fn a_ray_from_below_comes_out_of_the_higher_of_land_and_plain() {
     with_landscape(|heights, _| {

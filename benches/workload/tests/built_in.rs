@@ -31,7 +31,8 @@ const MISSING: &[(&str, &str)] = &[
     ("patch-diagonal rgb565", LONG),
     ("patch-mountain rgb565", LONG),
 ];
-/// Up to 16 rays a pixel, and as many again as there are bounces; or surfaces by control points, point by point.
+/// Up to 16 rays a pixel, and as many again as there are bounces; or surfaces by control points, point by
+/// point.
 const LONG: &str = "the emulator would take minutes for it";
 
 /// A display with pixels.

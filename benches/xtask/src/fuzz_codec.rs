@@ -1,6 +1,7 @@
-//! `cargo xtask fuzz-codec`: small streams, most of which decode whole, until as many were tried as asked for.
-//! A panic, an overflow in a build with checks, a decoder that reads on for ever, and sweeps that show something
-//! else where they keep leaves are faults; so is, in one whole stream of 64, a sample that is not the reference's.
+//! `cargo xtask fuzz-codec`: small streams, most of which decode whole, until as many were tried as asked
+//! for. A panic, an overflow in a build with checks, a decoder that reads on for ever, and sweeps that show
+//! something else where they keep leaves are faults; so is, in one whole stream of 64, a sample that is not
+//! the reference's.
 //!
 //! The streams are those of `tests/streams.rs`: bytes are changed in most of them.
 
@@ -65,8 +66,8 @@ fn name(error: &Error) -> &'static str {
     }
 }
 
-/// All sweeps leave the same picture whether there is memory for leaves or not: this much, or little. The picture
-/// is the reference's, if that is asked for.
+/// All sweeps leave the same picture whether there is memory for leaves or not: this much, or little. The
+/// picture is the reference's, if that is asked for.
 fn decoded<S: Sample + Default + PartialEq>(
     bytes: &[u8],
     scale: i32,

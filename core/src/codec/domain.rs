@@ -128,8 +128,8 @@ impl<'a, S: Sample> Source<'a, S> {
         mean(sum, drawn)
     }
 
-    /// What the domain less its mean is at full contrast, with 7 fractional bits: for an encoder, whose leaves
-    /// are drawn in their own size, 32 at most.
+    /// What the domain less its mean is at full contrast, with 7 fractional bits: for an encoder, whose
+    /// leaves are drawn in their own size, 32 at most.
     pub(super) fn copied(&self, drawn: u32, into: &mut [i32]) {
         let all = core::array::from_fn::<_, 1024, _>(|_| Cell::new(S::cut(0)));
         let mean = self.turn(&all, drawn, 1 << drawn);

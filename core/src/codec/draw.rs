@@ -20,13 +20,13 @@ use super::transform::{FREQUENCIES, Inverse, Levels, Term, pixels};
 impl<'a, S: Sample> Plane<'a, S> {
     /// A leaf's pixels, and what later leaves need to know of it. False if its domain may not lie there.
     ///
-    /// Error: before it is rounded `p` is off from the same in exact numbers by at most
-    /// `e = 1/128 + E + |s| (d + mean d + 1/32)`: `E` is the transform's bound, `d` by how much the halved domain
-    /// is off, at most what the worst of its pixels is. Rounded, it is off by a whole number, and by nothing
-    /// where no half lies within `e`. So a pixel that `k` maps in a row lead to, in one sweep or in several, is
-    /// off by less than `(1 + e_0) (1 + 2 |s| + ... + (2 |s|)^k)`, `s` the largest contrast of them and `e_0` that
-    /// of a leaf with an exact domain. The base, on which means depend, is off by nothing: it is made of
-    /// integers by the format itself
+    /// Error: before it is rounded `p` is off from the same in exact numbers by at most `e = 1/128 + E + |s|
+    /// (d + mean d + 1/32)`: `E` is the transform's bound, `d` by how much the halved domain is off, at most
+    /// what the worst of its pixels is. Rounded, it is off by a whole number, and by nothing where no half
+    /// lies within `e`. So a pixel that `k` maps in a row lead to, in one sweep or in several, is off by less
+    /// than `(1 + e_0) (1 + 2 |s| + ... + (2 |s|)^k)`, `s` the largest contrast of them and `e_0` that of a
+    /// leaf with an exact domain. The base, on which means depend, is off by nothing: it is made of integers
+    /// by the format itself
     /// (`samples_are_those_of_the_format_and_as_near_to_its_formulas_as_their_roundings_allow`).
     ///
     /// In sweeps a leaf is settled once it was drawn with a domain of which all is settled, or without

@@ -172,8 +172,8 @@ impl<'a, S: Sample> Plane<'a, S> {
         if row < rows { row } else { row - rows }
     }
 
-    /// Decodes a band, all squares or until `stop` says so; `seen` is shown each leaf, how it was said,
-    /// where it is, and what the next sweep draws again of it. False if a domain lies where nothing is decoded.
+    /// Decodes a band, all squares or until `stop` says so; `seen` is shown each leaf, how it was said, where
+    /// it is, and what the next sweep draws again of it. False if a domain lies where nothing is decoded.
     #[inline(never)]
     pub fn decode<C: Coder>(
         &mut self,
@@ -275,8 +275,8 @@ impl<'a, S: Sample> Plane<'a, S> {
         self.border(x, y, side as usize, &[Cell::new(base)], [(0, 0); 2]);
     }
 
-    /// The base along the lower and the right edge of a square: from samples, each edge from a place on, so far
-    /// apart.
+    /// The base along the lower and the right edge of a square: from samples, each edge from a place on, so
+    /// far apart.
     #[inline(never)]
     pub(super) fn border(&self, x: u32, y: u32, n: usize, from: &[Cell<S>], lines: [(u32, u32); 2]) {
         let (x, y, [lower, right]) = (x as usize, (y - self.band) as usize, lines);

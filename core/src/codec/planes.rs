@@ -62,7 +62,8 @@ impl<'a, S: Sample> Planes<'a, S> {
         });
     }
 
-    /// What follows the last band: the stated checksum, if all bytes of the payload were taken and it is there.
+    /// What follows the last band: the stated checksum, if all bytes of the payload were taken and it is
+    /// there.
     pub(super) fn end<I: Iterator<Item = u8>>(decoder: &mut RangeDecoder<I>) -> Option<u32> {
         if decoder.left() > 0 { None } else { decoder.stated() }
     }

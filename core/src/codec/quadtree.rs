@@ -55,8 +55,8 @@ const fn every_other(place: u32) -> u32 {
     place & 1 | place >> 1 & 2 | place >> 2 & 4 | place >> 3 & 8
 }
 
-/// Whether one pixel is decoded before another, within a band of squares of `2^largest`: by the square, then by
-/// the highest bit in which their places along Z differ, of which those of `y` come before those of `x`.
+/// Whether one pixel is decoded before another, within a band of squares of `2^largest`: by the square, then
+/// by the highest bit in which their places along Z differ, of which those of `y` come before those of `x`.
 #[inline]
 pub(super) const fn is_earlier([x, y]: [u32; 2], [other_x, other_y]: [u32; 2], largest: u32) -> bool {
     let (across, down) = (x ^ other_x, y ^ other_y);

@@ -33,8 +33,8 @@ const COEFFICIENTS: [i32; 11] = [
 
 /// The angle of `(x, y)`, words of one format, from the `x` axis towards the `y` axis; 0 for `(0, 0)`.
 ///
-/// Domain: all. Error: below `5 2^-32` of a turn (`the_angle_of_a_vector_is_within_five_units`; row `atan2` of
-/// tests/exhaust.toml), none on the axes. Cost: 18 multiplications, the table of the reciprocal.
+/// Domain: all. Error: below `5 2^-32` of a turn (`the_angle_of_a_vector_is_within_five_units`; row `atan2`
+/// of tests/exhaust.toml), none on the axes. Cost: 18 multiplications, the table of the reciprocal.
 ///
 /// ```
 /// use attractor::num::{Angle, Near, atan2};

@@ -1,11 +1,11 @@
 //! The maps of a lattice applied to weights, and the weights of means.
 //!
 //! `(T_ij v)[a,b] = sum m[i + 3 + k - 2 a][j + 3 + l - 2 b] v[k,l]` for weights `v` of the 4 x 4 heights of a
-//! cell, `m` the mask. What heights mean over a cell is the mean of what they mean over its parts: the weights
-//! `w` of a mean are fixed by the mean of the maps of the parts, over the cell by that of all four, over a
-//! side by that of the two along it. Iterated from the weights of one height on, a round draws weights that
-//! add up to 0 nearer as the words of [`Contraction`] do. Formats: entries of the mask 28 fractional bits,
-//! weights 44, rounded once a sum.
+//! cell, `m` the mask. What heights mean over a cell is the mean of what they mean over its parts: the
+//! weights `w` of a mean are fixed by the mean of the maps of the parts, over the cell by that of all four,
+//! over a side by that of the two along it. Iterated from the weights of one height on, a round draws weights
+//! that add up to 0 nearer as the words of [`Contraction`] do. Formats: entries of the mask 28 fractional
+//! bits, weights 44, rounded once a sum.
 //!
 //! [`Contraction`]: super::contraction::Contraction
 

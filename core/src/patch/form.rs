@@ -1,10 +1,9 @@
 //! Quadratic forms of the heights of a cell: variances over it, by the law of total variance.
 //!
-//! A quantity that is `p . y(x)` for control heights `p` has over a cell the mean `p . m` and the variance
-//! `p V p`. If over the part `d` it has the weights `r T_d y`, `V` is the mean of the variances over the `n`
-//! parts and the variance of their means:
-//! `V = (r^2 / n) sum_d T_d V T_d^T + (1 / n) sum_d u_d u_d^T`, `u_d = r T_d m - m`. Iteration from 0 on tends
-//! to it from below.
+//! A quantity that is `p . y(x)` for control heights `p` has over a cell the mean `p . m` and the variance `p
+//! V p`. If over the part `d` it has the weights `r T_d y`, `V` is the mean of the variances over the `n`
+//! parts and the variance of their means: `V = (r^2 / n) sum_d T_d V T_d^T + (1 / n) sum_d u_d u_d^T`, `u_d =
+//! r T_d m - m`. Iteration from 0 on tends to it from below.
 //!
 //! `V` knows nothing of a level, and for slopes nothing of a plane: so it is a form of what heights differ by
 //! from one of them, or from the plane through three of them, 15 or 13 exact numbers. (If it were one of 16
@@ -277,8 +276,8 @@ mod tests {
     use super::super::seeded::words;
     use super::*;
 
-    /// What rounds end with is what one more round leaves, of masks of all kinds; and forms of the identity are
-    /// sums of squares, exactly.
+    /// What rounds end with is what one more round leaves, of masks of all kinds; and forms of the identity
+    /// are sums of squares, exactly.
     #[test]
     fn variances_solve_their_equations() {
         let mut word = words(67);

@@ -140,9 +140,9 @@ impl Mask {
     /// The height at `s` and `t` of a cell, saturated. All addresses of a place give the same bits.
     ///
     /// Error: 2 units of `2^-24` a digit and 2 for heights within 1 of 0, in proportion beyond
-    /// (`a_lattice_is_within_two_units_a_digit`). Proof: a step is off by 18 units of the scale, each
-    /// `2^(g - 6)` of `2^-24` for weights of words that are proven to stay below `2^g` in sum, and later steps
-    /// make of it what `|phi|_1` says: at most 1.7 a digit for the masks of `docs/FITS.md`, whose `g` is 1 or 2.
+    /// (`a_lattice_is_within_two_units_a_digit`). Proof: a step is off by 18 units of the scale, each `2^(g -
+    /// 6)` of `2^-24` for weights of words that are proven to stay below `2^g` in sum, and later steps make
+    /// of it what `|phi|_1` says: at most 1.7 a digit for the masks of `docs/FITS.md`, whose `g` is 1 or 2.
     ///
     /// Cost: 100 products a digit but the last, and 16 (the kernel row `patch lattice` counts a point of 12).
     pub fn height(&self, heights: &[Real; 16], at: [Address<2>; 2]) -> Real {

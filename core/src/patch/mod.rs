@@ -25,8 +25,8 @@
 //! | a patch with rough inner curves | `M M` | [`Patch`], of 72 numbers for `N` = 2, `M` = 3 |
 //! | a lattice of any size | 4 x 4 a cell | [`Mask`], of 21 numbers |
 //!
-//! [`Sheet`] puts many cells side by side, which [`crate::trace`] shows. A lattice is a fractal function of two
-//! variables with a calculus of its own: [`HeightMoments`], [`SlopeMoments`].
+//! [`Sheet`] puts many cells side by side, which [`crate::trace`] shows. A lattice is a fractal function of
+//! two variables with a calculus of its own: [`HeightMoments`], [`SlopeMoments`].
 
 mod address;
 mod affine;

@@ -1,5 +1,5 @@
-//! Integrals, means and variances over the cells of a lattice, exact at every level: the calculus of a fractal
-//! function of two variables.
+//! Integrals, means and variances over the cells of a lattice, exact at every level: the calculus of a
+//! fractal function of two variables.
 //!
 //! Over a cell of size 1, with its heights `p` and the refinable function `phi` ([`super::lattice`]):
 //! - the mean height is `p . w`, `w = 1/4 sum T_ij w`: times its area the integral over any part;
@@ -10,16 +10,17 @@
 //! - the covariance of height and slope needs no form of its own: by the fundamental theorem for `h h_s`,
 //!   `E(h h_s) = (E_1(h^2) - E_0(h^2)) / 2` with the means along both sides.
 //!
-//! Slopes over a part are twice the slopes of what it is as a cell: of the variance of slopes each level keeps
-//! `1/4 * 4 = 1` times what the maps make of it. It exists if `X -> sum T_ij X T_ij^T` on forms that leave
-//! planes out has a spectral radius below 1, and the mask leaves planes planes: `sum k m(k)` is the same over
-//! each of its four classes, as of any mask that is the same forwards and backwards. Where the translates of
-//! `phi` are independent both are necessary (Jia); here both are asked for, and checked. A mask fitted to
-//! data bends planes as a rule: the mean square of its slopes grows from level to level without end.
+//! Slopes over a part are twice the slopes of what it is as a cell: of the variance of slopes each level
+//! keeps `1/4 * 4 = 1` times what the maps make of it. It exists if `X -> sum T_ij X T_ij^T` on forms that
+//! leave planes out has a spectral radius below 1, and the mask leaves planes planes: `sum k m(k)` is the
+//! same over each of its four classes, as of any mask that is the same forwards and backwards. Where the
+//! translates of `phi` are independent both are necessary (Jia); here both are asked for, and checked. A mask
+//! fitted to data bends planes as a rule: the mean square of its slopes grows from level to level without
+//! end.
 //!
 //! Source: the moments of fractal interpolation functions of Cochran, Lewis, Hart, section 6.1, by the
-//! two-scale relation instead of their maps; R. Q. Jia, "Smoothness of multiple refinable functions in Sobolev
-//! spaces", 1999, for when slopes are square integrable.
+//! two-scale relation instead of their maps; R. Q. Jia, "Smoothness of multiple refinable functions in
+//! Sobolev spaces", 1999, for when slopes are square integrable.
 
 use super::columns::{CELL, Column, SIDES, image, mean, rounded};
 use super::form::{Form, Free, Law, combined, dyad};
@@ -194,8 +195,8 @@ impl SlopeMoments {
     /// Cost: some dozens of rounds of 12,800 products, three times as many for a rough one.
     ///
     /// # Errors
-    /// [`Error::NoMoments`] for a mask that bends planes, or where 64 levels do not halve what its slopes vary
-    /// by.
+    /// [`Error::NoMoments`] for a mask that bends planes, or where 64 levels do not halve what its slopes
+    /// vary by.
     pub fn new(mask: &Mask) -> Result<Self, Error> {
         let mask = &entries(mask);
         if !leaves_planes(mask) {

@@ -60,8 +60,8 @@ impl Ball {
     /// it by more than `(1 + b) 2^-14` in squares do, `b` along the ray
     /// (`a_ray_that_grazes_a_ball_does_not_pass_it_by`).
     ///
-    /// With `w` the way to the centre and `b` how far along the ray it is closest, or 0 for what is behind its
-    /// begin, a ray passes by where `w^2 - b^2` is above the square of the radius.
+    /// With `w` the way to the centre and `b` how far along the ray it is closest, or 0 for what is behind
+    /// its begin, a ray passes by where `w^2 - b^2` is above the square of the radius.
     #[inline(always)]
     pub(super) fn is_passed_by(&self, ray: &Ray) -> bool {
         let way = self.from(ray);

@@ -53,8 +53,8 @@ pub enum Finish {
         /// Its exponent.
         shininess: u16,
     },
-    /// `ambient + diffuse max(0, n . l) + specular F D G / (4 n . v)`: the highlight of tiny mirrors that lean at
-    /// random, as [`TorranceSparrow`] has it.
+    /// `ambient + diffuse max(0, n . l) + specular F D G / (4 n . v)`: the highlight of tiny mirrors that
+    /// lean at random, as [`TorranceSparrow`] has it.
     ///
     /// [`TorranceSparrow`]: super::material::TorranceSparrow
     TorranceSparrow {
@@ -112,10 +112,10 @@ impl Finish {
     /// The tone of a surface with unit normal `n` seen along the unit direction `d`; a normal that points
     /// away is turned round.
     ///
-    /// Domain: any parts; `RayCaster::with_finish` takes only those in `[0, 1]`. Result: in `[0, 1]`.
-    /// Error: below `2^-27` for diffuse light, `2^-22` for Phong's with an exponent up to 64,
-    /// `2^-12` for a Torrance-Sparrow highlight (rows `Finish::tone (diffuse)`, `Finish::tone (Phong, exponent
-    /// 64)` and `Finish::tone (Torrance-Sparrow)`).
+    /// Domain: any parts; `RayCaster::with_finish` takes only those in `[0, 1]`. Result: in `[0, 1]`. Error:
+    /// below `2^-27` for diffuse light, `2^-22` for Phong's with an exponent up to 64, `2^-12` for a
+    /// Torrance-Sparrow highlight (rows `Finish::tone (diffuse)`, `Finish::tone (Phong, exponent 64)` and
+    /// `Finish::tone (Torrance-Sparrow)`).
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
         match self.shade(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {

@@ -1,5 +1,5 @@
-//! The picture of a surface by control points as a field of tones, row by row: a height field that need not be
-//! a product, seen as [`RayCaster`](super::RayCaster) sees one that is.
+//! The picture of a surface by control points as a field of tones, row by row: a height field that need not
+//! be a product, seen as [`RayCaster`](super::RayCaster) sees one that is.
 //!
 //! The surface lies over the unit square, its heights as they are. What a pixel shows is what
 //! CONTRIBUTING.md says of the picture of a height field, with the parts of a [`PatchSurface`] for cells.

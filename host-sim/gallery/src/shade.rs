@@ -1,4 +1,5 @@
-//! Light on a display: in colour where it has colours, with the contrast of its scene where it has few levels.
+//! Light on a display: in colour where it has colours, with the contrast of its scene where it has few
+//! levels.
 
 use attractor::Error;
 use attractor::draw::{Contrast, Palette, Srgb};

@@ -202,8 +202,8 @@ impl Choice<'_> {
 }
 
 impl Quantiser<'_> {
-    /// Sets the levels of a leaf, whose domain is known, and tells by how much that changes the error, and what
-    /// their bits are worth.
+    /// Sets the levels of a leaf, whose domain is known, and tells by how much that changes the error, and
+    /// what their bits are worth.
     ///
     /// Levels are weighed again `rounds` times at most.
     pub(super) fn levels(

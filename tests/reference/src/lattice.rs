@@ -151,8 +151,9 @@ pub fn grid(heights: &[f64; 16], mask: &[[f64; 5]; 5], levels: u32) -> Matrix {
     (0..side).map(|i| (0..side).map(|j| limit(&about(i, j), mask)).collect()).collect()
 }
 
-/// Places of a sheet of `cells x cells` cells over the unit square, one for each cell after so many halvings: the
-/// mean height, and by turns one of four slopes that together have the mean and the covariance of the cell.
+/// Places of a sheet of `cells x cells` cells over the unit square, one for each cell after so many halvings:
+/// the mean height, and by turns one of four slopes that together have the mean and the covariance of the
+/// cell.
 pub fn places(heights: &[f64], cells: usize, mask: &[[f64; 5]; 5], levels: u32) -> Vec<Place> {
     let (mut all, mut n) = (heights.to_vec(), cells);
     for _ in 0..levels {

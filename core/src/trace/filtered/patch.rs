@@ -1,17 +1,17 @@
 //! The filtered picture of a lattice, row by row: a height field that is not a product.
 //!
 //! As the picture of a product ([`super::caster`]), but for where moments come from: every cell of a lattice
-//! knows the mean and the covariance of its slopes ([`SlopeMoments`]). The pixel shows the cells of some level
-//! that lie in it, each by four points with its mean and covariance, in proportion to the area on which the
-//! pixel sees them: cells are looked for from the sheet's own down, and left out with all their parts where
-//! their bounds do not meet the pixel's pyramid.
+//! knows the mean and the covariance of its slopes ([`SlopeMoments`]). The pixel shows the cells of some
+//! level that lie in it, each by four points with its mean and covariance, in proportion to the area on which
+//! the pixel sees them: cells are looked for from the sheet's own down, and left out with all their parts
+//! where their bounds do not meet the pixel's pyramid.
 //!
 //! A place `D` off where the pixel's ray meets the mean plane is `e = D_z - p D_x - q D_y` above it, and `t =
 //! e / (-n . d)` before it along the ray; `D + t d` on the plane is `u a + v b` for the pixel's edges there.
-//! So `u`, `v` and `t` are linear in `D`: exact for all that lies near the plane, however steep its own slopes
-//! are. A cell counts as much as it overlaps `|u| <= 1/2` and `|v| <= 1/2`, by its own width along both. Where
-//! the areas of all do not add up to the pixel's, to a quarter, something turns away or hides something: an
-//! edge, which takes samples. Formats: `u` and `v` 12 fractional bits, coefficients alike.
+//! So `u`, `v` and `t` are linear in `D`: exact for all that lies near the plane, however steep its own
+//! slopes are. A cell counts as much as it overlaps `|u| <= 1/2` and `|v| <= 1/2`, by its own width along
+//! both. Where the areas of all do not add up to the pixel's, to a quarter, something turns away or hides
+//! something: an edge, which takes samples. Formats: `u` and `v` 12 fractional bits, coefficients alike.
 
 use embedded_graphics_core::geometry::Size;
 
@@ -157,8 +157,8 @@ struct Node {
 }
 
 impl<'a> FilteredPatch<'a> {
-    /// The picture of `caster` with its normals integrated by the moments of its mask; the samples of `caster`
-    /// are those of pixels at edges.
+    /// The picture of `caster` with its normals integrated by the moments of its mask; the samples of
+    /// `caster` are those of pixels at edges.
     pub fn new(caster: PatchCaster<'a, Mask, 16>, moments: &'a SlopeMoments, quality: Quality) -> Self {
         let pixel = caster.screen.edges();
         Self { caster, moments, quality, pixel }
@@ -221,7 +221,8 @@ impl<'a> FilteredPatch<'a> {
         let wide = width(edges(&place, sight, steep, self.pixel), few.wrapping_mul(many));
         let pixel = Pixel::new(&place, z, sight, self.pixel, reach)?;
         let sum = self.sum(&pixel, &view, self.level(wide))?;
-        // the areas of cells against the pixel's: 4 points with 20 fractional bits, shares of 12, cells of parts
+        // the areas of cells against the pixel's: 4 points with 20 fractional bits, shares of 12, cells of
+        // parts
         let parts = i64::from(self.caster.surface.parts(self.level(wide)));
         let seen = ((sum.area >> 14) as i64).checked_div(parts)?;
         let whole = pixel.area.saturating_mul(parts) >> 20;
@@ -248,7 +249,8 @@ impl<'a> FilteredPatch<'a> {
         index.map(|i| ((u64::from(i) << 1 | 1) << 23).checked_div(parts.into()).unwrap_or(0) as i32)
     }
 
-    /// Mean slopes of the cell of a level at a place above the square, and the height of its mean plane there.
+    /// Mean slopes of the cell of a level at a place above the square, and the height of its mean plane
+    /// there.
     fn plane(&self, at: [Q24; 2], level: u32) -> Option<(Slope, Q24)> {
         if at.iter().any(|c| !(0..1 << 24).contains(c)) {
             return None;
@@ -265,8 +267,8 @@ impl<'a> FilteredPatch<'a> {
         Some((slope, height.saturating_add(rise.clamp(-(1 << 30), 1 << 30) as i32)))
     }
 
-    /// All cells of a level that lie in a pixel; none where one turns away from the eye, or where they are too
-    /// many.
+    /// All cells of a level that lie in a pixel; none where one turns away from the eye, or where they are
+    /// too many.
     fn sum(&self, pixel: &Pixel, view: &View<'_>, deepest: u32) -> Option<Sum> {
         let (surface, mut sum) = (&self.caster.surface, Sum::default());
         let (sheet, cells) = (surface.sheet(), surface.sheet().cells());

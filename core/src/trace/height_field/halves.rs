@@ -167,8 +167,8 @@ impl Middle {
     }
 }
 
-/// What all rays of one footprint that leave one point share, made ready for walks through one surface. `WIDE`
-/// where their cones have a width at that point.
+/// What all rays of one footprint that leave one point share, made ready for walks through one surface.
+/// `WIDE` where their cones have a width at that point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pencil<const WIDE: bool = false> {
     /// 24 fractional bits.

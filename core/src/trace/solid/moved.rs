@@ -266,8 +266,8 @@ mod tests {
         });
     }
 
-    /// A cone is as wide as in the world: a node is a leaf where its side is that, whatever the map makes of it
-    /// and wherever the ray comes into the box; how wide the ray is where it starts counts as well.
+    /// A cone is as wide as in the world: a node is a leaf where its side is that, whatever the map makes of
+    /// it and wherever the ray comes into the box; how wide the ray is where it starts counts as well.
     #[test]
     fn a_cone_has_under_a_map_the_width_that_it_has_in_the_world() {
         let mut word = words(59);

@@ -4,8 +4,8 @@
 //! Its crossings are the leaves that the ray meets, front to back, each at the middle of its interval of `t`,
 //! with the mean normal over the leaf: the ray goes down through a leaf where `n . d < 0` and up elsewhere. A
 //! node is a leaf on the finest level, and where it is not wider than the ray's cone where the ray enters.
-//! Where it leaves the leaf's column or row the ray begins anew; what it meets right there is part of the same
-//! crossing.
+//! Where it leaves the leaf's column or row the ray begins anew; what it meets right there is part of the
+//! same crossing.
 //!
 //! Texture: `u` and `v` over the domain, in `[0, 1]`.
 //!
