@@ -40,7 +40,8 @@ pub(super) fn moments(watch: &mut Watch<'_>) -> Tally {
     let mask = scene::scheme();
     watch.over(&[2_u32], |parts| {
         let moments = mask.ok().and_then(|mask| SlopeMoments::new(&mask).ok());
-        let heights = core::array::from_fn(|k| Real::from_bits((k as i32) << 19));
+        // no plane, of which slopes do not vary
+        let heights = core::array::from_fn(|k| Real::from_bits((k * k) as i32) << 17);
         moments.map_or(0, |moments| moments.over(&heights, parts).covariance[0].to_bits().cast_unsigned())
     })
 }
