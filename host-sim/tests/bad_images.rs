@@ -28,7 +28,7 @@ fn png(path: &Path, size: (u32, u32), color: ColorType, depth: BitDepth, data: &
 fn room() -> TempDir {
     let directory = tempfile::tempdir().unwrap();
     png(&directory.path().join("in.png"), (24, 20), ColorType::Grayscale, BitDepth::Eight, &[7, 200, 90]);
-    good(directory.path(), &["encode", "in.png", "-o", "out.atfi", "--bytes", "200"]);
+    good(directory.path(), &["encode", "in.png", "-o", "out.atfi", "--psnr", "30"]);
     fs::remove_file(directory.path().join("out.atfi")).unwrap();
     directory
 }

@@ -232,7 +232,7 @@ fn what_is_no_picture_or_no_stream_is_refused_by_name() {
     refused(&["encode", "in.png", "-o", "out.atfi", "--bpp", "-1"], &["--bpp", "no number above 0"]);
     refused(&["encode", "in.png", "-o", "nowhere/out.atfi", "--bytes", "100"], &["nowhere"]);
     refused(&["decode", "in.png", "-o", "out.png"], &["in.png", "no image", "byte 0"]);
-    good(dir, &["encode", "in.png", "-o", "fine.atfi", "--bytes", "100"]);
+    good(dir, &["encode", "in.png", "-o", "fine.atfi", "--psnr", "30"]);
     let bytes = fs::read(dir.join("fine.atfi")).unwrap();
     fs::write(dir.join("short.atfi"), &bytes[..bytes.len() - 1]).unwrap();
     fs::write(dir.join("long.atfi"), [&bytes[..], b"x"].concat()).unwrap();
