@@ -30,6 +30,14 @@ impl Light {
         let towards = towards.normalised().ok_or(Error::Degenerate { what: "direction of the light" })?;
         Ok(Self { towards })
     }
+
+    /// How much of it falls on a surface with unit normal `n`, of which the eye sees the side that `-along`
+    /// tells.
+    #[inline(always)]
+    fn on(&self, n: Vec3<Unit>, along: i32) -> Unit {
+        let lit = n.dot(self.towards);
+        (if along > 0 { -lit } else { lit }).clamp(Unit::ZERO, Unit::ONE)
+    }
 }
 
 /// How a surface answers light. All parts are in `[0, 1]`.
@@ -93,6 +101,8 @@ impl Finish {
         reflectance: Unit::from_bits(3 << 28),
     };
 
+    /// A constant finish is checked by the compiler.
+    #[inline(always)]
     pub(crate) fn checked(self) -> Result<Self, Error> {
         if let Self::TorranceSparrow { roughness, reflectance, .. } = self {
             TorranceSparrow::new(roughness, reflectance)?;
@@ -118,7 +128,7 @@ impl Finish {
     /// `Finish::tone (Torrance-Sparrow)`).
     #[inline]
     pub fn tone(&self, n: Vec3<Unit>, d: Vec3<Unit>, light: &Light, environment: &Environment) -> Unit {
-        match self.shade(n, [d.x, d.y, d.z].map(Unit::to_bits), light) {
+        match self.shade(n, [d.x, d.y, d.z].map(Unit::to_bits), light, self.highlight()) {
             Shade::Tone(tone) => tone,
             // a mirrored unit vector is one, but for its last bits
             Shade::Reflection(e) => {
@@ -128,36 +138,60 @@ impl Finish {
         }
     }
 
+    /// The function of the highlight, of which [`Finish::shade`] is told: what no finish of a picture asks for
+    /// is not linked.
+    #[inline(always)]
+    pub(super) fn highlight(self) -> Highlight {
+        // tests one by one: a table of functions would refer to all
+        if matches!(self, Self::Phong { .. }) {
+            Self::phong
+        } else if matches!(self, Self::TorranceSparrow { .. }) {
+            Self::sheen
+        } else {
+            |_, _, _, _| Unit::ZERO
+        }
+    }
+
+    /// What a Phong finish shows; others have none.
+    fn phong(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light) -> Unit {
+        let Self::Phong { ambient, diffuse, specular, shininess } = *self else { return Unit::ZERO };
+        let along = dot(n, d);
+        let highlight = unit(mirrored(n, d, along)).dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
+        // three parts of at most 1 each would leave the format
+        let matt = ambient.saturating_add(times(diffuse, light.on(n, along))).min(Unit::ONE);
+        matt.saturating_add(times(specular, power(highlight, shininess))).clamp(Unit::ZERO, Unit::ONE)
+    }
+
+    /// What a Torrance-Sparrow finish shows; others have none.
+    fn sheen(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light) -> Unit {
+        let Self::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance } = *self else {
+            return Unit::ZERO;
+        };
+        let along = dot(n, d);
+        let [x, y, z] = [n.x, n.y, n.z].map(|c| if along > 0 { c.saturating_neg() } else { c });
+        let view = Sight { normal: Vec3::new(x, y, z), direction: unit(d), tangent: Vec3::default() };
+        let highlight = TorranceSparrow::within(roughness, reflectance).tone(&view, light.towards);
+        let matt = ambient.saturating_add(times(diffuse, light.on(n, along))).min(Unit::ONE);
+        matt.saturating_add(times(specular, highlight)).clamp(Unit::ZERO, Unit::ONE)
+    }
+
     /// What there is to see along a direction of any length below `2^31`.
     #[inline(always)]
-    pub(super) fn shade(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light) -> Shade {
-        let along = dot(n, d);
-        let lit = || {
-            let lit = n.dot(light.towards);
-            (if along > 0 { -lit } else { lit }).clamp(Unit::ZERO, Unit::ONE)
-        };
-        let tone = match *self {
+    pub(super) fn shade(&self, n: Vec3<Unit>, d: [i32; 3], light: &Light, highlight: Highlight) -> Shade {
+        match *self {
             Self::Diffuse { ambient } => {
-                ambient.saturating_add(times(Unit::ONE.saturating_sub(ambient), lit()))
+                let lit = light.on(n, dot(n, d));
+                let tone = ambient.saturating_add(times(Unit::ONE.saturating_sub(ambient), lit));
+                Shade::Tone(tone.clamp(Unit::ZERO, Unit::ONE))
             }
-            Self::Phong { ambient, diffuse, specular, shininess } => {
-                let highlight = unit(mirrored(n, d, along)).dot(light.towards).clamp(Unit::ZERO, Unit::ONE);
-                // three parts of at most 1 each would leave the format
-                let matt = ambient.saturating_add(times(diffuse, lit())).min(Unit::ONE);
-                matt.saturating_add(times(specular, power(highlight, shininess)))
-            }
-            Self::TorranceSparrow { ambient, diffuse, specular, roughness, reflectance } => {
-                let [x, y, z] = [n.x, n.y, n.z].map(|c| if along > 0 { c.saturating_neg() } else { c });
-                let view = Sight { normal: Vec3::new(x, y, z), direction: unit(d), tangent: Vec3::default() };
-                let model = TorranceSparrow::within(roughness, reflectance);
-                let matt = ambient.saturating_add(times(diffuse, lit())).min(Unit::ONE);
-                matt.saturating_add(times(specular, model.tone(&view, light.towards)))
-            }
-            Self::Mirror => return Shade::Reflection(mirrored(n, d, along)),
-        };
-        Shade::Tone(tone.clamp(Unit::ZERO, Unit::ONE))
+            Self::Phong { .. } | Self::TorranceSparrow { .. } => Shade::Tone(highlight(self, n, d, light)),
+            Self::Mirror => Shade::Reflection(mirrored(n, d, dot(n, d))),
+        }
     }
 }
+
+/// What a finish with a highlight shows.
+pub(super) type Highlight = fn(&Finish, Vec3<Unit>, [i32; 3], &Light) -> Unit;
 
 /// What a surface shows.
 pub(super) enum Shade {

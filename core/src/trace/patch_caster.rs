@@ -10,7 +10,7 @@ use embedded_graphics_core::geometry::Size;
 
 use super::camera::Camera;
 use super::environment::Environment;
-use super::finish::{Finish, Light, Shade};
+use super::finish::{Finish, Highlight, Light, Shade};
 use super::patch_surface::{PatchSurface, Struck};
 use super::ray::Ray;
 use super::ray_caster::rounded;
@@ -30,6 +30,7 @@ pub struct PatchCaster<'a, S, const J: usize> {
     size: Size,
     pub(super) screen: Screen,
     pub(super) material: Finish,
+    highlight: Highlight,
     pub(super) light: Light,
     pub(super) environment: Environment,
     pattern: Pattern,
@@ -54,6 +55,7 @@ impl<'a, S: Scheme<J>, const J: usize> PatchCaster<'a, S, J> {
             cone: screen.footprint,
             screen,
             material: Finish::DIFFUSE,
+            highlight: Finish::DIFFUSE.highlight(),
             light: Light::ORDINARY,
             environment: Environment::SKY,
             pattern: Pattern::CENTRE,
@@ -64,7 +66,10 @@ impl<'a, S: Scheme<J>, const J: usize> PatchCaster<'a, S, J> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a part outside `[0, 1]`.
+    #[inline(always)]
     pub fn with_finish(mut self, material: Finish) -> Result<Self, Error> {
+        // of the finish as it is given: of a constant one the compiler knows which it is
+        self.highlight = material.highlight();
         self.material = material.checked()?;
         Ok(self)
     }
@@ -119,8 +124,12 @@ impl<'a, S: Scheme<J>, const J: usize> PatchCaster<'a, S, J> {
         let Some(hit) = self.first_hit(direction, self.cone) else {
             return self.environment.towards(direction);
         };
-        match self.material.shade(unit(self.surface.normal(hit.level, &hit.heights)), direction, &self.light)
-        {
+        match self.material.shade(
+            unit(self.surface.normal(hit.level, &hit.heights)),
+            direction,
+            &self.light,
+            self.highlight,
+        ) {
             Shade::Tone(tone) => tone,
             Shade::Reflection(mirrored) => self.environment.towards(mirrored),
         }

@@ -9,7 +9,7 @@ use embedded_graphics_core::geometry::Size;
 
 use super::camera::Camera;
 use super::environment::Environment;
-use super::finish::{Finish, Light, Shade};
+use super::finish::{Finish, Highlight, Light, Shade};
 use super::height_field::field::{HeightField, Hit};
 use super::height_field::halves::Pencil;
 use super::height_field::outline::Outline;
@@ -51,6 +51,7 @@ pub struct RayCaster<'a> {
     tangent: i32,
     pub(super) size: Size,
     pub(super) material: Finish,
+    highlight: Highlight,
     pub(super) light: Light,
     pub(super) environment: Environment,
     pattern: Pattern,
@@ -96,6 +97,7 @@ impl<'a> RayCaster<'a> {
             tangent: camera.tangent,
             size,
             material: Finish::DIFFUSE,
+            highlight: Finish::DIFFUSE.highlight(),
             light: Light::ORDINARY,
             environment: Environment::SKY,
             pattern: Pattern::CENTRE,
@@ -112,7 +114,10 @@ impl<'a> RayCaster<'a> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a part outside `[0, 1]`.
+    #[inline(always)]
     pub fn with_finish(mut self, material: Finish) -> Result<Self, Error> {
+        // of the finish as it is given: of a constant one the compiler knows which it is
+        self.highlight = material.highlight();
         self.material = material.checked()?;
         Ok(self)
     }
@@ -201,7 +206,12 @@ impl<'a> RayCaster<'a> {
         let [x, y, z] = match self.surface.leaf(&self.rays, &direction, &mut Uncounted) {
             None => direction,
             Some(leaf) => {
-                match self.material.shade(unit(self.surface.normal(&leaf)), direction, &self.light) {
+                match self.material.shade(
+                    unit(self.surface.normal(&leaf)),
+                    direction,
+                    &self.light,
+                    self.highlight,
+                ) {
                     Shade::Tone(tone) => return tone,
                     Shade::Reflection(mirrored) => mirrored,
                 }

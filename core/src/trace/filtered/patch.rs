@@ -132,7 +132,7 @@ impl Pixel {
             let [middle, width] = Self::linear(of, off, [half, half, 0]);
             // what both have in common: no more than either
             let inside = (HALF_PIXEL + width - middle.saturating_abs()).min(2 * HALF_PIXEL);
-            let inside = inside.clamp(0, 2 * width.max(1));
+            let inside = inside.max(0).min(2 * width.max(1));
             ((inside << 12).checked_div(2 * width.max(1)).unwrap_or(0)) as u32
         };
         let [u, v] = self.across.each_ref().map(part);
