@@ -35,6 +35,11 @@ fn main() {
     };
     fs::write(Path::new(&out).join("memory.x"), memory).expect("OUT_DIR can be written");
     println!("cargo:rustc-link-search={out}");
+    println!("cargo:rustc-check-cfg=cfg(roomy)");
+    // where there is more RAM than 16 KiB
+    if !memory.contains("LENGTH = 16K") {
+        println!("cargo:rustc-cfg=roomy");
+    }
     if target.starts_with("riscv") {
         println!("cargo:rustc-link-arg-bins=-Tmemory.x");
     }

@@ -127,7 +127,8 @@ fn mean_slopes(slopes: &[Weights; 2], heights: &[Real; 16], parts: u32) -> [Real
 impl HeightMoments {
     /// Those of a mask; every mask has them.
     ///
-    /// Cost: some dozens of rounds of 12,800 products, and as many again for the four sides.
+    /// Cost: some dozens of rounds of 12,800 products, and as many again for the four sides; tens of KiB of
+    /// stack.
     ///
     /// # Errors
     /// [`Error::NoMoments`] where numbers leave their formats, or where 64 levels do not halve what heights
@@ -192,7 +193,8 @@ impl HeightMoments {
 impl SlopeMoments {
     /// Those of a mask whose slopes are square integrable.
     ///
-    /// Cost: some dozens of rounds of 12,800 products, three times as many for a rough one.
+    /// Cost: some dozens of rounds of 12,800 products, three times as many for a rough one; tens of KiB of
+    /// stack.
     ///
     /// # Errors
     /// [`Error::NoMoments`] for a mask that bends planes, or where 64 levels do not halve what its slopes
