@@ -22,6 +22,10 @@ as_debug! {
     [const LIMBS: usize] num::Limbs<LIMBS>;
     [] num::Reciprocal;
     [] patch::Mask;
+    [] patch::CellMoments;
+    [] patch::CellSlopes;
+    [] patch::HeightMoments;
+    [] patch::SlopeMoments;
     [] plane::Point2;
     [] plane::PathElement;
     [] plane::Bounds2;

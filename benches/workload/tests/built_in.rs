@@ -30,6 +30,7 @@ const MISSING: &[(&str, &str)] = &[
     ("patch-rock rgb565", LONG),
     ("patch-diagonal rgb565", LONG),
     ("patch-mountain rgb565", LONG),
+    ("figure-6-without-grain rgb565", LONG),
 ];
 /// Up to 16 rays a pixel, and as many again as there are bounces; or surfaces by control points, point by
 /// point.

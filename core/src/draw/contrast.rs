@@ -26,7 +26,7 @@ use crate::num::formats::UQ16;
 /// let wedge = from_fn(Size::new(8, 2), |x, _| (100 + x * 7) as u8);
 /// let mut display = MockDisplay::<BinaryColor>::new();
 /// let picture = Picture::new(wedge, Contrast::new(Grey, 100, 149)?);
-/// Image::new(&picture, Point::zero()).draw(&mut display)?;
+/// let Ok(()) = Image::new(&picture, Point::zero()).draw(&mut display);
 /// display.assert_pattern(&["..#.####", "...#.#.#"]);
 /// # Ok::<(), attractor::Error>(())
 /// ```

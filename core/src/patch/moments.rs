@@ -37,7 +37,7 @@ const PLANE: i64 = 32;
 
 /// A lattice over one of its parts: means, variances and covariances, each saturated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CellMoments {
     /// Mean height.
     pub height: Real,
@@ -51,7 +51,7 @@ pub struct CellMoments {
 
 /// The slopes of a lattice over one of its parts, each number saturated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CellSlopes {
     /// Means along `s` and `t`.
     pub mean: [Real; 2],
