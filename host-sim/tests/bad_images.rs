@@ -1,5 +1,5 @@
-//! What `encode` is asked for that cannot be: one line that says what, where, which value and what is allowed,
-//! exit code 2, and nothing is written; and what lies just inside of what is allowed.
+//! What `encode` is asked for that cannot be: one line that says what, where, which value and what is
+//! allowed, exit code 2, and nothing is written; and what lies just inside of what is allowed.
 
 use std::fs;
 use std::path::Path;
@@ -138,8 +138,8 @@ fn streams_that_cannot_be_written_are_named() {
     assert_snapshot!(said);
 }
 
-/// Flat pictures, so that what comes back is off by no more than what a pixel of `YCoCg` and its steps are rounded
-/// by.
+/// Flat pictures, so that what comes back is off by no more than what a pixel of `YCoCg` and its steps are
+/// rounded by.
 #[test]
 fn what_shines_through_shows_the_ground_that_was_named() {
     let directory = room();

@@ -4,7 +4,8 @@
 # however far one zooms, and Esc closes it at any time. A picture in it takes little more than the same picture
 # as a file.
 # Needs: apt install libsdl2-dev xvfb xdotool imagemagick
-# Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]; ATTRACTOR_IS_BUILT=1 takes target/debug/attractor as it is
+# Usage: host-sim/tests/window.sh [DIRECTORY FOR SCREENSHOTS]
+# ATTRACTOR_IS_BUILT=1 takes target/debug/attractor as it is.
 set -eu
 cd "$(dirname "$0")/../.."
 shots=${1:-$(mktemp -d)}

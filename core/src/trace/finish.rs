@@ -138,8 +138,8 @@ impl Finish {
         }
     }
 
-    /// The function of the highlight, of which [`Finish::shade`] is told: what no finish of a picture asks for
-    /// is not linked.
+    /// The function of the highlight, of which [`Finish::shade`] is told: what no finish of a picture asks
+    /// for is not linked.
     #[inline(always)]
     pub(super) fn highlight(self) -> Highlight {
         // tests one by one: a table of functions would refer to all

@@ -65,7 +65,7 @@ impl<'a, S: Scheme<J>, const J: usize> PatchCaster<'a, S, J> {
     /// With this material.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a part outside `[0, 1]`.
+    /// [`Error::OutOfRange`] for a part outside `[0, 1]`, or a roughness outside 1/32 to 1.
     #[inline(always)]
     pub fn with_finish(mut self, material: Finish) -> Result<Self, Error> {
         // of the finish as it is given: of a constant one the compiler knows which it is
