@@ -1,4 +1,5 @@
-//! `cargo xtask count NAME...`: the instructions of some kernels and scenes.
+//! `cargo xtask count NAME...`: the instructions of some kernels and scenes, the flash and the stack of some
+//! images.
 //!
 //! Only the image that holds them is built, and only what is asked for is run: the quick look while a kernel
 //! is being written. `cargo xtask target` is the whole check.
@@ -13,12 +14,13 @@ use clap::Args;
 use crate::kinds::Loop;
 use crate::lines::{self, Line};
 use crate::targets::{self, Target};
-use crate::{Prefer, emulator, images, toolchain};
+use crate::{Prefer, elf, emulator, images, stack, toolchain};
 
 /// What `cargo xtask count` is asked.
 #[derive(Debug, Args)]
 pub(crate) struct Options {
-    /// Parts of the names of kernels, and of scenes with their sizes: "patch", "bowl 240x240"
+    /// Parts of the names of kernels, of scenes with their sizes, of flash images: "patch", "bowl 240x240",
+    /// "flash mirror"
     #[arg(required = true, value_name = "NAME")]
     names: Vec<String>,
     /// On this target
@@ -39,8 +41,10 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
         sizes.filter(|(name, size)| asked(&format!("{name} {size}"))).collect()
     };
     let tables = scenes::TABLES.map(|(image, table)| (image, of(table)));
-    if kernels.is_empty() && tables.iter().all(|(_, scenes)| scenes.is_empty()) {
-        bail!("no kernel and no scene has {} in its name", options.names.join(" or "));
+    let flash = images::measuring_flash()?;
+    let flash: Vec<_> = flash.iter().filter(|name| asked(&format!("flash {name}"))).collect();
+    if kernels.is_empty() && flash.is_empty() && tables.iter().all(|(_, scenes)| scenes.is_empty()) {
+        bail!("no kernel, scene or flash image has {} in its name", options.names.join(" or "));
     }
     let limit = Duration::from_secs(options.timeout);
     for target in targets::choose(std::slice::from_ref(&options.target))? {
@@ -59,6 +63,16 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
             let image = images::one(target, &compiler, image)?;
             for (name, size) in scenes {
                 scene(target, &image, limit, name, size)?;
+            }
+        }
+        for name in &flash {
+            let image = images::flash_of(target, &compiler, name)?;
+            let bytes = elf::sizes(&image)?.flash;
+            print!("{:<32} {bytes:>14} bytes of flash", format!("flash {name}"));
+            match stack::bound(&image) {
+                _ if !target.bounded => println!(),
+                Ok(stack) => println!(", at most {stack} of stack"),
+                Err(error) => println!(", no bound on its stack: {error:#}"),
             }
         }
     }

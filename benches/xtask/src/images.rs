@@ -10,6 +10,9 @@ use crate::multiplications;
 use crate::targets::Target;
 use crate::toolchain::Toolchain;
 
+/// How the names of images begin that measure flash.
+const FLASH: &str = "flash_";
+
 /// The images of one target.
 #[derive(Debug)]
 pub(crate) struct Images {
@@ -44,7 +47,7 @@ impl Images {
 
     /// The images that measure flash, by the name of what they hold.
     pub(crate) fn flash(&self) -> impl Iterator<Item = (&str, &Path)> {
-        self.all.iter().filter_map(|(name, path)| Some((name.strip_prefix("flash_")?, path.as_path())))
+        self.all.iter().filter_map(|(name, path)| Some((name.strip_prefix(FLASH)?, path.as_path())))
     }
 }
 
@@ -69,6 +72,23 @@ pub(crate) fn build(target: &Target, toolchain: &Toolchain) -> Result<Images> {
         bail!("the images for {} do not build:\n{}", target.triple, built.errors);
     }
     Ok(Images { all: built.executables, panicking })
+}
+
+/// What the images that measure flash hold, from the names of their sources.
+pub(crate) fn measuring_flash() -> Result<Vec<String>> {
+    let sources = package().join("src/bin");
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(&sources).with_context(|| format!("no {}", sources.display()))? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        names.extend(name.strip_prefix(FLASH).and_then(|name| name.strip_suffix(".rs")).map(str::to_owned));
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// The image that measures the flash of `what`.
+pub(crate) fn flash_of(target: &Target, toolchain: &Toolchain, what: &str) -> Result<PathBuf> {
+    one(target, toolchain, &format!("{FLASH}{what}"))
 }
 
 /// Builds one image alone.

@@ -16,10 +16,6 @@ use crate::stack;
 use crate::targets::{Machine, Target};
 use crate::toolchain::Toolchain;
 
-/// Images that call through a pointer, which the bound on stacks does not follow: a finish calls its
-/// highlight so, that a picture links its own alone.
-const BY_POINTER: [&str; 1] = ["fif_mirror"];
-
 /// Builds the images, runs them and gathers what they say; counts the kernels `by_kind` once more,
 /// instruction by instruction. Comparisons come later.
 pub(crate) fn measure(
@@ -66,14 +62,10 @@ pub(crate) fn measure(
     for (name, path) in images.flash() {
         let sizes = elf::sizes(path)?;
         let stack = if target.bounded { Some(stack::bound(path)) } else { None };
-        match &stack {
-            Some(Err(error)) if !BY_POINTER.contains(&name) => measured
+        if let Some(Err(error)) = &stack {
+            measured
                 .problems
-                .push(format!("no bound on the stack of {name} on {}: {error:#}", target.triple)),
-            Some(Ok(_)) if BY_POINTER.contains(&name) => {
-                measured.problems.push(format!("the stack of {name} has a bound: it needs no excuse"));
-            }
-            _ => {}
+                .push(format!("no bound on the stack of {name} on {}: {error:#}", target.triple));
         }
         measured.flash.push(FlashRow {
             name: name.to_owned(),

@@ -3,15 +3,16 @@
 //! The functions of a Thumb image are read instruction by instruction. A function's frame is the sum of all
 //! that it pushes and subtracts from the stack pointer anywhere, and a path's is the sum of its functions'
 //! frames; a branch to another function is a tail call, at which the caller's frame is gone (Arm's procedure
-//! call standard). An image that calls through a register, calls itself, or moves the stack pointer by a
-//! register has no bound of this kind. What an interrupt pushes (at most 104 bytes with the FPU's registers)
-//! comes on top.
+//! call standard). A call through a register may go to any function whose address the image holds: as a word
+//! of its constants or data, or as the two halves that MOVW and MOVT of one function load. An image that calls
+//! itself, or moves the stack pointer by a register, has no bound of this kind. What an interrupt pushes (at
+//! most 104 bytes with the FPU's registers) comes on top; the vector table calls nothing else.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
+use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind, SymbolKind};
 
 /// A function: what it does to the stack and where it goes.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -20,6 +21,11 @@ struct Function {
     frame: u64,
     calls: Vec<u64>,
     jumps: Vec<u64>,
+    /// Whether it calls, or jumps, through a register.
+    calls_pointer: bool,
+    jumps_to_pointer: bool,
+    /// What it loads into the lower and upper halves of registers.
+    halves: [BTreeSet<u32>; 2],
     /// What has no bound, if anything.
     unbounded: Option<String>,
 }
@@ -45,8 +51,21 @@ pub(crate) fn bound(path: &Path) -> Result<u64> {
         }
     }
     let mut functions = BTreeMap::new();
-    for section in file.sections().filter(|section| section.kind() == SectionKind::Text) {
+    let mut words = BTreeSet::new();
+    for section in file.sections() {
+        let SectionFlags::Elf { sh_flags, .. } = section.flags() else { continue };
         let (start, data) = (section.address(), section.data()?);
+        // names and symbols are not in the microcontroller
+        if (sh_flags & object::elf::SHF_ALLOC).0 != 0 && section.name() != Ok(".vector_table") {
+            let aligned =
+                data.get(start.next_multiple_of(4).wrapping_sub(start) as usize..).unwrap_or_default();
+            words.extend(
+                aligned.chunks_exact(4).filter_map(|word| Some(u32::from_le_bytes(word.try_into().ok()?))),
+            );
+        }
+        if section.kind() != SectionKind::Text {
+            continue;
+        }
         let end = start + data.len() as u64;
         for (&address, (size, name)) in names.range(start..end) {
             let next = names.range(address + 1..end).next().map_or(end, |(next, _)| *next);
@@ -62,7 +81,35 @@ pub(crate) fn bound(path: &Path) -> Result<u64> {
             functions.insert(address, function);
         }
     }
+    follow_pointers(&mut functions, &words);
     deepest(&functions, file.entry() & !1, &mut BTreeMap::new())
+}
+
+/// Lets what calls through a register call all functions whose address is one of `words`, or is loaded by
+/// halves in one function.
+fn follow_pointers(functions: &mut BTreeMap<u64, Function>, words: &BTreeSet<u32>) {
+    let loaded = |pointer: u32| {
+        let [lower, upper] = [pointer & 0xffff, pointer >> 16];
+        functions.values().any(|f| f.halves[0].contains(&lower) && f.halves[1].contains(&upper))
+    };
+    // the lowest bit of a pointer says Thumb
+    let held: Vec<u64> = functions
+        .keys()
+        .copied()
+        .filter(|address| {
+            let pointer = *address as u32 | 1;
+            words.contains(&pointer) || loaded(pointer)
+        })
+        .collect();
+    for function in functions.values_mut() {
+        for (through, targets) in
+            [(function.calls_pointer, &mut function.calls), (function.jumps_to_pointer, &mut function.jumps)]
+        {
+            if through {
+                targets.extend(&held);
+            }
+        }
+    }
 }
 
 /// Reads a function. `halfword` knows nothing where constants lie.
@@ -83,6 +130,14 @@ fn read(range: std::ops::Range<u64>, halfword: impl Fn(u64) -> Option<u16>) -> F
             Some((to, true)) => function.calls.push(to),
             Some((to, false)) if !range.contains(&to) => function.jumps.push(to),
             _ => {}
+        }
+        match first & 0xff87 {
+            0x4780 => function.calls_pointer = true,
+            0x4700 if first != 0x4770 => function.jumps_to_pointer = true,
+            _ => {}
+        }
+        if let (true, Some((half, value))) = (long, loaded_half(first, second)) {
+            function.halves[half].insert(value);
         }
         if if long { is_unbounded_long(first, second) } else { is_unbounded(first) } {
             function.unbounded = Some(format!("{first:04x} at {at:#x}"));
@@ -159,14 +214,20 @@ fn target_long(at: u64, first: u32, second: u32) -> Option<(u64, bool)> {
     Some(((at + 4).wrapping_add_signed(offset.into()), is_call))
 }
 
-/// BLX and BX to a register but the link register, MOV and ADD to the stack pointer or the program counter.
+/// What MOVW (0) or MOVT (1) loads.
+fn loaded_half(first: u32, second: u32) -> Option<(usize, u32)> {
+    let half = match first & 0xfbf0 {
+        0xf240 => 0,
+        0xf2c0 => 1,
+        _ => return None,
+    };
+    let value = (first & 15) << 12 | (first >> 10 & 1) << 11 | (second >> 12 & 7) << 8 | second & 0xff;
+    (second & 0x8000 == 0).then_some((half, value))
+}
+
+/// MOV and ADD to the stack pointer or the program counter.
 fn is_unbounded(first: u32) -> bool {
-    let register = first >> 3 & 15;
-    match first & 0xff87 {
-        0x4780 | 0x4485 | 0x4685 | 0x4487 | 0x4687 => true,
-        0x4700 => register != 14,
-        _ => false,
-    }
+    matches!(first & 0xff87, 0x4485 | 0x4685 | 0x4487 | 0x4687)
 }
 
 /// LDR to the program counter but from the stack; SUB and ADD of a register, or to the stack pointer from
@@ -234,10 +295,33 @@ mod tests {
     fn calls_jumps_and_what_has_no_bound_are_seen() {
         // bl +0x10; b.w to 0x100 - 0x10; beq inside; bx lr
         let plain = function(&[0xf000, 0xf808, 0xf7ff, 0xbff4, 0xd0fa, 0x4770]);
+        assert!(!plain.calls_pointer && !plain.jumps_to_pointer);
         assert_eq!((plain.calls, plain.jumps, plain.unbounded), (vec![0x114], vec![0xf0], None));
-        for code in [&[0x4798_u16][..], &[0x4718], &[0xebad, 0x0d01], &[0x4685], &[0xf8df, 0xf000]] {
+        for code in [&[0xebad_u16, 0x0d01][..], &[0x4685], &[0xf8df, 0xf000]] {
             assert!(function(code).unbounded.is_some(), "{code:04x?}");
         }
+    }
+
+    #[test]
+    fn what_calls_a_pointer_may_call_all_that_the_image_holds() {
+        // movw r3, #0x1235; movt r3, #0x0800; blx r3
+        let caller = function(&[0xf241, 0x2335, 0xf6c0, 0x0300, 0x4798]);
+        assert_eq!(caller.halves, [BTreeSet::from([0x1235]), BTreeSet::from([0x0800])]);
+        // bx r3
+        let jumper = function(&[0x4718]);
+        let leaf = |frame| Function { frame, ..Default::default() };
+        let mut all = BTreeMap::from([
+            (0x100, caller),
+            (0x200, jumper),
+            (0x0800_1234, leaf(40)),
+            (0x0800_2000, leaf(80)),
+            (0x0800_3000, leaf(1000)),
+        ]);
+        // one is loaded, one is a constant; of the third the image holds no address but an even one
+        follow_pointers(&mut all, &BTreeSet::from([0x0800_2001, 0x0800_3000]));
+        assert_eq!(all[&0x100].calls, [0x0800_1234, 0x0800_2000]);
+        assert_eq!(all[&0x200].jumps, [0x0800_1234, 0x0800_2000]);
+        assert_eq!(deepest(&all, 0x100, &mut BTreeMap::new()).unwrap(), 80);
     }
 
     #[test]
