@@ -1,6 +1,7 @@
 //! All tests of the kernel's promises, in one binary: linking is what a test binary costs.
 
 mod bad_input;
+mod charts;
 mod codec;
 mod curves;
 mod curves_at_the_edge;

@@ -434,6 +434,36 @@ fn shadows_follow_the_rule_for_glass() {
     assert!(alone.r > 65530, "{alone:?}");
 }
 
+/// A thing whose first part is opaque has no medium, but light goes through those of its faces that let it
+/// pass: in air and under water.
+#[test]
+fn light_goes_through_the_panes_of_an_opaque_thing() {
+    let floor = Thing::Box([-5.0, -5.0, -1.0], [5.0, 5.0, 0.0]);
+    let frame = Thing::Box([2.0, -1.0, 1.0], [3.0, 1.0, 1.2]);
+    let pane = Thing::Box([-1.0, -1.0, 1.0], [1.0, 1.0, 1.2]);
+    let water = Thing::Box([-4.0, -1.5, 0.75], [4.0, 4.0, 1.5]);
+    let lamps = [Lamp::distant(vector([0.0, 0.0, 1.0]), Rgb::WHITE).unwrap()];
+    let white = Mixture::matt(Rgb::WHITE).with_parts(Unit::ZERO, Unit::ONE).unwrap().with_interior(None);
+    let medium = Medium { index: Real::ONE, priority: 0, fresnel: false };
+    let clear =
+        |tint| Mixture::mirror().with_reflection(Rgb::BLACK).with_interior(Clear::new(medium, tint).ok());
+    let stained = clear(Rgb::new(Lumen::from_num(0.5), Lumen::ONE, Lumen::ZERO));
+    let window: &[Op] = &[Op::Leaf(1), Op::Leaf(2), Op::Union];
+    let below = |x: f64| {
+        let at = camera([x, -3.0, 0.6], [x, 0.0, 0.0]);
+        let middle = (SIZE.width * SIZE.height / 2 + SIZE.width / 2) as usize;
+        let materials = [white, white, stained, clear(Rgb::WHITE)];
+        let air = picture(vec![floor, frame, pane], &[ONE, window], &materials, &lamps, Rgb::BLACK, at);
+        let things = vec![floor, frame, pane, water];
+        let wet = picture(things, &[ONE, window, &[Op::Leaf(3)]], &materials, &lamps, Rgb::BLACK, at);
+        [air[middle], wet[middle]]
+    };
+    for light in below(0.0) {
+        assert!(light.r.abs_diff(16384) < 4 && light.g > 65530 && light.b == 0, "{light:?}");
+    }
+    assert_eq!(below(2.5), [LinearRgb::new(0, 0, 0); 2]);
+}
+
 /// Where glass stands in water it takes the index of both; of two things that overlap the one with the higher
 /// priority is there; those of equal priority are found and named.
 #[test]

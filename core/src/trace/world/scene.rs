@@ -6,7 +6,7 @@ use super::lamp::Lamp;
 use super::object::{LEAVES, Object};
 use super::states::{States, bit};
 use crate::Error;
-use crate::num::{Vec3, Wide};
+use crate::num::{Rgb, Vec3, Wide};
 
 /// A surface of a world and the numbers of its materials, one a face; where there are fewer, the last one is
 /// that of the others.
@@ -32,6 +32,8 @@ pub struct World<'a, L, M, const COMPOUNDS: bool = true> {
     /// The transparent objects, a bit each, and their leaves.
     media: u64,
     clear: u64,
+    /// The other objects that have a face which lets light pass.
+    panes: u64,
 }
 
 /// Two transparent objects of equal priority that share a place.
@@ -139,12 +141,14 @@ impl<'a, L: Surface, M: Material, const COMPOUNDS: bool> World<'a, L, M, COMPOUN
                 }
             }
         }
-        let mut world = Self { leaves, objects, materials, lamps: &[], media: 0, clear: 0 };
+        let mut world = Self { leaves, objects, materials, lamps: &[], media: 0, clear: 0, panes: 0 };
         // an object has a leaf of its own, of 64
-        for (number, object) in (0..).zip(objects) {
-            if M::MAY_BE_CLEAR && world.medium(number).is_some() {
+        for (number, object) in (0..).zip(objects).filter(|_| M::MAY_BE_CLEAR) {
+            if world.medium(number).is_some() {
                 world.media |= bit(number);
                 world.clear = object.leaves().fold(world.clear, |all, leaf| all | bit(leaf));
+            } else if object.leaves().any(|leaf| world.lets_pass(leaf)) {
+                world.panes |= bit(number);
             }
         }
         Ok(world)
@@ -171,6 +175,13 @@ impl<'a, L: Surface, M: Material, const COMPOUNDS: bool> World<'a, L, M, COMPOUN
     pub(super) fn material(&self, leaf: &Leaf<'a, L>, face: u8) -> Option<&'a M> {
         let number = leaf.materials.get(usize::from(face)).or(leaf.materials.last())?;
         self.materials.get(usize::from(*number))
+    }
+
+    /// Whether light goes through any face of a leaf.
+    fn lets_pass(&self, leaf: u8) -> bool {
+        let numbers = self.leaf(leaf).map_or([].as_slice(), |leaf| leaf.materials);
+        let mut materials = numbers.iter().filter_map(|number| self.materials.get(usize::from(*number)));
+        materials.any(|material| material.passes() != Rgb::BLACK)
     }
 
     /// What is inside an object: the medium of the first material of its first leaf.
@@ -236,6 +247,12 @@ impl<'a, L: Surface, M: Material, const COMPOUNDS: bool> World<'a, L, M, COMPOUN
     #[inline(always)]
     pub(super) fn media(&self) -> u64 {
         if M::MAY_BE_CLEAR { self.media } else { 0 }
+    }
+
+    /// The objects without a medium that have a face which lets light pass, a bit each.
+    #[inline(always)]
+    pub(super) fn panes(&self) -> u64 {
+        if M::MAY_BE_CLEAR { self.panes } else { 0 }
     }
 
     /// States of a place that are all known where there are media, as these depend on all. Others are looked

@@ -287,7 +287,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         }
     }
 
-    /// The first seen change of a transparent object, from the event at `start` with these states on, and the
+    /// The first seen change of an object, from the event at `start` with these states on, and the
     /// event from which to go on.
     ///
     /// Of several objects that change at one parameter each is met in turn, in the order of naming: with the
@@ -331,10 +331,13 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         }
     }
 
-    /// Whether the medium changes at a hit.
+    /// Whether a hit is seen: of a transparent object that at which the medium changes.
     fn is_seen(&self, met: &Met) -> bool {
         // what comes from no medium, or leads to none
-        if !self.is_clear(met.before) || !self.is_clear(met.behind) {
+        if !self.is_clear(met.before)
+            || !self.is_clear(met.behind)
+            || self.panes() & bit(met.event.object) != 0
+        {
             return true;
         }
         let object = |states| self.within(states).0.map(|(object, _)| object);
@@ -450,13 +453,13 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         let mut untried = 0;
         if M::MAY_BE_CLEAR {
             let near = self.near(ray, start, &mut untried);
-            // what is opaque needs no more than to be met
-            for (number, object) in self.among(near & !self.media()) {
+            // what is opaque all over needs no more than to be met
+            let clear = near & (self.media() | self.panes());
+            for (number, object) in self.among(near & !clear) {
                 if self.is_met::<E>(ray, start, limit, number, object) {
                     return Rgb::BLACK;
                 }
             }
-            let clear = near & self.media();
             if clear == 0 { Rgb::WHITE } else { self.let_through::<E>(ray, start, limit, clear) }
         } else {
             for (number, object) in (0..).zip(self.objects) {
@@ -487,7 +490,7 @@ impl<L: Surface, M: Material, const COMPOUNDS: bool> World<'_, L, M, COMPOUNDS> 
         search.found.is_some()
     }
 
-    /// How much light these transparent objects let pass.
+    /// How much light these objects let pass.
     #[inline(never)]
     fn let_through<const E: usize>(&self, ray: &Ray, start: &Start, limit: i32, clear: u64) -> Rgb {
         let mut search = Search::<E>::new(ray, start, limit);

@@ -5,14 +5,15 @@
 //! dropped, one on which `F'` cannot be 0 has a root if the signs at its ends differ, any other is halved.
 //! With `N = |x|^n + |y|^n`, `F' / m = N^(m/n - 1) (|x|^(n-1) |x|' + |y|^(n-1) |y|') + |z|^(m-1) |z|'`.
 //!
-//! Texture: `u` is the longitude over `2 pi`, `v = 1/2 + latitude / pi`, as of the sphere. With the direction
-//! `w` from the middle and `p = R w`, the surface moves with an angle as
-//! `R w' - R (grad F . w' / grad F . w) w`.
+//! Texture: with `w = 2 pi u`, `e = pi (v - 1/2)` and powers that keep the sign,
+//! `P = (cos(e)^(2/m) cos(w)^(2/n), cos(e)^(2/m) sin(w)^(2/n), sin(e)^(2/m))`; of a sphere that is longitude
+//! and latitude.
 //!
-//! Source: course unit V, section 5.7, 4 (whose formula has lost the absolute values).
+//! Source: course unit V, section 5.7, 4 (whose formula has lost the absolute values); Barr, "Superquadrics and
+//! Angle-Preserving Transformations", 1981, for the parametrisation.
 
 use crate::camera::Ray;
-use crate::vector::{Vector, along, dot};
+use crate::vector::Vector;
 use crate::world::root::bracketed;
 use crate::world::shape::{Cone, Crossing, Frame, Part, Shape, turns};
 use crate::world::span::Span;
@@ -157,23 +158,26 @@ impl Shape for Superellipsoid {
     }
 
     fn frame(&self, p: Vector, _: Part) -> Frame {
-        let rho = libm::hypot(p[0], p[1]);
-        let (longitude, latitude) = (libm::atan2(p[1], p[0]), libm::atan2(p[2], rho));
-        let normal = self.gradient(p);
-        let radius = libm::sqrt(dot(p, p));
-        let w = p.map(|c| c / radius);
-        let (c, s) = (libm::cos(longitude), libm::sin(longitude));
-        let moved = |by: Vector| {
-            let change = -radius * dot(normal, by) / dot(normal, w);
-            along(by.map(|c| c * radius), change, w)
+        let half = |c: f64, exponent: f64| libm::copysign(libm::pow(c.abs(), exponent / 2.0), c);
+        let rho = libm::pow(libm::pow(p[0].abs(), self.n) + libm::pow(p[1].abs(), self.n), 1.0 / self.n);
+        let w = libm::atan2(half(p[1], self.n), half(p[0], self.n));
+        let e = libm::atan2(half(p[2], self.m), half(rho, self.m));
+        // cos^(2 / exponent), sin^(2 / exponent) and how both change with the angle
+        let powers = |angle: f64, exponent: f64| {
+            let k = 2.0 / exponent;
+            let (c, s) = (libm::cos(angle), libm::sin(angle));
+            let size = |c: f64| c.abs().max(NEAR_A_PLANE);
+            let power = |c: f64| libm::copysign(libm::pow(size(c), k), c);
+            let rate = |c: f64| k * libm::pow(size(c), k - 1.0);
+            ([power(c), power(s)], [-rate(c) * s, rate(s) * c])
         };
-        let across = moved([-w[1], w[0], 0.0]);
-        let upwards = moved([-w[2] * c, -w[2] * s, rho / radius]);
+        let ([a, b], [a_w, b_w]) = powers(w, self.n);
+        let ([across, _], [across_e, up_e]) = powers(e, self.m);
         Frame {
-            normal,
-            uv: [turns(longitude), 0.5 + latitude / PI],
-            p_u: across.map(|c| TAU * c),
-            p_v: upwards.map(|c| PI * c),
+            normal: self.gradient(p),
+            uv: [turns(w), 0.5 + e / PI],
+            p_u: [across * a_w, across * b_w, 0.0].map(|c| TAU * c),
+            p_v: [across_e * a, across_e * b, up_e].map(|c| PI * c),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! the cone. It is convex: a line is inside it over one interval.
 //!
 //! Faces: 0 the side, 1 the base, 2 the cap. Texture: on the side `u` is the longitude over `2 pi`, `v = z`;
-//! on the base `u = (x + 1) / 2`, `v = (y + 1) / 2`; on the cap the same of `x / S` and `y / S`.
+//! on the cap `u = (1 + x) / 2`, on the base `u = (1 - x) / 2`, on both `v = (1 + y) / 2`.
 //!
 //! Source: course unit V, section 5.7, 2 (which prints the base radius 1 as L).
 
@@ -93,15 +93,16 @@ impl Shape for TaperedCylinder {
     }
 
     fn frame(&self, p: Vector, part: Part) -> Frame {
-        let disc = |up: f64, radius: f64| Frame {
+        // seen from outside, u goes to the right where v goes up
+        let disc = |up: f64| Frame {
             normal: [0.0, 0.0, up],
-            uv: [(p[0] / radius + 1.0) / 2.0, (p[1] / radius + 1.0) / 2.0],
-            p_u: [2.0 * radius, 0.0, 0.0],
-            p_v: [0.0, 2.0 * radius, 0.0],
+            uv: [(1.0 + up * p[0]) / 2.0, (1.0 + p[1]) / 2.0],
+            p_u: [2.0 * up, 0.0, 0.0],
+            p_v: [0.0, 2.0, 0.0],
         };
         match part.face() {
-            BASE => disc(-1.0, 1.0),
-            CAP => disc(1.0, self.cap),
+            BASE => disc(-1.0),
+            CAP => disc(1.0),
             _ => {
                 let longitude = libm::atan2(p[1], p[0]);
                 let (c, s) = (libm::cos(longitude), libm::sin(longitude));
