@@ -39,6 +39,7 @@ impl Specular for Anisotropic {
     }
 
     fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen {
+        let Some(eye) = view.height() else { return Lumen::ZERO };
         let half = view.half(towards);
         let across = view.normal.cross(view.tangent);
         let up = half.dot(view.normal).clamp(Unit::ZERO, Unit::ONE).to_bits().unsigned_abs();
@@ -55,7 +56,7 @@ impl Specular for Anisotropic {
         let e = u64::from(exp_minus(Real::from_bits(exponent)).to_bits().unsigned_abs());
         let light = u64::from(view.normal.dot(towards).clamp(Unit::ZERO, Unit::ONE).to_bits().unsigned_abs());
         // the root of the quotient, 16 fractional bits, at most 2^6
-        let root = u64::from(sqrt(ratio(light, 32, view.height().to_bits().unsigned_abs().into())));
+        let root = u64::from(sqrt(ratio(light, 32, eye.to_bits().unsigned_abs().into())));
         // 1 / (4 s q), 16 fractional bits, at most 2^8
         let over = (u64::from(self.along) * u64::from(self.across)) >> 18;
         // 30 + 16 bits to 24, and again: below 2^24 2^6 2^24

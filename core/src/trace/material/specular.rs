@@ -23,7 +23,8 @@ pub trait Specular {
         false
     }
 
-    /// The part of the light from the unit direction `towards`, above the surface, that is seen.
+    /// The part of the light from the unit direction `towards`, above the surface, that is seen: none where
+    /// the normal is turned away from the eye, if the model asks how far the eye stands above the surface.
     fn part(&self, view: &Sight, towards: Vec3<Unit>) -> Lumen;
 }
 
@@ -66,9 +67,11 @@ impl Sight {
         unit([half(towards.x, d.x), half(towards.y, d.y), half(towards.z, d.z)])
     }
 
-    /// How far the eye stands above the surface: `n . v`, at least `2^-12`.
-    pub(super) fn height(&self) -> Unit {
-        self.normal.dot(self.direction).saturating_neg().clamp(Unit::from_bits(1 << 18), Unit::ONE)
+    /// How far the eye stands above the surface: `n . v`, at least `2^-12`. None where the normal is turned
+    /// away from the eye, as bumps may turn it.
+    pub(super) fn height(&self) -> Option<Unit> {
+        let height = self.normal.dot(self.direction).saturating_neg();
+        (height > 0).then(|| height.clamp(Unit::from_bits(1 << 18), Unit::ONE))
     }
 }
 
@@ -154,5 +157,23 @@ pub(crate) mod tests {
                 assert!((got - exact).abs() < 2_f64.powi(-24));
             }
         }
+    }
+
+    #[test]
+    fn what_turns_away_from_the_eye_does_not_shine() {
+        use super::super::{anisotropic::Anisotropic, torrance_sparrow::TorranceSparrow};
+        let (rough, grain) =
+            (TorranceSparrow::new(Unit::ONE, Unit::ONE), Anisotropic::new(Unit::ONE, Unit::ONE));
+        let (rough, grain) = (rough.unwrap(), grain.unwrap());
+        let (mut shone, mut turned) = (0, 0);
+        for (view, towards) in views() {
+            let d = view.direction;
+            let behind = Sight { direction: Vec3::new(-d.x, -d.y, -d.z), ..view };
+            let parts = |view| [rough.part(view, towards), grain.part(view, towards)];
+            shone += u32::from(parts(&view).iter().all(|part| *part > Lumen::ZERO));
+            assert_eq!(parts(&behind), [Lumen::ZERO; 2]);
+            turned += u32::from(behind.height().is_none() && view.height().is_some());
+        }
+        assert!(shone > 3000 && turned == 4000, "{shone} {turned}");
     }
 }

@@ -90,7 +90,8 @@ pub(super) fn seen(
 ) -> Lumen {
     let clamped = |u: Unit| u.clamp(Unit::ZERO, Unit::ONE);
     let [a, light] = [half, towards].map(|v| clamped(view.normal.dot(v)));
-    let (eye, between) = (view.height(), clamped(view.direction.dot(half).saturating_neg()));
+    let Some(eye) = view.height() else { return Lumen::ZERO };
+    let between = clamped(view.direction.dot(half).saturating_neg());
     // 2 (n . h) min(n . v, n . l) / (v . h), 30 fractional bits, at most 1
     let (mantissa, shift) = reciprocal(between.to_bits().unsigned_abs());
     let product = u64::from(times(a, eye.min(light)).to_bits().unsigned_abs());
