@@ -109,7 +109,7 @@ pub enum Error {
         /// Index of the map.
         map: usize,
     },
-    /// A lattice's moments are not to be had.
+    /// A lattice has no moments.
     NoMoments {
         /// Why not.
         why: &'static str,
@@ -208,7 +208,7 @@ impl fmt::Display for Error {
                 f,
                 "map {map} has a vertical scaling no smaller than its horizontal one: no derivative exists"
             ),
-            Self::NoMoments { why } => write!(f, "moments of this mask are not to be had: {why}"),
+            Self::NoMoments { why } => write!(f, "this mask has no moments: {why}"),
             Self::Malformed { what, position } => write!(f, "this is no {what}: look at byte {position}"),
             Self::Ended { what, position } => write!(f, "this {what} ends too early: after byte {position}"),
             Self::Checksum { what, stated, computed } => {
@@ -216,7 +216,7 @@ impl fmt::Display for Error {
             }
             Self::Degenerate { what } => write!(f, "{what} is zero"),
             Self::Unsupported { what, allowed } => {
-                write!(f, "this {what} is not to be had here: there are {allowed}")
+                write!(f, "this {what} is not supported; supported: {allowed}")
             }
             Self::Character { what, index, position, letter, reason } => {
                 match index {
@@ -283,7 +283,7 @@ mod tests {
             (Error::Degenerate { what: "direction of the light" }, "direction of the light is zero"),
             (
                 Error::Unsupported { what: "arithmetic", allowed: "Word26 and Word29" },
-                "this arithmetic is not to be had here: there are Word26 and Word29",
+                "this arithmetic is not supported; supported: Word26 and Word29",
             ),
         ];
         for (error, text) in cases {

@@ -130,7 +130,10 @@ pub(crate) struct Dump {
   fif-surface          x,y,height,nx,ny,nz,height_reference,nx_reference,ny_reference,nz_reference on a grid of about N points
                        --pixels: i,j,found,filtered,sampled,one for every pixel of --size: its tone with the normals integrated
                        (where [filter] says so), by the samples, and by the ray through its centre alone
+  patch-surface        x,y,height,reference on a grid of about N points; --pixels of a lattice with a material: as fif-surface
   curve, random-curve  x,y of the first N vertices; where they stop at a pixel, --size counts
+  l-system, patch-curve
+                       x,y of N points
   ifs                  x,y of N points of the chaos game
   copier               x,y of the first N vertices of the last order
   julia-set            x,y of the first N points, or of the first N pixels that the set meets
@@ -140,6 +143,8 @@ pub(crate) struct Dump {
                        --rays FILE: ray,crossing,t,object,face,enters,x,y,z,nx,ny,nz,u,v,t_reference, every crossing of every object
                        --along RAY: t and the inside-outside function of each object at N places of a ray
                        --at FILE: place,texture,x,y,z,r,g,b and the reference's, each texture at places
+  terrain              u,v,height of about N knots of the finest lattice
+  image                x,y and the samples of the first N pixels: luma,orange,green of a stream, r,g,b of a PNG file
   texture              --at FILE: the same of the one texture; else i,j,r,g,b of every pixel of --size and the reference's
 
 Fixed-point numbers are printed exactly, those of the reference with the digits that give the same f64 back.

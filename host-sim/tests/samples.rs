@@ -400,15 +400,12 @@ field_of_view = 22
 quality = "fine"
 "#;
 
-/// Every pixel of a surface: how it was found, its tone filtered, by 64 samples, and by one.
-#[test]
-fn pixels_of_a_surface_are_listed_filtered_and_not() {
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("scene.toml"), FILTERED).unwrap();
-    let text = good(directory.path(), &["sample", "scene.toml", "--pixels", "--size", "40x40"]);
+/// Of the pixels of a picture of 40 x 40: how many are filtered, at edges and beyond the surface; and the squares
+/// of what the filtered ones and one sample each are off from many samples.
+fn listed(text: &str) -> ([u32; 3], [f64; 2]) {
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("i,j,found,filtered,sampled,one"));
-    let (mut filtered, mut edges, mut beyond, mut squares) = (0, 0, 0, [0.0; 2]);
+    let ([mut filtered, mut edges, mut beyond], mut squares) = ([0; 3], [0.0; 2]);
     for (k, line) in lines.enumerate() {
         let cells: Vec<&str> = line.split(',').collect();
         assert_eq!(cells[..2], [(k % 40).to_string(), (k / 40).to_string()]);
@@ -430,6 +427,16 @@ fn pixels_of_a_surface_are_listed_filtered_and_not() {
         }
     }
     assert_eq!(filtered + edges + beyond, 1600);
+    ([filtered, edges, beyond], squares)
+}
+
+/// Every pixel of a surface: how it was found, its tone filtered, by 64 samples, and by one.
+#[test]
+fn pixels_of_a_surface_are_listed_filtered_and_not() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("scene.toml"), FILTERED).unwrap();
+    let text = good(directory.path(), &["sample", "scene.toml", "--pixels", "--size", "40x40"]);
+    let ([filtered, edges, beyond], squares) = listed(&text);
     assert!(filtered > 400 && edges > 60 && beyond > 800, "{filtered} {edges} {beyond}");
     // 64 samples are off by more than what is filtered
     assert!(squares[0] * 16.0 < squares[1] && squares[0] > 0.0, "{squares:?}");
@@ -439,6 +446,20 @@ fn pixels_of_a_surface_are_listed_filtered_and_not() {
     let text = good(directory.path(), &["sample", "scene.toml", "--pixels", "--size", "9x8"]);
     assert_eq!(text.lines().count(), 73);
     assert!(text.lines().skip(1).all(|line| line.split(',').skip(2).take(2).all(str::is_empty)));
+}
+
+#[test]
+fn pixels_of_a_lattice_are_listed_filtered_and_not() {
+    let directory = tempfile::tempdir().unwrap();
+    fn pixels(scene: &str) -> [&str; 5] {
+        ["sample", scene, "--pixels", "--size", "40x40"]
+    }
+    let text = good(directory.path(), &pixels("figure-6-without-grain"));
+    let ([filtered, edges, beyond], squares) = listed(&text);
+    assert!(filtered > 200 && edges > 40 && beyond > 800, "{filtered} {edges} {beyond}");
+    assert!(squares[0] * 4.0 < squares[1] && squares[0] > 0.0, "{squares:?}");
+    let said = bad(directory.path(), &pixels("patch-rock"));
+    assert!(said.contains("has no material, only a lattice with one is asked for that"), "{said}");
 }
 
 #[test]

@@ -4,10 +4,8 @@ use std::convert::Infallible;
 
 use attractor::fif::{Cell, Factor, Pyramid, Sum, Sums, Surface};
 use attractor::num::Vec3;
-use attractor::plane::Field;
 use attractor::trace::{
-    Camera, Environment, Filter, FilteredCaster, Finish, Found, HeightField, Light, Quality, RayCaster,
-    Sampling,
+    Camera, Environment, Filter, FilteredCaster, Finish, HeightField, Light, Quality, RayCaster, Sampling,
 };
 use attractor_gallery::{Watch, depth_for, draw_field, filtered_depth, surface_depth};
 use attractor_reference as reference;
@@ -22,6 +20,7 @@ use super::finish::{self, Filtering, Made, Mirrors};
 use super::function::{DEGREE, Description, Function, MAPS};
 use super::motion::Motion;
 use super::orbit::{Orbit, carried};
+use super::pixels;
 use super::request::Request;
 use super::standpoint::{Eye, Standpoint, camera, vector};
 use crate::color::Depth;
@@ -273,26 +272,7 @@ impl FifSurface {
             let caster = self.caster(surface, request.size, request.seed).map_err(fail)?;
             let one = caster.clone().with_sampling(Sampling::Centre, Filter::Box).map_err(fail)?;
             let filtered = self.filtered(&caster, sums).map_err(fail)?;
-            out.write_record(["i", "j", "found", "filtered", "sampled", "one"])?;
-            for (j, i) in (0..request.size.height).flat_map(|j| (0..request.size.width).map(move |i| (j, i)))
-            {
-                let tone =
-                    |tone: attractor::plane::Tone| format!("{:?}", f64::from(tone.to_bits()) / 65535.0);
-                let (found, value) = match &filtered {
-                    None => ("", String::new()),
-                    Some(filtered) => {
-                        let found = match filtered.found(i, j) {
-                            Found::Filtered => "filtered",
-                            Found::Sampled => "sampled",
-                            _ => "beyond",
-                        };
-                        (found, tone(filtered.at(i, j)))
-                    }
-                };
-                let (sampled, one) = (tone(caster.at(i, j)), tone(one.at(i, j)));
-                out.write_record([&i.to_string(), &j.to_string(), found, &value, &sampled, &one])?;
-            }
-            Ok(())
+            pixels::write(request.size, [&caster, &one], filtered.as_ref(), out)
         })
     }
 

@@ -26,6 +26,7 @@ mod motion;
 mod orbit;
 pub(crate) mod patch_curve;
 pub(crate) mod patch_surface;
+mod pixels;
 mod polyline;
 pub(crate) mod random_curve;
 mod request;
@@ -320,14 +321,19 @@ impl Scene {
         out: &mut Csv,
     ) -> Result<(), Fail> {
         let asks = question.option();
-        if let (Kind::FifSurface(scene), Question::Pixels) = (&self.kind, &question) {
-            return scene.pixels(request, out);
+        match (&self.kind, &question) {
+            (Kind::FifSurface(scene), Question::Pixels) => return scene.pixels(request, out),
+            (Kind::PatchSurface(scene), Question::Pixels) => return scene.pixels(request, out),
+            _ => {}
         }
         if !matches!((&self.kind, &question), (Kind::World(_) | Kind::Texture(_), _) | (_, Question::Usual)) {
             let (name, kind) = (&self.name, self.kind());
-            return Err(Fail::new(format_args!(
-                "{asks}: {name} is a {kind}, only a world is asked for that"
-            )));
+            let allowed = match question {
+                Question::Pixels => "a world, a texture, a fif-surface or a lattice with a material is",
+                Question::Places(_) => "a world or a texture is",
+                _ => "a world is",
+            };
+            return Err(Fail::new(format_args!("{asks}: {name} is a {kind}, only {allowed} asked for that")));
         }
         match &self.kind {
             Kind::FifCurve(scene) => scene.sample(points, out),

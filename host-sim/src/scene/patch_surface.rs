@@ -7,7 +7,7 @@ use attractor::Error;
 use attractor::num::{Near, Real, Rgb, Vec3};
 use attractor::patch::{Mask, Scheme as Refining, Sheet, SlopeMoments};
 use attractor::trace::world::Lamp;
-use attractor::trace::{Environment, Finish, Quality};
+use attractor::trace::{Environment, Filter, FilteredPatch, Finish, Quality, Sampling};
 use attractor_gallery::{LatticePicture, PatchSurfacePicture, Watch};
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::Size;
@@ -18,6 +18,7 @@ use super::environment::{Around, Board, Sky, Surroundings};
 use super::finish::{self, Filtering, Made, Mirrors};
 use super::motion::Motion;
 use super::orbit::Orbit;
+use super::pixels;
 use super::request::Request;
 use super::standpoint::{Eye, Standpoint, camera, vector};
 use crate::color::Depth;
@@ -256,6 +257,26 @@ impl PatchSurfaceScene {
             None => self.with(&mut Draw { request, target, watch }),
         };
         drawn.map_err(|error| self.place.fail_at(request.size, error))
+    }
+
+    /// The tone of every pixel of a lattice with a material, by its samples, by the ray through its centre
+    /// alone, and filtered, if it is.
+    pub(super) fn pixels(&self, request: &Request, out: &mut Csv) -> Result<(), Fail> {
+        let Some(lattice) = self.lattice() else {
+            return Err(Fail::new(
+                "--pixels: this patch-surface has no material, only a lattice with one is asked for that",
+            ));
+        };
+        let (size, fail) = (request.size, |error| self.place.fail_at(request.size, error));
+        let (picture, mask) = lattice.map_err(fail)?;
+        let caster = picture.caster(size, request.seed as u32).map_err(fail)?;
+        let one = caster.clone().with_sampling(Sampling::Centre, Filter::Box).map_err(fail)?;
+        let Some(quality) = picture.quality else {
+            return pixels::write(size, [&caster, &one], None::<&FilteredPatch<'_>>, out);
+        };
+        let moments = SlopeMoments::new(mask).map_err(fail)?;
+        let filtered = FilteredPatch::new(caster.clone(), &moments, quality);
+        pixels::write(size, [&caster, &one], Some(&filtered), out)
     }
 
     /// `x,y,height,reference` on a grid of about so many points.

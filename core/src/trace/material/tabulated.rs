@@ -337,7 +337,7 @@ mod tests {
         };
         assert_eq!(
             said(&|t| t[0] = 2),
-            "this version of a table of slopes is not to be had here: there are version 1"
+            "this version of a table of slopes is not supported; supported: version 1"
         );
         assert_eq!(said(&|t| t.truncate(2)), "2 words of a table of slopes given, 3 expected");
         assert_eq!(said(&|t| t.truncate(18)), "18 words of a table of slopes given, 19 expected");
