@@ -168,16 +168,24 @@ fn walk<S: Sample>(header: &Header, writer: &mut Writer<'_>, memory: &mut [S]) -
     })
 }
 
-/// A stream of up to 48 x 48 or 16 x 144 pixels. If it is to be whole it can be decoded. Else three of four
+/// A stream of up to 48 x 48 or 16 x 144 pixels: [`stream_of`].
+///
+/// # Errors
+/// None.
+pub fn stream(random: &mut Random, whole: bool) -> Result<Vec<u8>, Error> {
+    stream_of(random, whole, 48)
+}
+
+/// A stream of up to `side` pixels a side, or a third and three times as many. If it is to be whole it can be decoded. Else three of four
 /// could be; then bytes are changed here and there in two of three, header, length and checksum stay right in
 /// seven of eight, so that the changed bins are read.
 ///
 /// # Errors
 /// None: a payload is far below what a header can say.
-pub fn stream(random: &mut Random, whole: bool) -> Result<Vec<u8>, Error> {
+pub fn stream_of(random: &mut Random, whole: bool, side: usize) -> Result<Vec<u8>, Error> {
     let planes = [Planes::Grey, Planes::Grey, Planes::Colour, Planes::ColourHalved][random.below(4)];
     let profile = [Profile::Streaming, Profile::Iterated, Profile::Pure][random.below(3)];
-    let [width, height] = if random.below(2) == 0 { [16, 144] } else { [48, 48] };
+    let [width, height] = if random.below(2) == 0 { [side / 3, 3 * side] } else { [side, side] };
     let mut header = Header {
         size: Size::new(1 + random.below(width) as u32, 1 + random.below(height) as u32),
         profile,

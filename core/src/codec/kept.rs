@@ -8,7 +8,8 @@
 //! - plane, size and isometry: `isometry 16 + plane 4 + size - 2`;
 //! - column and row in cells of 4 x 4, column and row of its domain in the halved picture;
 //! - mean and contrast: `z(mean) 32 + z(contrast)`, `z(v) = 2 v` or `-2 v - 1`;
-//! - each coefficient that is not 0, as `z(level) 256 + place`, and a 0.
+//! - each coefficient that is not 0, as `8 zeros + min(z(level), 8)`, `zeros` those before it along the scan, where
+//!   that is a multiple of 8 `z(level) - 8` after it; and a 0.
 
 use core::cell::Cell;
 
@@ -66,10 +67,17 @@ impl<'a, S: Sample> Kept<'a, S> {
             self.push(number);
         }
         self.push(folded(map.mean) << 5 | folded(map.contrast));
-        let said = scan(map.size).iter().take(leaf.last as usize + 1);
-        for (place, level) in said.map(|place| (*place, leaf.levels.get(*place))) {
+        let mut zeros = 0;
+        // the mean, at the first place, is not said
+        for place in scan(map.size).iter().take(leaf.last as usize + 1).skip(1) {
+            let level = folded(leaf.levels.get(*place));
+            zeros += 8;
             if level != 0 {
-                self.push(folded(level) << 8 | u32::from(place));
+                self.push(zeros - 8 + level.min(8));
+                if level >= 8 {
+                    self.push(level - 8);
+                }
+                zeros = 0;
             }
         }
         self.push(0);
@@ -93,12 +101,13 @@ impl<'a, S: Sample> Kept<'a, S> {
             let (mean, contrast) = (unfolded(said >> 5), unfolded(said & 31));
             let (size, isometry) = ((kind & 3) + 2, kind >> 4);
             levels.clear();
+            let mut places = scan(size).iter().skip(1);
             loop {
-                let level = next();
-                if level == 0 {
-                    break;
-                }
-                levels.set(level as u8, unfolded(level >> 8));
+                let said = next();
+                let Some(before) = said.checked_sub(1) else { break };
+                let level = if before & 7 == 7 { 8 + next() } else { said & 7 };
+                let Some(place) = places.nth(before as usize >> 3) else { break };
+                levels.set(*place, unfolded(level));
             }
             let map = Unsettled { x: x << 2, y: y << 2, size, mean, column, row, isometry, contrast };
             if draw(kind >> 2 & 3, levels, &map) {

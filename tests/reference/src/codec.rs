@@ -121,6 +121,12 @@ pub struct Leaf {
 struct Plane {
     width: usize,
     height: usize,
+    /// Logarithm of the size that is drawn, and columns and rows of that.
+    scale: i32,
+    wide: usize,
+    high: usize,
+    /// Rows above a band that a domain may lie in; none: anywhere.
+    window: Option<usize>,
     largest: usize,
     chroma: usize,
     q: f64,
@@ -255,7 +261,7 @@ impl Plane {
     }
 
     fn keep(&mut self, leaf: Leaf) {
-        let values = leaf.values(self.q8, self.peak as i64);
+        let values = leaf.values(self.q8, self.peak as i64, leaf.n);
         for (k, value) in values.into_iter().enumerate() {
             let at = self.at(leaf.x + k % leaf.n, leaf.y + k / leaf.n);
             self.base[at] = rounded(value, 7).clamp(0, self.peak as i64);
@@ -266,7 +272,7 @@ impl Plane {
 
     /// A sample of the halved picture, by how much it is off, and the same in integers.
     fn halved(&self, x: usize, y: usize) -> (f64, f64, i64) {
-        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(a, b)| (2 * y + b) * self.width + 2 * x + a);
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(a, b)| (2 * y + b) * self.wide + 2 * x + a);
         let sum: f64 = four.iter().map(|at| self.samples[*at]).sum();
         let off: f64 = four.iter().map(|at| self.off[*at]).sum();
         let exact: i64 = four.iter().map(|at| self.exact[*at]).sum();
@@ -275,13 +281,36 @@ impl Plane {
         (quarter(sum), off, (exact + 2) >> 2)
     }
 
+    /// A length as it is drawn, rounded down.
+    fn scaled(&self, v: usize) -> usize {
+        (v << 2) >> (2 - self.scale)
+    }
+
+    /// Where a domain lies in the halved picture as it is drawn; none where it touches its leaf there.
+    fn drawn_place(&self, leaf: &Leaf, px: usize, py: usize) -> Option<(usize, usize)> {
+        // the rows of a window count from its first
+        let band = leaf.y / self.largest * self.largest;
+        let above = self.window.map_or(0, |window| window / 2);
+        let py = match self.window {
+            None => self.scaled(py),
+            Some(_) => self.scaled(band / 2) + self.scaled(py + above - band / 2) - self.scaled(above),
+        };
+        let (px, m) = (self.scaled(px), self.scaled(leaf.n));
+        let apart = |of: usize, from: usize| 2 * (from + m) <= of || 2 * from >= of + m;
+        let free = apart(self.scaled(leaf.x), px) || apart(self.scaled(leaf.y), py);
+        (free || self.window.is_some()).then_some((px, py))
+    }
+
     /// Draws a leaf, with its domain or as if it had none.
     fn draw(&mut self, leaf: &Leaf, with_domain: bool) {
-        let n = leaf.n;
-        let values = leaf.values(self.q8, self.peak as i64);
+        let n = self.scaled(leaf.n);
+        let values = leaf.values(self.q8, self.peak as i64, n);
         // what is added, by how much that is off, and the same in the format's 2^-7
         let mut copy = vec![(0.0, 0.0, 0); n * n];
-        if let Some((px, py, isometry, contrast)) = leaf.domain.filter(|_| with_domain) {
+        let domain = leaf.domain.filter(|_| with_domain).and_then(|(px, py, isometry, contrast)| {
+            self.drawn_place(leaf, px, py).map(|(px, py)| (px, py, isometry, contrast))
+        });
+        if let Some((px, py, isometry, contrast)) = domain {
             let square: Vec<_> = (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).collect();
             let (mut sum, mut off, mut whole) = (0.0, 0.0, 0);
             for (d, e, exact) in &square {
@@ -305,11 +334,12 @@ impl Plane {
                 *copied = (value, off, eighths * (16 * exact - whole));
             }
         }
-        let off: Vec<f64> = (0..n).map(|j| leaf.off(j)).collect();
+        let off: Vec<f64> = (0..n).map(|j| leaf.off(j, n)).collect();
+        let (left, top) = (self.scaled(leaf.x), self.scaled(leaf.y));
         for (k, (copied, copied_off, whole)) in copy.into_iter().enumerate() {
-            let (x, y) = (leaf.x + k % n, leaf.y + k / n);
-            if x < self.width && y < self.height {
-                let (at, value) = (y * self.width + x, leaf.mean + leaf.pixel(k / n, k % n) + copied);
+            let (x, y) = (left + k % n, top + k / n);
+            if x < self.wide && y < self.high {
+                let (at, value) = (y * self.wide + x, leaf.mean + leaf.pixel(k / n, k % n, n) + copied);
                 self.samples[at] = (value + 0.5).floor().clamp(0.0, self.peak);
                 self.off[at] = self.rounded_off(value, off[k % n] + copied_off);
                 self.exact[at] = rounded(values[k] + whole, 7).clamp(0, self.peak as i64);
@@ -375,9 +405,9 @@ impl Plane {
 }
 
 impl Leaf {
-    /// Mean and transform in `2^-7`, row by row, by the format's three steps.
-    fn values(&self, q8: i64, peak: i64) -> Vec<i64> {
-        let (n, k) = (self.n, self.n.ilog2() as usize);
+    /// Mean and transform in `2^-7`, row by row, by the format's three steps, drawn with `n` a side.
+    fn values(&self, q8: i64, peak: i64, n: usize) -> Vec<i64> {
+        let k = self.n.ilog2() as usize;
         let cosine = |turn: usize| match turn % (4 * n) {
             0 => 1 << 14,
             turn => (16384.0 * (PI * turn as f64 / (2 * n) as f64).cos()).round() as i64,
@@ -388,38 +418,39 @@ impl Leaf {
         let mut values = Vec::new();
         for i in 0..n {
             let mut terms = [0; 16];
-            for (v, u, level, _) in &self.coefficients {
+            for (v, u, level, _) in self.coefficients.iter().filter(|(v, u, ..)| *v < n && *u < n) {
                 terms[*u] += down(*v, i) * level;
             }
             let mut terms = terms.map(|t| i64::from(rounded(t * q8, 17 + k) as i32).clamp(-most, most - 1));
             terms[0] = rounded(11585 * terms[0], 14);
             for j in 0..n {
-                let sum: i64 = (0..16).map(|u| cosine((2 * j + 1) * u) * terms[u]).sum();
+                let sum: i64 = (0..n.min(16)).map(|u| cosine((2 * j + 1) * u) * terms[u]).sum();
                 values.push(self.whole + rounded(sum, 11));
             }
         }
         values
     }
 
-    /// The transform at row `i` and column `j`.
-    fn pixel(&self, i: usize, j: usize) -> f64 {
-        let n = self.n as f64;
+    /// The transform at row `i` and column `j`, drawn with `side` pixels a side.
+    fn pixel(&self, i: usize, j: usize, side: usize) -> f64 {
+        let n = side as f64;
         let wave = |k: usize, i: usize| {
             let scale = if k == 0 { 0.5_f64.sqrt() } else { 1.0 };
             scale * (PI * (2 * i + 1) as f64 * k as f64 / (2.0 * n)).cos()
         };
-        self.coefficients.iter().map(|(v, u, _, value)| 2.0 / n * value * wave(*v, i) * wave(*u, j)).sum()
+        let there = self.coefficients.iter().filter(|(v, u, ..)| *v < side && *u < side);
+        there.map(|(v, u, _, value)| 2.0 / self.n as f64 * value * wave(*v, i) * wave(*u, j)).sum()
     }
 
-    /// By how much mean and transform are off in column `j` where they are computed as the format has it: the
+    /// By how much mean and transform, drawn with `side` pixels a side, are off in column `j` where they are computed as the format has it: the
     /// mean of the edges and the steps by `2^-8` each; each cosine by `2^-15`, a column's term by `2^-5`, the
     /// first of them twice, the sum by `2^-8`.
-    fn off(&self, j: usize) -> f64 {
+    fn off(&self, j: usize, side: usize) -> f64 {
         let n = self.n as f64;
         let (table, term) = (0.5_f64.powi(15), 1.0 / 32.0);
         let mut off = if self.coefficients.is_empty() { 2.0 * HALF_BIT } else { 3.0 * HALF_BIT };
-        for u in 0..16 {
-            let column = self.coefficients.iter().filter(|(_, of, ..)| *of == u);
+        for u in 0..side.min(16) {
+            let column = self.coefficients.iter().filter(|(v, of, ..)| *of == u && *v < side);
             let largest = column.map(|(.., value)| 2.0 / n * value.abs()).sum::<f64>();
             if largest == 0.0 {
                 continue;
@@ -428,7 +459,7 @@ impl Leaf {
             if u == 0 {
                 column_off = column_off * 0.5_f64.sqrt() + largest * table + term;
             }
-            let wave = (PI * ((2 * j + 1) * u) as f64 / (2.0 * n)).cos().abs();
+            let wave = (PI * ((2 * j + 1) * u) as f64 / (2 * side) as f64).cos().abs();
             off += (wave + table) * column_off + largest * table;
         }
         off
@@ -440,6 +471,14 @@ impl Leaf {
 /// # Panics
 /// For any other bytes.
 pub fn decode(file: &[u8]) -> Decoded {
+    decode_scaled(file, 0)
+}
+
+/// The same `2^scale` times as large, from -2 to 2.
+///
+/// # Panics
+/// For any other bytes.
+pub fn decode_scaled(file: &[u8], scale: i32) -> Decoded {
     assert_eq!(&file[..5], b"ATFI\x01");
     let pair = |at: usize| usize::from(file[at]) + 256 * usize::from(file[at + 1]);
     let flags = file[5];
@@ -458,18 +497,24 @@ pub fn decode(file: &[u8]) -> Decoded {
             let across = width.div_ceil(largest) * largest;
             let all = across * height.div_ceil(largest) * largest;
             let start = if plane == 0 { 0.0 } else { (peak + 1.0) / 2.0 };
+            let drawn = |v: usize| ((v << 2) + (1 << (2 - scale)) - 1) >> (2 - scale);
+            let (wide, high) = (drawn(width), drawn(height));
             let q8 = if plane == 0 { q8 } else { (q8 * chroma / 16).clamp(1, (511 << 23) >> 4) };
             Plane {
                 width,
                 height,
+                scale,
+                wide,
+                high,
+                window: (profile == 0).then_some(reach * 8 * largest / 32),
                 largest,
                 chroma: usize::from(plane > 0),
                 q: q8 as f64 / 256.0,
                 q8: q8 as i64,
                 peak,
-                samples: vec![start; width * height],
-                exact: vec![start as i64; width * height],
-                off: vec![0.0; width * height],
+                samples: vec![start; wide * high],
+                exact: vec![start as i64; wide * high],
+                off: vec![0.0; wide * high],
                 base: vec![0; all],
                 seen: vec![None; all],
                 settled: vec![false; all / 16],
@@ -502,7 +547,7 @@ pub fn decode(file: &[u8]) -> Decoded {
         leaves: planes.first().map(|plane| plane.leaves.clone()).unwrap_or_default(),
         exact: planes.iter().map(|plane| plane.exact.clone()).collect(),
         off: planes.iter().map(|plane| plane.off.clone()).collect(),
-        planes: planes.into_iter().map(|plane| (plane.width, plane.height, plane.samples)).collect(),
+        planes: planes.into_iter().map(|plane| (plane.wide, plane.high, plane.samples)).collect(),
         peak,
     }
 }
