@@ -1,18 +1,23 @@
-//! `cargo xtask fuzz-codec`: small streams, most of which decode whole, until as many were tried as asked
+//! `cargo xtask fuzz-codec`: small streams, many of which decode whole, until as many were tried as asked
 //! for. A panic, an overflow in a build with checks, a decoder that reads on for ever, and sweeps that show
-//! something else where they keep leaves are faults; so is, in one whole stream of 64, a sample that is not
-//! the reference's.
+//! something else where they keep leaves are faults; so is, in each sixteenth stream as it was made, a sample
+//! that is not the reference's.
 //!
-//! The streams are those of `tests/streams.rs`: bytes are changed in most of them.
+//! The streams are those of `tests/streams.rs`. Each is decoded as it is, then again and again with other bytes
+//! changed, at another scale, and with another checksum, so that the changed bins are read. An execution is one
+//! stream decoded, of profiles iterated and pure by two decoders. Memory is lent once.
 
-use std::time::Instant;
+use std::hint::black_box;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
-use anyhow::{Result, ensure};
+use anyhow::{Context as _, Result, ensure};
 use attractor::Error;
-use attractor::codec::{Profile, Sample, open};
+use attractor::codec::shared::crc32;
+use attractor::codec::{Opened, Part, Planes, Profile, Sample, open};
 use attractor::plane::Field as _;
-use attractor_reference::codec::decode;
-use attractor_tests::streams::{Random, stream};
+use attractor_reference::codec::decode_scaled;
+use attractor_tests::streams::{Random, stream_of};
 use clap::Args;
 
 #[derive(Debug, Args)]
@@ -23,35 +28,131 @@ pub(crate) struct Options {
     /// Of the coins
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// How many threads; 0 for as many as there are cores
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+}
+
+/// How often each stream that was made is decoded.
+const TRIES: u64 = 32;
+/// Of as many streams that were made one is compared with the reference.
+const COMPARED: u64 = 16;
+/// Samples that a decoder may borrow: 16 a pixel of the largest, of three planes, and leaves beyond.
+const MEMORY: usize = 1 << 17;
+
+/// What came of how many.
+#[derive(Debug, Default)]
+struct Tally {
+    whole: u64,
+    compared: u64,
+    refused: std::collections::BTreeMap<&'static str, u64>,
 }
 
 pub(crate) fn run(options: &Options) -> Result<bool> {
-    let mut random = Random::new(options.seed);
-    let start = Instant::now();
-    let (mut whole, mut refused) = (0_u64, std::collections::BTreeMap::<&str, u64>::new());
-    let (mut memory, mut deep) = (vec![0_u8; 1 << 18], vec![0_u16; 1 << 18]);
-    for execution in 0..options.executions {
-        let compare = execution % 64 == 0;
-        let bytes = stream(&mut random, false)?;
-        let scale = if compare { 0 } else { random.below(5) as i32 - 2 };
-        let beyond = random.below(6) * random.below(200);
-        let result = match open(bytes.iter().copied()) {
-            Ok(opened) if opened.header().deep => decoded(&bytes, scale, beyond, compare, &mut deep),
-            Ok(_) => decoded(&bytes, scale, beyond, compare, &mut memory),
-            Err(error) => Err(error),
+    let threads = match options.threads {
+        0 => std::thread::available_parallelism()?.get(),
+        threads => threads,
+    };
+    let (done, start) = (AtomicU64::new(0), Instant::now());
+    let shares = std::thread::scope(|scope| {
+        let share = |thread| {
+            let (share, done) = (options.executions.div_ceil(threads as u64), &done);
+            scope.spawn(move || fuzz(Random::new(options.seed << 8 | thread as u64), share, done))
         };
-        match result {
-            Ok(()) => whole += 1,
-            Err(error) => *refused.entry(name(&error)).or_default() += 1,
+        let shares: Vec<_> = (0..threads).map(share).collect();
+        let mut said = start;
+        while !shares.iter().all(|share| share.is_finished()) {
+            std::thread::sleep(Duration::from_millis(100));
+            if said.elapsed() > Duration::from_secs(60) {
+                said = Instant::now();
+                eprintln!("{} after {:.0} s", done.load(Ordering::Relaxed), start.elapsed().as_secs_f64());
+            }
+        }
+        shares.into_iter().map(|share| share.join()).collect::<Vec<_>>()
+    });
+    let mut all = Tally::default();
+    for share in shares {
+        let share = share.ok().context("a decoder panicked")??;
+        (all.whole, all.compared) = (all.whole + share.whole, all.compared + share.compared);
+        for (name, count) in share.refused {
+            *all.refused.entry(name).or_default() += count;
         }
     }
-    let seconds = start.elapsed().as_secs_f64();
+    let (executions, seconds) = (done.load(Ordering::Relaxed), start.elapsed().as_secs_f64());
     println!(
-        "{} executions in {seconds:.1} s, seed {}: {whole} decoded whole, refused {refused:?}",
-        options.executions, options.seed
+        "{executions} executions in {seconds:.1} s, {:.0} a second, {threads} threads, seed {}: {} decoded whole, {} \
+         compared with the reference, refused {:?}",
+        executions as f64 / seconds,
+        options.seed,
+        all.whole,
+        all.compared,
+        all.refused
     );
-    ensure!(whole * 4 > options.executions && refused.len() > 2, "the streams reach too little");
+    ensure!(all.whole * 4 > executions && all.refused.len() > 2, "the streams reach too little");
     Ok(true)
+}
+
+fn fuzz(mut random: Random, executions: u64, done: &AtomicU64) -> Result<Tally> {
+    let mut tally = Tally::default();
+    let (mut small, mut deep) = ([(); 2].map(|()| vec![0_u8; MEMORY]), [(); 2].map(|()| vec![0_u16; MEMORY]));
+    let (mut bytes, mut made, mut tried) = (Vec::new(), 0, 0);
+    while tried < executions {
+        let compare = made % COMPARED == 0;
+        // small ones come through more often
+        let side = [12, 24, 48][random.below(3)];
+        let whole = stream_of(&mut random, compare, side)?;
+        made += 1;
+        for again in 0..TRIES {
+            bytes.clone_from(&whole);
+            if again > 0 {
+                change(&mut random, &mut bytes);
+            }
+            let scale = random.below(5) as i32 - 2;
+            let beyond = random.below(6) * random.below(200);
+            let compare = compare && again == 0;
+            let opened = open(bytes.iter().copied());
+            let result = opened.and_then(|opened| match opened.header().deep {
+                // what a changed header asks for beyond that is not lent
+                _ if opened.samples(scale) > MEMORY => {
+                    Err(Error::BufferLength { what: "samples", given: MEMORY, needed: opened.samples(scale) })
+                }
+                true => decoded(opened, scale, beyond, compare.then_some(&bytes), &mut deep),
+                false => decoded(opened, scale, beyond, compare.then_some(&bytes), &mut small),
+            });
+            tally.compared += u64::from(compare);
+            match result {
+                Ok(()) => tally.whole += 1,
+                Err(error) => *tally.refused.entry(name(&error)).or_default() += 1,
+            }
+        }
+        tried += TRIES;
+        done.fetch_add(TRIES, Ordering::Relaxed);
+    }
+    Ok(tally)
+}
+
+/// Changes up to three bytes or bits of the payload, seldom one of the header; most checksums are made right
+/// again.
+fn change(random: &mut Random, bytes: &mut Vec<u8>) {
+    let end = bytes.len().saturating_sub(4);
+    // magic, version and size stay but once in a while
+    let start = if random.below(16) == 0 { random.below(10) } else { 10 };
+    for _ in 0..=random.below(3) {
+        // late changes leave more of the picture as it was
+        let at = start + random.below((end - start.min(end)).max(1));
+        if let Some(byte) = bytes.get_mut(at) {
+            *byte = if random.below(2) == 0 { *byte ^ 1 << random.below(8) } else { random.bits() as u8 };
+        }
+    }
+    match random.below(16) {
+        0 => bytes.truncate(random.below(bytes.len().max(1))),
+        1 => {}
+        _ => {
+            let stated = crc32(&bytes[..end]);
+            bytes.truncate(end);
+            bytes.extend(stated.to_le_bytes());
+        }
+    }
 }
 
 fn name(error: &Error) -> &'static str {
@@ -67,48 +168,59 @@ fn name(error: &Error) -> &'static str {
 }
 
 /// All sweeps leave the same picture whether there is memory for leaves or not: this much, or little. The
-/// picture is the reference's, if that is asked for.
-fn decoded<S: Sample + Default + PartialEq>(
-    bytes: &[u8],
+/// picture is the reference's of these bytes, if there are any.
+fn decoded<S: Sample + PartialEq>(
+    opened: Opened<impl Iterator<Item = u8> + Clone>,
     scale: i32,
     beyond: usize,
-    compare: bool,
-    memory: &mut [S],
+    compare: Option<&Vec<u8>>,
+    [memory, other]: &mut [Vec<S>; 2],
 ) -> Result<(), Error> {
-    let opened = open(bytes.iter().copied())?;
     let header = *opened.header();
-    let mut rows: Vec<Vec<[S; 3]>> = Vec::new();
+    let (mut samples, halved) = (Vec::new(), usize::from(header.planes == Planes::ColourHalved));
+    let mut show = |part: Part<'_, S>| {
+        let size = part.size();
+        for y in 0..size.height {
+            match compare {
+                Some(_) => samples.extend(part.row(y, 0..size.width)),
+                None => {
+                    black_box(part.at(y % size.width, y));
+                }
+            }
+        }
+    };
+    let width;
     if header.profile == Profile::Streaming {
         let mut stream = opened.stream(scale, memory)?;
-        let width = stream.size().width;
+        width = stream.size().width as usize;
         while let Some(band) = stream.next_band()? {
-            rows.extend((0..band.size().height).map(|y| band.row(y, 0..width).collect()));
+            show(band);
         }
     } else {
         let needed = opened.samples(scale);
-        let mut lean = vec![S::default(); needed];
-        let mut read = opened.clone().sweeps(scale, &mut lean)?;
-        let end = memory.len().min(needed + beyond);
-        let mut kept = opened.sweeps(scale, &mut memory[..end])?;
+        let mut read = opened.clone().sweeps(scale, &mut memory[..needed])?;
+        let end = other.len().min(needed + beyond);
+        let mut kept = opened.sweeps(scale, &mut other[..end])?;
+        width = read.size().width as usize;
         for _ in 0..header.reach {
             let (one, other) = (read.sweep(), kept.sweep());
-            assert_eq!(one, other, "{bytes:02x?}");
+            assert_eq!(one, other, "{header:?}, 2^{scale}, {beyond} samples beyond");
             one?;
-            let size = read.size();
-            rows = (0..size.height).map(|y| read.row(y, 0..size.width).collect()).collect();
-            let same = |(y, row): (u32, &Vec<[S; 3]>)| kept.row(y, 0..size.width).eq(row.iter().copied());
-            assert!((0..).zip(&rows).all(same), "{bytes:02x?}, {beyond} samples beyond");
+            let (one, other) = (read.picture(), kept.picture());
+            let same = |y| one.row(y, 0..width as u32).eq(other.row(y, 0..width as u32));
+            assert!((0..one.size().height).all(same), "{header:?}, 2^{scale}, {beyond} samples beyond");
         }
+        show(read.picture());
     }
-    if compare {
-        for (plane, (exact, (width, height, _))) in
-            decode(bytes).exact.iter().zip(&decode(bytes).planes).enumerate()
-        {
-            let halved = usize::from(*width < rows[0].len() || *height < rows.len());
-            let exact = |x: usize, y: usize| exact[(y >> halved) * width + (x >> halved)];
-            let same = |x: usize, y: usize| i64::from(rows[y][x][plane].number()) == exact(x, y);
-            let all = (0..rows.len()).all(|y| (0..rows[0].len()).all(|x| same(x, y)));
-            assert!(all, "{bytes:02x?}: plane {plane}");
+    let Some(bytes) = compare else { return Ok(()) };
+    let expected = decode_scaled(bytes, scale);
+    for (plane, (exact, (wide, high, _))) in expected.exact.iter().zip(&expected.planes).enumerate() {
+        let halved = if plane == 0 { 0 } else { halved };
+        for (i, sample) in samples.iter().enumerate() {
+            // chroma that is halved is rounded up twice
+            let (x, y) = ((i % width >> halved).min(wide - 1), (i / width >> halved).min(high - 1));
+            let same = i64::from(sample[plane].number()) == exact[y * wide + x];
+            assert!(same, "{bytes:02x?}, 2^{scale}: ({x}, {y}) of plane {plane}");
         }
     }
     Ok(())

@@ -59,7 +59,9 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
             "image | bits a pixel | all | without domains | without transform | \
             without split | maps alone | bytes that adaptive models save"
         }
-        Options { decoding: true, .. } => "image | sweeps 1 to 6 | twice the size | nearest pixel",
+        Options { decoding: true, .. } => {
+            "image | sweeps 1 to 6 | twice the size | nearest pixel | cubic | not encoded: nearest pixel | cubic"
+        }
         _ => {
             "image | bits a pixel | streaming | iterated | `--effort fast` | libjpeg, optimised | WebP -m6 | \
             streaming over libjpeg | bytes of the window"
@@ -167,8 +169,9 @@ fn decoding(own: &Own<'_>, name: &str, grey: &Grey) -> Result<()> {
     own.encode(["--bpp", "0.5"], &[])?;
     let (one, two) = (own.decode(&[])?, own.decode(&["--scale", "2"])?);
     let whole = grey.part(2 * half.width, 2 * half.height);
-    let [two, nearest] = [two.samples, one.nearest().samples].map(|samples| whole.likeness(&samples).psnr);
-    println!("| {name} | {} | {two:.2} dB | {nearest:.2} dB |", sweeps.join(" / "));
+    let others = [two, one.nearest(), one.cubic(), half.nearest(), half.cubic()];
+    let like = others.map(|other| format!("{:.2} dB", whole.likeness(&other.samples).psnr));
+    println!("| {name} | {} | {} |", sweeps.join(" / "), like.join(" | "));
     Ok(())
 }
 
