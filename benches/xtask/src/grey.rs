@@ -107,15 +107,21 @@ impl Grey {
         let along = |samples: &[f64], n: usize, step: usize, first: usize, k: usize| {
             let (centre, side) = (k as isize / 2, if k.is_multiple_of(2) { -1 } else { 1 });
             let at = |off: isize| (centre + side * off).clamp(0, n as isize - 1) as usize;
-            let terms = weights.iter().zip(-1..).map(|(weight, off)| weight * samples[first + step * at(off)]);
+            let terms =
+                weights.iter().zip(-1..).map(|(weight, off)| weight * samples[first + step * at(off)]);
             terms.sum::<f64>()
         };
         let samples: Vec<f64> = self.samples.iter().map(|sample| f64::from(*sample)).collect();
         let wide: Vec<f64> = (0..2 * width * height)
             .map(|i| along(&samples, width, 1, i / (2 * width) * width, i % (2 * width)))
             .collect();
-        let high = (0..4 * width * height).map(|i| along(&wide, height, 2 * width, i % (2 * width), i / (2 * width)));
-        Self { width: 2 * width, height: 2 * height, samples: high.map(|v| (v + 0.5).clamp(0.0, 255.0) as u8).collect() }
+        let high = (0..4 * width * height)
+            .map(|i| along(&wide, height, 2 * width, i % (2 * width), i / (2 * width)));
+        Self {
+            width: 2 * width,
+            height: 2 * height,
+            samples: high.map(|v| (v + 0.5).clamp(0.0, 255.0) as u8).collect(),
+        }
     }
 
     /// Each sample twice as wide and high.

@@ -57,7 +57,7 @@ impl<'a, S: Sample> Plane<'a, S> {
             let map = Unsettled { x, y, size, mean, column, row, isometry, contrast };
             let settled = self.settled.has(2 * column, 2 * row, 2 << size);
             if settled || self.done > 0 {
-                source = self.source(&map);
+                source = Some(self.source(&map));
             }
             unsettled = (!settled).then_some(map);
         }
@@ -84,7 +84,7 @@ impl<'a, S: Sample> Plane<'a, S> {
     pub(super) fn redraw(&mut self, levels: &Levels, map: &Unsettled) -> bool {
         let Unsettled { x, y, size, mean, column, row, .. } = *map;
         let settled = self.settled.has(2 * column, 2 * row, 2 << size);
-        self.fill(levels, [x, y, size], mean, self.source(map), false);
+        self.fill(levels, [x, y, size], mean, Some(self.source(map)), false);
         if settled {
             self.settled.add(x, y, 1 << size);
         }
@@ -98,8 +98,9 @@ impl<'a, S: Sample> Plane<'a, S> {
             return false;
         };
         let (contrast, isometry) = (domain.contrast(), domain.isometry);
-        let source = self.source(&Unsettled { x, y, size, mean: 0, column, row, isometry, contrast });
-        source.map(|(source, _)| source.copied(self.shape.drawn(size), into)).is_some()
+        let map = Unsettled { x, y, size, mean: 0, column, row, isometry, contrast };
+        self.source(&map).0.copied(self.shape.drawn(size), into);
+        true
     }
 
     /// What a leaf leaves for later ones without its pixels: for an encoder.
@@ -239,30 +240,25 @@ impl<'a, S: Sample> Plane<'a, S> {
         }
     }
 
-    /// Where the samples of a domain are, and the contrast; none where a small scale leaves no room.
+    /// Where the samples of a domain are, and the contrast. At a small scale its place is rounded down: as it
+    /// lies in the halved picture, what is drawn of it does as well, and where it does not touch its leaf, whose
+    /// place is whole there, that does not either.
     #[inline(never)]
-    fn source(&self, map: &Unsettled) -> Option<(Source<'a, S>, i32)> {
-        let Unsettled { size, column, row, isometry, contrast, .. } = *map;
+    fn source(&self, map: &Unsettled) -> (Source<'a, S>, i32) {
+        let Unsettled { column, row, isometry, contrast, .. } = *map;
         let shape = &self.shape;
-        let drawn = shape.drawn(size);
-        let m = 1_u32 << drawn;
         let columns = shape.columns();
-        let width = columns >> 1;
-        let windowed = shape.window.is_some();
-        let rows = if windowed { shape.scaled(shape.half_rows()) } else { shape.rows() >> 1 };
-        if m > width || m > rows {
-            return None;
-        }
-        let y = if windowed { (row as i32 - self.half_top).max(0) as u32 } else { row };
-        let (px, py) = (shape.scaled(column).min(width - m), shape.scaled(y).min(rows - m));
-        let source = if windowed {
-            let start = self.half_row(py) * width + px;
-            Source { samples: self.half, start, down: width, lower: 0, isometry }
+        let px = shape.scaled(column);
+        let source = if shape.window.is_some() {
+            let y = shape.scaled((row as i32 - self.half_top).max(0) as u32);
+            let down = columns >> 1;
+            Source { samples: self.half, start: self.half_row(y) * down + px, down, lower: 0, isometry }
         } else {
             let down = 2 * columns;
-            Source { samples: self.picture, start: py * down + 2 * px, down, lower: columns, isometry }
+            let start = shape.scaled(row) * down + 2 * px;
+            Source { samples: self.picture, start, down, lower: columns, isometry }
         };
-        Some((source, contrast))
+        (source, contrast)
     }
 }
 

@@ -126,6 +126,7 @@ impl<'a, S: Sample> Kept<'a, S> {
         self.end = self.end.saturating_add(1);
     }
 
+    #[inline(never)]
     fn push(&mut self, mut number: u32) {
         while number >= 128 {
             self.byte(S::cut((number & 127 | 128) as i32));
@@ -135,6 +136,7 @@ impl<'a, S: Sample> Kept<'a, S> {
     }
 
     /// The number at a place, and the place behind it.
+    #[inline(never)]
     fn number(&self, at: &mut u32) -> u32 {
         let (mut number, mut shift) = (0, 0);
         loop {

@@ -6,6 +6,7 @@ use super::header::Profile;
 use super::leaf::{Leaf, Setting};
 use super::opened::Opened;
 use super::planes::{BAND, Planes};
+use super::range_decoder::RangeDecoder;
 use super::sample::Sample;
 use crate::Error;
 
@@ -24,7 +25,8 @@ impl<I: Iterator<Item = u8>> Opened<I> {
         self.checked::<S>(self.header().profile == Profile::Streaming, 0, memory.len())?;
         let (header, crc, source) = self.into_parts();
         let mut planes = Planes::new(header, 0, &mut Cell::from_mut(memory).as_slice_of_cells());
-        let mut decoder = planes.decoder(source, crc);
+        let mut decoder = RangeDecoder::new(source, header.payload, crc);
+        decoder.begin();
         let mut row = 0;
         while row < header.size.height {
             let mut shown = |plane, leaf: &_, setting: &_, at, _| seen(plane, leaf, setting, at);

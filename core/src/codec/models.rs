@@ -15,6 +15,8 @@ pub struct Model(u16);
 const COUNTED: u16 = 6;
 
 impl Model {
+    /// Memory before a model is in it: zeros, which need no copy.
+    pub(super) const BLANK: Self = Self(0);
     /// Nothing known: 1/2.
     pub const NEW: Self = Self(0x8000);
 

@@ -4,7 +4,6 @@ use core::cell::Cell;
 
 use embedded_graphics_core::geometry::Size;
 
-use super::crc::Crc;
 use super::header::{Header, WHAT};
 use super::kept::{Kept, Unsettled};
 use super::leaf::{Leaf, Setting};
@@ -81,11 +80,6 @@ impl<'a, S: Sample> Planes<'a, S> {
             Some(stated) if stated == computed => Ok(()),
             Some(stated) => Err(Error::Checksum { what: WHAT, stated, computed }),
         }
-    }
-
-    /// A decoder at the beginning of the payload.
-    pub(super) fn decoder<I: Iterator<Item = u8>>(&self, source: I, crc: Crc) -> RangeDecoder<I> {
-        RangeDecoder::new(source, self.header.payload, crc)
     }
 
     /// The header.

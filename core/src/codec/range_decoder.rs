@@ -25,15 +25,21 @@ pub(super) struct RangeDecoder<I> {
 }
 
 impl<I: Iterator<Item = u8>> RangeDecoder<I> {
-    /// A payload of so many bytes, of which none has been read.
-    pub(super) fn new(source: I, payload: u32, crc: Crc) -> Self {
-        let models = [Model::NEW; COUNT];
-        let mut this =
-            Self { source, range: u32::MAX, code: 0, payload, left: payload, ended: false, crc, models };
+    /// A payload of so many bytes, of which none has been read. It must be told to [`begin`](Self::begin): what
+    /// changes it before it lies where it stays makes a compiler keep its models twice on the stack.
+    #[inline(always)]
+    pub(super) const fn new(source: I, payload: u32, crc: Crc) -> Self {
+        let models = [Model::BLANK; COUNT];
+        Self { source, range: u32::MAX, code: 0, payload, left: payload, ended: false, crc, models }
+    }
+
+    /// Reads what the first bin is found by; no model knows anything.
+    #[inline(never)]
+    pub(super) fn begin(&mut self) {
+        self.models.fill(Model::NEW);
         for _ in 0..4 {
-            this.code = this.code << 8 | this.byte();
+            self.code = self.code << 8 | self.byte();
         }
-        this
     }
 
     #[inline(never)]
@@ -171,6 +177,7 @@ mod tests {
         let all = number.to_be_bytes();
         let source = all[16 - bytes..].iter().copied();
         let mut decoder = RangeDecoder::new(source, bytes as u32, Crc::NEW);
+        decoder.begin();
         let mut hear = |bin: &Option<usize>| match bin {
             Some(context) => decoder.bin(*context, false),
             None => decoder.raw(1, 0) == 1,

@@ -49,7 +49,7 @@ impl<I: Iterator<Item = u8>> Opened<I> {
         self.checked::<S>(true, scale, memory.len())?;
         let (header, crc, source) = self.into_parts();
         let planes = Planes::new(header, scale, &mut memory);
-        let decoder = planes.decoder(source, crc);
+        let decoder = RangeDecoder::new(source, header.payload, crc);
         Ok(Stream { planes, decoder, next: 0, stated: None, over: false })
     }
 }
@@ -68,6 +68,9 @@ impl<'a, S: Sample, I: Iterator<Item = u8>> Stream<'a, S, I> {
     /// bytes of the payload are left over, [`Error::Checksum`].
     pub fn next_band(&mut self) -> Result<Option<Part<'a, S>>, Error> {
         if !self.over {
+            if self.next == 0 {
+                self.decoder.begin();
+            }
             if self.next >= self.planes.header().size.height {
                 self.stated = Planes::<S>::end(&mut self.decoder);
             } else if self.planes.decode(self.next, &mut self.decoder, 0, |_, _, _, _, _| {}) {

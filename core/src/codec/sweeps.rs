@@ -16,6 +16,7 @@ use super::crc::Crc;
 use super::kept::Kept;
 use super::opened::Opened;
 use super::planes::{BAND, Part, Planes};
+use super::range_decoder::RangeDecoder;
 use super::sample::Sample;
 use crate::Error;
 use crate::plane::Field;
@@ -45,6 +46,8 @@ impl<I: Iterator<Item = u8> + Clone> Opened<I> {
     ///
     /// # Errors
     /// As [`Opened::stream`].
+    // apart: what it moves is not on the stack in a sweep
+    #[inline(never)]
     pub fn sweeps<S: Sample>(self, scale: i32, memory: &mut [S]) -> Result<Sweeps<'_, S, I>, Error> {
         self.checked::<S>(false, scale, memory.len())?;
         let (header, crc, source) = self.into_parts();
@@ -74,7 +77,9 @@ impl<'a, S: Sample, I: Iterator<Item = u8> + Clone> Sweeps<'a, S, I> {
     /// A sweep over the stream, which keeps what it leaves to the next.
     #[inline(never)]
     fn read(&mut self) -> Result<(), Error> {
-        let mut decoder = self.planes.decoder(self.source.clone(), self.crc);
+        let payload = self.planes.header().payload;
+        let mut decoder = RangeDecoder::new(self.source.clone(), payload, self.crc);
+        decoder.begin();
         let kept = &mut self.kept;
         kept.clear();
         let mut row = 0;

@@ -286,19 +286,15 @@ impl Plane {
         (v << 2) >> (2 - self.scale)
     }
 
-    /// Where a domain lies in the halved picture as it is drawn; none where it touches its leaf there.
-    fn drawn_place(&self, leaf: &Leaf, px: usize, py: usize) -> Option<(usize, usize)> {
-        // the rows of a window count from its first
+    /// Where a domain lies in the halved picture as it is drawn: rows of a window count from its first.
+    fn drawn_place(&self, leaf: &Leaf, px: usize, py: usize) -> (usize, usize) {
         let band = leaf.y / self.largest * self.largest;
         let above = self.window.map_or(0, |window| window / 2);
         let py = match self.window {
             None => self.scaled(py),
             Some(_) => self.scaled(band / 2) + self.scaled(py + above - band / 2) - self.scaled(above),
         };
-        let (px, m) = (self.scaled(px), self.scaled(leaf.n));
-        let apart = |of: usize, from: usize| 2 * (from + m) <= of || 2 * from >= of + m;
-        let free = apart(self.scaled(leaf.x), px) || apart(self.scaled(leaf.y), py);
-        (free || self.window.is_some()).then_some((px, py))
+        (self.scaled(px), py)
     }
 
     /// Draws a leaf, with its domain or as if it had none.
@@ -307,10 +303,8 @@ impl Plane {
         let values = leaf.values(self.q8, self.peak as i64, n);
         // what is added, by how much that is off, and the same in the format's 2^-7
         let mut copy = vec![(0.0, 0.0, 0); n * n];
-        let domain = leaf.domain.filter(|_| with_domain).and_then(|(px, py, isometry, contrast)| {
-            self.drawn_place(leaf, px, py).map(|(px, py)| (px, py, isometry, contrast))
-        });
-        if let Some((px, py, isometry, contrast)) = domain {
+        if let Some((px, py, isometry, contrast)) = leaf.domain.filter(|_| with_domain) {
+            let (px, py) = self.drawn_place(leaf, px, py);
             let square: Vec<_> = (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).collect();
             let (mut sum, mut off, mut whole) = (0.0, 0.0, 0);
             for (d, e, exact) in &square {
