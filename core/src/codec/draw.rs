@@ -12,10 +12,11 @@ use super::area::Area;
 use super::domain::Source;
 use super::kept::Unsettled;
 use super::leaf::{Domain, Leaf};
+use super::levels::{FREQUENCIES, Levels};
 use super::plane::{Plane, rounded};
 use super::sample::Sample;
 use super::shape::Place;
-use super::transform::{FREQUENCIES, Inverse, Levels, Term, pixels};
+use super::transform::{Inverse, Term, pixels};
 
 impl<'a, S: Sample> Plane<'a, S> {
     /// A leaf's pixels, and what later leaves need to know of it. False if its domain may not lie there.

@@ -14,8 +14,8 @@
 use core::cell::Cell;
 
 use super::leaf::{Leaf, scan};
+use super::levels::Levels;
 use super::sample::Sample;
-use super::transform::Levels;
 
 /// A leaf without its coefficients, as a sweep draws it that has not read it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

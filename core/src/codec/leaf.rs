@@ -4,8 +4,8 @@
 //! stream is read without decoding it.
 
 use super::context::{self, NUMBER};
+use super::levels::Levels;
 use super::models::{Coder, number, tree};
-use super::transform::Levels;
 
 /// A domain: a square twice as large as the leaf, from which it copies what its transform does not say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -22,7 +22,9 @@ fn main() -> ! {
 
 fn draw() -> Result<(), attractor::Error> {
     let mut memory = [0_u8; 10_240];
-    let mut sweeps = open(bb(ITERATED).iter().copied())?.sweeps(bb(0), &mut memory)?;
+    // where it is returned to: moved, it would be on the stack twice
+    let mut sweeps = open(bb(ITERATED).iter().copied())?.sweeps(bb(0), &mut memory);
+    let sweeps = sweeps.as_mut().map_err(|error| *error)?;
     sweeps.sweep()?;
     sweeps.finish()?;
     let picture = Picture::<_, _, Rgb565>::new(Luma(sweeps.picture()), Grey);
