@@ -221,7 +221,7 @@ fn decoded<S: Sample + PartialEq>(
         let halved = if plane == 0 { 0 } else { halved };
         for (i, sample) in samples.iter().enumerate() {
             // chroma that is halved is rounded up twice
-            let (x, y) = ((i % width >> halved).min(wide - 1), (i / width >> halved).min(high - 1));
+            let (x, y) = (((i % width) >> halved).min(wide - 1), ((i / width) >> halved).min(high - 1));
             let same = i64::from(sample[plane].number()) == exact[y * wide + x];
             assert!(same, "{bytes:02x?}, 2^{scale}: ({x}, {y}) of plane {plane}");
         }
