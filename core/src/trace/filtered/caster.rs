@@ -22,9 +22,6 @@ use crate::trace::height_field::halves::Pencil;
 use crate::trace::height_field::statistics::Uncounted;
 use crate::trace::ray_caster::{RayCaster, narrow, rounded};
 
-/// Half a pixel, 24 fractional bits.
-const HALF: i32 = 1 << 23;
-
 /// A height field seen by a camera, the normals of each pixel integrated: a [`Field`] of [`Tone`]s.
 #[derive(Debug, Clone)]
 pub struct FilteredCaster<'a> {
@@ -79,37 +76,36 @@ impl<'a> FilteredCaster<'a> {
         if x >= self.caster.size.width || y >= self.caster.size.height {
             return Found::Beyond;
         }
-        self.tone(x, y).1
+        self.tone(x, y, self.caster.direction(x, y).map(narrow)).1
     }
 
     #[inline(never)]
-    fn tone(&self, x: u32, y: u32) -> (Unit, Found) {
-        let centre = self.caster.direction(x, y);
-        let direction = centre.map(narrow);
-        let below = self.caster.offset(centre, 0, HALF);
+    fn tone(&self, x: u32, y: u32, direction: [i32; 3]) -> (Unit, Found) {
+        let [_, down] = self.edges;
+        let half = down.map(|c| c >> 1);
+        let moved = |by: fn(i32, i32) -> i32| {
+            let ([x, y, z], [a, b, c]) = (direction, half);
+            [by(x, a), by(y, b), by(z, c)]
+        };
+        let below = moved(i32::wrapping_add);
         let sampled = || (self.caster.samples(x, y), Found::Sampled);
-        let Some(hit) = self.caster.surface.first_hit(&self.pixels, &below, &mut Uncounted) else {
-            let above = self.caster.offset(centre, 0, -HALF);
-            return match self.caster.surface.leaf(&self.pixels, &above, &mut Uncounted) {
+        let surface = &self.caster.surface;
+        let Some(leaf) = surface.leaf(&self.pixels, &below, &mut Uncounted) else {
+            return match surface.leaf(&self.pixels, &moved(i32::wrapping_sub), &mut Uncounted) {
                 None => (self.caster.surroundings(x, y), Found::Beyond),
                 Some(_) => sampled(),
             };
         };
-        let [p, q, _] = [hit.normal().x, hit.normal().y, hit.normal().z].map(|c| c.to_bits().wrapping_neg());
-        let (slope, t) = ([p, q], hit.t.to_bits());
+        let [p, q, _] = surface.normal(&leaf).map(i32::wrapping_neg);
+        let (slope, t) = ([p, q], surface.middle(&self.pixels.ray(&below), &leaf).unwrap_or(leaf.span.0));
         if into(slope, below) <= 0 {
             return sampled();
         }
-        let (sight, lower) = (
-            Sight { eye: self.pixels.origin, direction },
-            Sight { eye: self.pixels.origin, direction: below },
-        );
-        let [[x0, y0, z0], [x1, y1, z1]] = [lower.at(t), sight.at(t)];
-        let rise = into(slope, [x1.wrapping_sub(x0), y1.wrapping_sub(y0), 0]) as i32;
-        let above = z1.wrapping_sub(z0).wrapping_sub(rise);
+        let sight = Sight { eye: self.pixels.origin, direction };
+        // above the plane through the point of the ray below
+        let above = ((into(slope, half) * i64::from(t)) >> 28) as i32;
         let reach = self.caster.footprint.width(t).saturating_mul(8);
-        let first: Place = sight.meet(t, slope, above, reach);
-        match self.filtered(&sight, first, reach) {
+        match self.filtered(&sight, sight.meet(t, slope, above, reach), reach) {
             Some(tone) => (tone, Found::Filtered),
             None => sampled(),
         }
@@ -130,8 +126,8 @@ impl<'a> FilteredCaster<'a> {
     }
 
     #[inline(always)]
-    fn pixel(&self, x: u32, y: u32, visible: bool) -> Tone {
-        let tone = if visible { self.tone(x, y).0 } else { self.caster.surroundings(x, y) };
+    fn pixel(&self, x: u32, y: u32, direction: [i32; 3], visible: bool) -> Tone {
+        let tone = if visible { self.tone(x, y, direction).0 } else { self.caster.surroundings(x, y) };
         rounded(tone.to_bits() as u32)
     }
 }
@@ -145,7 +141,7 @@ impl Field for FilteredCaster<'_> {
 
     fn at(&self, x: u32, y: u32) -> Tone {
         let visible = self.caster.outline.columns(y, self.caster.size.width).contains(&x);
-        self.pixel(x, y, visible)
+        self.pixel(x, y, self.caster.direction(x, y).map(narrow), visible)
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Tone> {
@@ -153,6 +149,7 @@ impl Field for FilteredCaster<'_> {
         let (y, width) = (y.min(self.caster.size.height.saturating_sub(1)), self.caster.size.width);
         let x = x.start.min(width)..x.end.min(width);
         let visible = self.caster.outline.columns(y, width);
-        along(x, move |x| self.pixel(x, y, visible.contains(&x)))
+        let directions = self.caster.directions(x, y);
+        along(directions, move |(x, direction)| self.pixel(x, y, direction, visible.contains(&x)))
     }
 }

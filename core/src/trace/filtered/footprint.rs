@@ -16,8 +16,8 @@
 use core::num::NonZeroU32;
 
 use super::ground::{Ground, Side, moved};
-use super::slopes::{Slope, Slopes};
-use crate::num::{product, reciprocal_of, rough_sqrt};
+use super::slopes::{Slope, Slopes, times};
+use crate::num::{high, product, reciprocal_of, rough_sqrt};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,21 +67,26 @@ pub(super) fn into([p, q]: Slope, [x, y, z]: [i32; 3]) -> i64 {
 }
 
 /// The reciprocal of how much a ray goes into a plane, which is seen at no flatter an angle than some 4
-/// degrees.
+/// degrees: 25 fractional bits.
 #[inline(always)]
-pub(super) fn steepness(slope: Slope, direction: [i32; 3]) -> (i32, u32) {
-    let [p, q] = slope.map(|s| i64::from(s.unsigned_abs()));
-    let least = (p + q + (1 << 24)) >> 1; // a 32nd of 28 bits
-    let steep = into(slope, direction).max(least).min(i64::from(i32::MAX));
-    reciprocal_of(NonZeroU32::new(steep as u32).unwrap_or(NonZeroU32::MIN))
+pub(super) fn steepness(slope: Slope, direction: [i32; 3]) -> i32 {
+    let ([p, q], [x, y, z]) = (slope, direction);
+    // 20 fractional bits; a 32nd of |p| + |q| + 1 at least
+    let steep = (((product(p, x) + product(q, y)) >> 32) as i32).wrapping_sub(z >> 8);
+    let least = (p.unsigned_abs().wrapping_add(q.unsigned_abs()).wrapping_add(1 << 24)) >> 9;
+    let steep = NonZeroU32::new(steep.max(least as i32) as u32).unwrap_or(NonZeroU32::MIN);
+    let (mantissa, zeros) = reciprocal_of(steep);
+    // at most 16 zeros
+    mantissa >> (17_u32.wrapping_sub(zeros) & 31)
 }
 
-/// `v / g` for a reciprocal of `g`, in a format with `bits` more than `v` over `g` has, saturated.
+/// `v / g` for a reciprocal of `g` with 25 fractional bits, in the format of `v`, saturated at half of it.
 #[inline(always)]
-pub(super) fn over(v: i64, (mantissa, zeros): (i32, u32), bits: u32) -> i32 {
-    let v = v.clamp(-(1 << 31), (1 << 31) - 1) as i32;
-    let shift = 62_u32.saturating_sub(zeros + bits);
-    (product(v, mantissa) >> (shift & 63)).clamp(-(1 << 30), 1 << 30) as i32
+pub(super) fn over(v: i32, per: i32) -> i32 {
+    let product = product(v, per);
+    let high = (product >> 32) as i32;
+    let limit = ((high >> 31) | 1) << 30;
+    if (-(1 << 23)..1 << 23).contains(&high) { (product >> 25) as i32 } else { limit }
 }
 
 impl Sight {
@@ -98,24 +103,22 @@ impl Sight {
     /// from `t`.
     #[inline(always)]
     pub(super) fn meet(&self, t: i32, slope: Slope, above: i32, reach: i32) -> Place {
-        let off = over(i64::from(above), steepness(slope, self.direction), 28);
+        let off = over(above, steepness(slope, self.direction));
         let t = t.wrapping_add(off.max(reach.wrapping_neg()).min(reach));
         let [x, y, _] = self.at(t);
         Place { t, at: [x, y], slope }
     }
 }
 
-/// A pixel's edges along the plane that its ray meets.
+/// A pixel's edges along the plane that its ray meets, saturated at ±64.
 #[inline(always)]
-pub(super) fn edges(place: &Place, sight: &Sight, steep: (i32, u32), edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
+pub(super) fn edges(place: &Place, sight: &Sight, steep: i32, edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
     let [dx, dy, _] = sight.direction;
     edges.map(|r| {
-        let along = over(into(place.slope, r), steep, 28);
-        [(r[0], dx), (r[1], dy)].map(|(r, d)| {
-            // n . r / n . d is along
-            let moved = i64::from(r) - (product(d, along) >> 28);
-            ((moved * i64::from(place.t)) >> 28).clamp(-(1 << 29), 1 << 29) as i32
-        })
+        let along = over(into(place.slope, r) as i32, steep);
+        // n . r / n . d is along
+        let moved = |r: i32, d: i32| times((r >> 4).wrapping_sub(high(d, along)), place.t);
+        [moved(r[0], dx), moved(r[1], dy)]
     })
 }
 
@@ -301,7 +304,7 @@ impl Quality {
             height: z.wrapping_sub(back(rises[0], rises[1])),
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
-            farther: [x.factor(over(i64::from(dx), steep, 26)), y.factor(over(i64::from(dy), steep, 26))],
+            farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)],
             reach,
             half,
             sides,
