@@ -17,11 +17,11 @@ use core::num::NonZeroU32;
 use super::footprint::Footprint;
 use super::ground::Ground;
 use super::slopes::{Pool, Slope, Spread, times};
-use crate::num::{Unit, Vec3, product, reciprocal_of, reciprocal_sqrt_of};
+use crate::num::{Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of};
 use crate::trace::environment::Environment;
 use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
-use crate::trace::power::{power, times as part_of};
+use crate::trace::power::{powers, times as part_of};
 
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +38,7 @@ pub(super) struct View<'a> {
 /// A normal: its length's reciprocal, and how it stands to eye and light.
 #[derive(Debug, Clone, Copy)]
 struct Facing {
-    /// `-n . d`, 24 fractional bits.
+    /// `-n . d`, 22 fractional bits.
     area: i32,
     /// `-n^ . d` and `n^ . l`.
     eye: i32,
@@ -54,10 +54,10 @@ pub(super) struct Shown {
     pub(super) highlight: i64,
 }
 
-/// `n . v`, 24 fractional bits.
+/// `n . v`, 22 fractional bits.
 #[inline(always)]
 fn dot([p, q]: Slope, [x, y, z]: [i32; 3]) -> i32 {
-    (z >> 6).wrapping_sub(((product(p, x) + product(q, y)) >> 30) as i32)
+    (z >> 8).wrapping_sub(((product(p, x) + product(q, y)) >> 32) as i32)
 }
 
 /// `a b` of numbers with 30 fractional bits.
@@ -74,8 +74,15 @@ impl Facing {
         let root = reciprocal_sqrt_of((product(p, p) + product(q, q) + (1 << 48)) as u64);
         let area = dot(slope, view.direction).wrapping_neg();
         let lit = dot(slope, view.light);
-        Self { area, eye: scaled(area, root), lit: scaled(lit, root), root }
+        Self { area, eye: cosine(area, root), lit: cosine(lit, root), root }
     }
+}
+
+/// What is no longer than a normal (22 fractional bits) over its length, 30 fractional bits, of which 28 count.
+#[inline(always)]
+fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
+    // a length of at least 1 and below 2^7: half is 24 to 30
+    high(v << (31_u32.wrapping_sub(half) & 31), mantissa) << 2
 }
 
 /// A number with 24 fractional bits over the length of a normal, 30 fractional bits.
@@ -116,7 +123,7 @@ impl<'a> View<'a> {
         let under = |x: i32, y: i32| [with([pp, pq], x, y), with([pq, qq], x, y)];
         let (along, to_light) = (under(dx, dy), under(lx, ly));
         // one deviation may not turn away
-        let area = facing.area;
+        let area = facing.area << 2;
         if area <= 0 || times(area, area) <= with(along, dx, dy) {
             return None;
         }
@@ -166,13 +173,14 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn seen(&self, points: &[Slope; 4]) -> Option<(u32, i64, i64)> {
         let (mut area, mut matt, mut highlight) = (0_u32, 0_i64, 0_i64);
-        for slope in points {
+        let (mut along, mut weights) = ([0; 4], [0; 4]);
+        for ((slope, along), weight) in points.iter().zip(&mut along).zip(&mut weights) {
             let facing = Facing::new(*slope, self);
             if facing.area <= 0 {
                 return None;
             }
             // 20 fractional bits: below 2^26
-            let weight = facing.area >> 4;
+            *weight = facing.area >> 2;
             area = area.wrapping_add(weight.unsigned_abs());
             let (a, b) = match self.finish {
                 Finish::Diffuse { .. } => (facing.lit.max(0), 0),
@@ -180,14 +188,19 @@ impl<'a> View<'a> {
                     let model = TorranceSparrow::within(roughness, reflectance);
                     (facing.lit.max(0), self.sheen(*slope, &facing, model).to_bits())
                 }
-                Finish::Phong { shininess, .. } => {
-                    let along = self.straight.saturating_add(unit_product(facing.eye, facing.lit) << 1);
-                    let along = Unit::from_bits(along.clamp(0, 1 << 30));
-                    (facing.lit.max(0), power(along, shininess).to_bits())
+                Finish::Phong { .. } => {
+                    *along = self.straight.saturating_add(unit_product(facing.eye, facing.lit) << 1);
+                    (facing.lit.max(0), 0)
                 }
                 Finish::Mirror => (self.reflection(*slope, &facing).to_bits(), 0),
             };
-            (matt, highlight) = (matt + product(a, weight), highlight + product(b, weight));
+            (matt, highlight) = (matt + product(a, *weight), highlight + product(b, *weight));
+        }
+        // of all four at once
+        if let Finish::Phong { shininess, .. } = self.finish {
+            for (shown, weight) in powers(along, shininess).into_iter().zip(weights) {
+                highlight += product(shown, weight);
+            }
         }
         Some((area, matt, highlight))
     }
