@@ -230,10 +230,22 @@ pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
     v.map(|v| (product(v, part) >> 16) as i32)
 }
 
-/// The surface over a box; none where it leaves the domain.
+/// Half of the box above which a pixel's mean plane is taken: three quarters of a pixel, of which eight are
+/// within reach.
 #[inline(always)]
-fn above([x, y]: &[Ground<'_>; 2], at: [i32; 2], [along_x, along_y]: &[Side; 2]) -> Option<Slopes> {
-    Some(Slopes { x: x.around(x.place(at[0]), along_x)?, y: y.around(y.place(at[1]), along_y)? })
+fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
+    let half = (reach >> 4) + (reach >> 5);
+    [x.side(half), y.side(half)]
+}
+
+/// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
+/// domain.
+#[inline(always)]
+fn on_mean([x, y]: &[Ground<'_>; 2], sight: &Sight, from: Place, near: &[Side; 2], reach: i32) -> Place {
+    let [px, py] = from.at;
+    let slopes = Slopes { x: x.nearest(x.place(px), &near[0]), y: y.nearest(y.place(py), &near[1]) };
+    let [_, _, z] = sight.at(from.t);
+    sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach)
 }
 
 /// The surface over the box of a pixel, and half of the box: none where it leaves the domain. The mean plane
@@ -246,14 +258,11 @@ pub(super) fn whole(
     first: Place,
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
-    let [x, y] = ground;
-    // eight pixels are within reach
-    let near = (reach >> 4) + (reach >> 5);
-    let slopes = above(ground, first.at, &[x.side(near), y.side(near)])?;
-    let [_, _, z] = sight.at(first.t);
-    let place = sight.meet(first.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach);
+    let place = on_mean(ground, sight, first, &near(ground, reach), reach);
     let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
-    Some((above(ground, place.at, &sides)?, half))
+    let [x, y] = ground;
+    let [px, py] = place.at;
+    Some((Slopes { x: x.around(x.place(px), &sides[0])?, y: y.around(y.place(py), &sides[1])? }, half))
 }
 
 impl Quality {
@@ -269,14 +278,10 @@ impl Quality {
         (reach, careful): (i32, bool),
     ) -> Option<Footprint> {
         let [x, y] = ground;
-        let whole = edges(&first, sight, steepness(first.slope, sight.direction), pixel);
-        let (_, own) = sides(ground, whole);
+        let (near, mut place) = (near(ground, reach), first);
         // the leaf where the ray comes in may lie far off the mean plane
-        let mut place = first;
         for _ in 0..if careful { 2 } else { 1 } {
-            let over_all = above(ground, place.at, &own)?;
-            let [_, _, z] = sight.at(place.t);
-            place = sight.meet(place.t, over_all.mean(), z.wrapping_sub(over_all.height()), reach);
+            place = on_mean(ground, sight, place, &near, reach);
         }
         let slope = place.slope;
         let steep = steepness(slope, sight.direction);

@@ -80,14 +80,25 @@ impl<'a> Ground<'a> {
     /// where more is.
     #[inline(always)]
     pub(super) fn around(&self, middle: i32, side: &Side) -> Option<Course> {
-        let Side { half, width } = side;
-        let (from, most) = (middle.saturating_sub(*half), WHOLE - (half << 1));
-        if from < -(half >> 1) || from > most + (half >> 1) {
+        let Side { half, .. } = *side;
+        let (from, quarter) = (middle.saturating_sub(half), half >> 1);
+        if from < -quarter || from > WHOLE - (half << 1) + quarter {
             return None;
         }
-        let from = from.max(0).min(most);
-        let to = (from + (half << 1)).min(WHOLE - 1);
-        Some(self.sums.between(&self.sums.at((from as u32) << 2), &self.sums.at((to as u32) << 2), width))
+        Some(self.beginning(from, side))
+    }
+
+    /// The same moved inside from anywhere.
+    #[inline(always)]
+    pub(super) fn nearest(&self, middle: i32, side: &Side) -> Course {
+        self.beginning(middle.saturating_sub(side.half), side)
+    }
+
+    #[inline(always)]
+    fn beginning(&self, from: i32, Side { half, width }: &Side) -> Course {
+        let from = from.max(0).min(WHOLE - 1 - (half << 1));
+        let to = from + (half << 1);
+        self.sums.between(&self.sums.at((from as u32) << 2), &self.sums.at((to as u32) << 2), width)
     }
 
     /// The value at a place, that at the nearer end outside.
