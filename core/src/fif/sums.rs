@@ -96,8 +96,8 @@ pub struct Sums<'a> {
     /// Left ends of the maps' intervals, 31 fractional bits.
     starts: &'a [u32],
     depth: u32,
-    /// How many cells and how wide, 31 fractional bits, if they are of one width.
-    even: Option<(u32, u32)>,
+    /// How many cells and how wide, as [`Sums::place`] says it, if they are of one width.
+    even: Option<(u32, i32)>,
     x0: i64,
     width: u64,
     /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits.
@@ -106,27 +106,30 @@ pub struct Sums<'a> {
     extra: [u32; 2],
 }
 
-/// The reciprocals of an interval's width: mantissas and shifts of products, 1 to 31.
+/// The reciprocals of an interval's width, for [`over`]: how far a difference is shifted up, and a factor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Width {
-    slope: (i32, u32),
-    area: (i32, u32),
-    squares: (i32, u32),
+    slope: (u32, i32),
+    area: (u32, i32),
+    squares: (u32, i32),
 }
 
-/// A mantissa with a shift up to 31.
-#[inline(always)]
-fn short(mantissa: i32, shift: u32) -> (i32, u32) {
-    let more = shift.saturating_sub(31);
-    (mantissa >> (more & 31), (shift - more).max(1))
+/// The width of a cell, 31 fractional bits, with 20 and `extra`.
+fn broad(width: u32, extra: u32) -> i32 {
+    ((width >> 11) << (extra & 15)) as i32
 }
 
-/// The low word of `v mantissa / 2^shift`, of what fits one.
+/// Shifted up by so much, or the factor down.
 #[inline(always)]
-fn over(v: i32, (mantissa, shift): (i32, u32)) -> i32 {
-    let product = product(v, mantissa);
-    let (high, low) = ((product >> 32) as u32, product as u32);
-    (low >> (shift & 31) | high << 1 << ((31 - shift) & 31)) as i32
+fn shifted(up: i32, factor: i32) -> (u32, i32) {
+    let down = up.min(0).unsigned_abs().min(31);
+    (up.max(0).min(31).unsigned_abs(), factor >> down)
+}
+
+/// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the product.
+#[inline(always)]
+fn over(v: i32, (up, factor): (u32, i32)) -> i32 {
+    high(v << (up & 31), factor)
 }
 
 impl Sums<'static> {
@@ -212,7 +215,8 @@ impl<'a> Sums<'a> {
             (exact as u32).abs_diff(*start) <= 1
         };
         let count = (needed - 1).clamp(1, u32::MAX as usize) as u32;
-        let even = (0..).zip(&fif.starts).all(even).then_some((count, (1_u32 << 31) / count));
+        let even =
+            (0..).zip(&fif.starts).all(even).then_some((count, broad((1_u32 << 31) / count, extra[0])));
         let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
         let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
         let (x0, width) = (fif.x0, fif.width);
@@ -238,7 +242,7 @@ impl<'a> Sums<'a> {
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
-        let course = self.between(&self.at(from), &self.at(to), &width);
+        let course = self.between(&self.at(from)?, &self.at(to)?, &width);
         let [slope, value] = [course.slope, course.value].map(Real::from_bits);
         let [variance, covariance] = course.spread().map(Real::from_bits);
         Some(Trend { slope, value, variance, covariance })
@@ -269,14 +273,16 @@ impl<'a> Sums<'a> {
         let (mantissa, zeros) = reciprocal_of(width);
         let (per_domain, more) = self.per_domain;
         let per_length = (product(mantissa, per_domain) >> 31) as i32;
-        let [area, squares] = self.extra.map(|extra| short(mantissa, (30 + extra).saturating_sub(zeros)));
-        Width { slope: short(per_length, 37_u32.saturating_sub(zeros + more)), area, squares }
+        // as far up as means that fit their formats allow
+        let up = |less: u32| zeros.wrapping_sub(less) as i32;
+        let [area, squares] = self.extra.map(|extra| shifted(up(extra), mantissa));
+        Width { slope: shifted(up(8).wrapping_add(more as i32), per_length), area, squares }
     }
 
     /// The two places around another, 32 fractional bits, how far it lies between them, and the cell's width,
-    /// 31.
+    /// 20 and those that areas have more.
     #[inline(always)]
-    fn place(&self, u: u32) -> Option<(&'a [Sum; 2], u32, u32)> {
+    fn place(&self, u: u32) -> Option<(&'a [Sum; 2], u32, i32)> {
         let (node, part, width) = match self.even {
             Some((count, width)) => {
                 let place = product_u(u, count);
@@ -287,31 +293,30 @@ impl<'a> Sums<'a> {
         Some((self.places.get(node..)?.first_chunk()?, part, width))
     }
 
+    #[cold]
     #[inline(never)]
-    fn uneven(&self, u: u32) -> (usize, u32, u32) {
+    fn uneven(&self, u: u32) -> (usize, u32, i32) {
         let cell = (0..self.depth).fold(Ended::WHOLE, |cell, _| cell.holding(self.starts, u, true));
         let (into, width) = (u.saturating_sub(cell.start), cell.end.saturating_sub(cell.start));
         let part = (u64::from(into) << 32).checked_div(width.into()).unwrap_or(0);
-        (cell.index, part.min(u64::from(u32::MAX)) as u32, width)
+        (cell.index, part.min(u64::from(u32::MAX)) as u32, broad(width, self.extra[0]))
     }
 
-    /// What the function has come to at a place, 32 fractional bits.
+    /// What the function has come to at a place, 32 fractional bits: there is one for each.
     #[inline(always)]
-    pub(crate) fn at(&self, u: u32) -> Sum {
-        let Some(([a, b], part, width)) = self.place(u) else { return Sum::ZERO };
+    pub(crate) fn at(&self, u: u32) -> Option<Sum> {
+        let ([a, b], part, width) = self.place(u)?;
         let half = (part >> 1) as i32;
         let rise = |a: i32, b: i32| b.wrapping_sub(a) << 1;
         let value = rise(a.value, b.value);
-        // t (1 - t) / 2 of a cell with 31 fractional bits, and its width with 20 and those that areas have
-        // more
+        // t (1 - t) / 2 of a cell with 31 fractional bits
         let bent = (high_u(part, part.wrapping_neg()) >> 2) as i32;
-        let width = ((width >> 11) << (self.extra[0] & 15)) as i32;
         let short = (product(high(value, bent), width) >> 20) as i32;
-        Sum {
+        Some(Sum {
             value: a.value.wrapping_add(high(value, half)),
             area: a.area.wrapping_add(high(rise(a.area, b.area), half)).wrapping_sub(short),
             squares: a.squares.wrapping_add(high(rise(a.squares, b.squares), half)),
-        }
+        })
     }
 
     /// The value at a place.
@@ -326,9 +331,9 @@ impl<'a> Sums<'a> {
     pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Course {
         // means of what is inside the format
         Course {
-            slope: over(b.value.wrapping_sub(a.value), width.slope),
-            value: over(b.area.wrapping_sub(a.area), width.area),
-            squares: over(b.squares.wrapping_sub(a.squares), width.squares),
+            slope: over(b.value.wrapping_sub(a.value), width.slope) << 3,
+            value: over(b.area.wrapping_sub(a.area), width.area) << 2,
+            squares: over(b.squares.wrapping_sub(a.squares), width.squares) << 2,
             middle: (a.value >> 1).wrapping_add(b.value >> 1),
         }
     }

@@ -241,11 +241,17 @@ fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
 /// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
 /// domain.
 #[inline(always)]
-fn on_mean([x, y]: &[Ground<'_>; 2], sight: &Sight, from: Place, near: &[Side; 2], reach: i32) -> Place {
+fn on_mean(
+    [x, y]: &[Ground<'_>; 2],
+    sight: &Sight,
+    from: Place,
+    near: &[Side; 2],
+    reach: i32,
+) -> Option<Place> {
     let [px, py] = from.at;
-    let slopes = Slopes { x: x.nearest(x.place(px), &near[0]), y: y.nearest(y.place(py), &near[1]) };
+    let slopes = Slopes { x: x.nearest(x.place(px), &near[0])?, y: y.nearest(y.place(py), &near[1])? };
     let [_, _, z] = sight.at(from.t);
-    sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach)
+    Some(sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach))
 }
 
 /// The surface over the box of a pixel, and half of the box: none where it leaves the domain. The mean plane
@@ -258,7 +264,7 @@ pub(super) fn whole(
     first: Place,
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
-    let place = on_mean(ground, sight, first, &near(ground, reach), reach);
+    let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
     let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
     let [x, y] = ground;
     let [px, py] = place.at;
@@ -281,7 +287,7 @@ impl Quality {
         let (near, mut place) = (near(ground, reach), first);
         // the leaf where the ray comes in may lie far off the mean plane
         for _ in 0..if careful { 2 } else { 1 } {
-            place = on_mean(ground, sight, place, &near, reach);
+            place = on_mean(ground, sight, place, &near, reach)?;
         }
         let slope = place.slope;
         let steep = steepness(slope, sight.direction);

@@ -29,7 +29,9 @@ pub(super) struct Side {
 /// A length times a factor.
 #[inline(always)]
 pub(super) fn moved(length: i32, (mantissa, shift): (i32, u32)) -> i32 {
-    (product(length, mantissa) >> (shift & 31)) as i32
+    let product = product(length, mantissa);
+    let (high, low) = ((product >> 32) as i32, product as u32);
+    high << 1 << (31_u32.wrapping_sub(shift) & 31) | (low >> (shift & 31)) as i32
 }
 
 impl<'a> Ground<'a> {
@@ -85,20 +87,21 @@ impl<'a> Ground<'a> {
         if from < -quarter || from > WHOLE - (half << 1) + quarter {
             return None;
         }
-        Some(self.beginning(from, side))
+        self.beginning(from, side)
     }
 
     /// The same moved inside from anywhere.
     #[inline(always)]
-    pub(super) fn nearest(&self, middle: i32, side: &Side) -> Course {
+    pub(super) fn nearest(&self, middle: i32, side: &Side) -> Option<Course> {
         self.beginning(middle.saturating_sub(side.half), side)
     }
 
     #[inline(always)]
-    fn beginning(&self, from: i32, Side { half, width }: &Side) -> Course {
+    fn beginning(&self, from: i32, Side { half, width }: &Side) -> Option<Course> {
         let from = from.max(0).min(WHOLE - 1 - (half << 1));
         let to = from + (half << 1);
-        self.sums.between(&self.sums.at((from as u32) << 2), &self.sums.at((to as u32) << 2), width)
+        let [from, to] = [self.sums.at((from as u32) << 2)?, self.sums.at((to as u32) << 2)?];
+        Some(self.sums.between(&from, &to, width))
     }
 
     /// The value at a place, that at the nearer end outside.
