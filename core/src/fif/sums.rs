@@ -37,6 +37,12 @@ pub struct Sum {
 impl Sum {
     /// All zero: for the memory that sums are lent.
     pub const ZERO: Self = Self { value: 0, area: 0, squares: 0 };
+
+    /// The value, 24 fractional bits.
+    #[inline(always)]
+    pub(crate) const fn value(&self) -> i32 {
+        self.value
+    }
 }
 
 /// What a function does between two places: mean slope and value, how much the slope varies, and the value
@@ -324,6 +330,21 @@ impl<'a> Sums<'a> {
     pub(crate) fn value_at(&self, u: u32) -> i32 {
         let Some(([a, b], part, _)) = self.place(u) else { return 0 };
         a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
+    }
+
+    /// The mean value from one place to another, `width` to the right or to the left, 30 fractional bits;
+    /// closer than 2^-12 of the domain that of a straight line.
+    #[inline(always)]
+    pub(crate) fn mean_between(&self, from: &Sum, to: &Sum, width: i32) -> i32 {
+        match NonZeroU32::new(width.unsigned_abs()).filter(|width| width.get() >> 18 > 0) {
+            None => (from.value >> 1).wrapping_add(to.value >> 1),
+            Some(length) => {
+                let (mantissa, zeros) = reciprocal_of(length);
+                let up = zeros.wrapping_sub(2 + self.extra[0]) as i32;
+                let mean = over(to.area.wrapping_sub(from.area), shifted(up, mantissa)) << 2;
+                if width < 0 { mean.wrapping_neg() } else { mean }
+            }
+        }
     }
 
     /// What it does between two places of this width.

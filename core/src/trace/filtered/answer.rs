@@ -16,7 +16,7 @@ use core::num::NonZeroU32;
 
 use super::footprint::Footprint;
 use super::ground::Ground;
-use super::slopes::{Pool, Slope, Spread, times};
+use super::slopes::{Slope, Spread, times};
 use crate::num::{Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of};
 use crate::trace::environment::Environment;
 use crate::trace::finish::Finish;
@@ -143,16 +143,15 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
         let mut shown = Shown::default();
-        if let Finish::Diffuse { .. } = self.finish {
-            let mut pool = Pool::new(footprint.half());
-            footprint.each(ground, |part| {
-                pool.add(&part.slopes, part.share);
-                Some(())
-            })?;
-            self.add(&pool.points()?, &mut shown)?;
-        } else {
-            footprint.each(ground, |part| self.add(&part.slopes.points(), &mut shown))?;
-        }
+        footprint.each(ground, |slopes| self.add(&slopes.points(), &mut shown))?;
+        Some(self.finished(&shown))
+    }
+
+    /// What four points show that stand for all of a pixel; none where one turns away from the eye.
+    #[inline(always)]
+    pub(super) fn shown(&self, points: &[Slope; 4]) -> Option<Unit> {
+        let mut shown = Shown::default();
+        self.add(points, &mut shown)?;
         Some(self.finished(&shown))
     }
 

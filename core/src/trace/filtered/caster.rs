@@ -10,8 +10,9 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::answer::View;
-use super::footprint::{Place, Quality, Sight, into, whole};
+use super::footprint::{Place, Quality, Sight, into, settled, whole};
 use super::ground::Ground;
+use super::outline;
 use super::slopes::Spread;
 use crate::Error;
 use crate::fif::Sums;
@@ -120,9 +121,12 @@ impl<'a> FilteredCaster<'a> {
             let (slopes, half) = whole(&self.ground, sight, self.edges, first, reach)?;
             return view().glance(ambient, &Spread::of(&slopes, half));
         }
-        let care = (reach, matches!(material, Finish::Diffuse { .. }));
-        let footprint = self.quality.footprint(&self.ground, sight, self.edges, first, care)?;
-        view().tone(&self.ground, &footprint)
+        let place = settled(&self.ground, sight, first, reach)?;
+        if let Finish::Diffuse { .. } = material {
+            let size = (reach, self.quality.columns());
+            return view().shown(&outline::spread(&self.ground, sight, self.edges, &place, size)?.points());
+        }
+        view().tone(&self.ground, &self.quality.footprint(&self.ground, sight, self.edges, &place, reach))
     }
 
     #[inline(always)]

@@ -43,6 +43,16 @@ impl Quality {
             Self::Finest => [2, 6],
         }
     }
+
+    /// Columns of an outline.
+    #[inline(always)]
+    pub(super) const fn columns(self) -> i32 {
+        match self {
+            Self::Coarse => 1,
+            Self::Fine => 3,
+            Self::Finest => 6,
+        }
+    }
 }
 
 /// A plane above the ground that a ray meets: where, and its slopes.
@@ -124,7 +134,7 @@ pub(super) fn edges(place: &Place, sight: &Sight, steep: i32, edges: [[i32; 3]; 
 
 /// The sides of the box with the variances of a parallelogram.
 #[inline(always)]
-fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
+pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
     let half = [half(a[0], b[0]), half(a[1], b[1])];
     let [x, y] = ground;
@@ -144,39 +154,16 @@ pub(super) struct Footprint {
     /// `reach`.
     farther: [(i32, u32); 2],
     reach: i32,
-    half: [i32; 2],
     sides: [Side; 2],
-    careful: bool,
-}
-
-/// A part of a footprint: the surface over its box, and the box's share of the ground.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
-    pub(super) slopes: Slopes,
-    pub(super) share: i32,
 }
 
 impl Footprint {
-    /// Half of a box along both axes.
-    pub(super) const fn half(&self) -> [i32; 2] {
-        self.half
-    }
-
     /// Where the rays of a line meet the surface: at its middle.
     #[inline(always)]
     fn line(&self, ground: &[Ground<'_>; 2], at: [i32; 2], height: i32) -> [i32; 2] {
-        let ([ax, ay], _) = self.steps[0];
         let [x, y] = ground;
-        let surface =
-            |ax: i32, ay: i32| product(x.value(at[0].wrapping_add(ax)), y.value(at[1].wrapping_add(ay)));
-        let mean = if self.careful {
-            // the mean height along it, by two points
-            let (ax, ay) = (ax >> 2, ay >> 2);
-            (surface(ax, ay) >> 1) + (surface(-ax, -ay) >> 1)
-        } else {
-            surface(0, 0)
-        };
-        let mean = (mean >> 24) as i32;
+        let [u, v] = at;
+        let mean = (product(x.value(u), y.value(v)) >> 24) as i32;
         let above = height.saturating_sub(mean).max(-self.reach).min(self.reach);
         let [fx, fy] = self.farther;
         [at[0].wrapping_add(moved(above, fx)), at[1].wrapping_add(moved(above, fy))]
@@ -187,15 +174,10 @@ impl Footprint {
     pub(super) fn each(
         &self,
         ground: &[Ground<'_>; 2],
-        mut then: impl FnMut(&Part) -> Option<()>,
+        mut then: impl FnMut(&Slopes) -> Option<()>,
     ) -> Option<()> {
         let [(a, rise_a), (b, rise_b)] = self.steps;
         let [columns, rows] = self.parts;
-        // the axis along which a part's share is counted
-        let along = usize::from(b[0].unsigned_abs() < b[1].unsigned_abs());
-        let whole = b.get(along).copied().unwrap_or(0);
-        let sign = (whole >> 31) | 1;
-        let shift = 17_u32.saturating_sub(whole.unsigned_abs().leading_zeros()) & 31;
         let (mut first, mut top) = (self.at, self.height);
         for _ in 0..columns {
             let (mut at, mut height) = (first, top);
@@ -205,13 +187,12 @@ impl Footprint {
                 height = height.wrapping_add(rise_b);
                 let line = self.line(ground, at, height);
                 let middle = [(before[0] >> 1) + (line[0] >> 1), (before[1] >> 1) + (line[1] >> 1)];
-                let gained = line[along & 1].wrapping_sub(before[along & 1]).wrapping_mul(sign);
                 let [x, y] = ground;
                 let slopes = Slopes {
                     x: x.around(middle[0], &self.sides[0])?,
                     y: y.around(middle[1], &self.sides[1])?,
                 };
-                then(&Part { slopes, share: (gained >> shift).clamp(0, 1 << 20) })?;
+                then(&slopes)?;
                 before = line;
             }
             first = [first[0].wrapping_add(a[0]), first[1].wrapping_add(a[1])];
@@ -271,33 +252,34 @@ pub(super) fn whole(
     Some((Slopes { x: x.around(x.place(px), &sides[0])?, y: y.around(y.place(py), &sides[1])? }, half))
 }
 
+/// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in, which
+/// may lie far off.
+#[inline(always)]
+pub(super) fn settled(ground: &[Ground<'_>; 2], sight: &Sight, first: Place, reach: i32) -> Option<Place> {
+    on_mean(ground, sight, first, &near(ground, reach), reach)
+}
+
 impl Quality {
-    /// The footprint of a pixel from where its ray meets the surface: none where no plane fits. What is matt
-    /// changes so little over a pixel that where its lines lie counts most: it is measured with more care.
+    /// The footprint of a pixel around where its ray meets the mean plane.
     #[inline(always)]
     pub(super) fn footprint(
         self,
         ground: &[Ground<'_>; 2],
         sight: &Sight,
         pixel: [[i32; 3]; 2],
-        first: Place,
-        (reach, careful): (i32, bool),
-    ) -> Option<Footprint> {
+        place: &Place,
+        reach: i32,
+    ) -> Footprint {
         let [x, y] = ground;
-        let (near, mut place) = (near(ground, reach), first);
-        // the leaf where the ray comes in may lie far off the mean plane
-        for _ in 0..if careful { 2 } else { 1 } {
-            place = on_mean(ground, sight, place, &near, reach)?;
-        }
         let slope = place.slope;
         let steep = steepness(slope, sight.direction);
-        let [a, b] = edges(&place, sight, steep, pixel);
+        let [a, b] = edges(place, sight, steep, pixel);
         // more parts along the longer edge
         let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
         let [few, many] = self.parts();
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
-        let (half, sides) = sides(ground, [a, b]);
+        let (_, sides) = sides(ground, [a, b]);
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
         let rises = [a, b].map(rise);
         let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
@@ -310,16 +292,14 @@ impl Quality {
         ];
         let [_, _, z] = sight.at(place.t);
         let [dx, dy, _] = sight.direction;
-        Some(Footprint {
+        Footprint {
             at,
             height: z.wrapping_sub(back(rises[0], rises[1])),
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
             farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)],
             reach,
-            half,
             sides,
-            careful,
-        })
+        }
     }
 }

@@ -4,7 +4,7 @@
 
 use core::num::NonZeroU32;
 
-use crate::fif::{Course, Sums, Width};
+use crate::fif::{Course, Sum, Sums, Width};
 use crate::num::{product, reciprocal_of};
 
 /// The whole domain.
@@ -102,6 +102,31 @@ impl<'a> Ground<'a> {
         let to = from + (half << 1);
         let [from, to] = [self.sums.at((from as u32) << 2)?, self.sums.at((to as u32) << 2)?];
         Some(self.sums.between(&from, &to, width))
+    }
+
+    /// A place, or the nearer end of the domain.
+    #[inline(always)]
+    pub(super) fn inside(place: i32) -> i32 {
+        place.clamp(0, WHOLE - 1)
+    }
+
+    /// The sums up to a place inside.
+    #[inline(always)]
+    pub(super) fn at(&self, place: i32) -> Option<Sum> {
+        self.sums.at((place as u32) << 2)
+    }
+
+    /// The mean value between two places, so far from the first to the second.
+    #[inline(always)]
+    pub(super) fn mean(&self, from: &Sum, to: &Sum, width: i32) -> i32 {
+        self.sums.mean_between(from, to, width)
+    }
+
+    /// A slope for one of a number per domain.
+    #[inline(always)]
+    pub(super) fn per_length(&self, slope: i32) -> i32 {
+        let (mantissa, shift) = self.per_length;
+        (product(slope, mantissa) >> (shift.wrapping_add(6) & 63)) as i32
     }
 
     /// The value at a place, that at the nearer end outside.
