@@ -16,13 +16,12 @@ use super::ended::Ended;
 use super::function::Fif;
 use super::polynomial::product_q55;
 use super::pyramid::Pyramid;
-use super::stretch::times;
 use super::value::FRACTION_Q55;
 use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
 use crate::num::{
-    Real, Wide, high, high_u, mul_high, mul_high_u, product, product_u, quotient, real_from, reciprocal_of,
-    sqrt,
+    Real, Wide, high, high_u, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
+    reciprocal_of, sqrt,
 };
 
 /// What a function and its slope have come to at one place. 12 bytes.
@@ -75,6 +74,7 @@ impl Course {
     /// The variance of the slope, and the covariance of slope and value.
     #[inline(always)]
     pub(crate) fn spread(&self) -> [i32; 2] {
+        let times = product_within::<7>;
         let variance = self.squares.wrapping_sub(times(self.slope, self.slope)).max(0);
         [variance, times(self.slope, self.middle.wrapping_sub(self.value))]
     }

@@ -17,7 +17,7 @@ use core::num::NonZeroU32;
 
 use super::ground::{Ground, Side, moved};
 use super::slopes::{Slope, Slopes, times};
-use crate::num::{high, product, reciprocal_of, rough_sqrt};
+use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,13 +90,11 @@ pub(super) fn steepness(slope: Slope, direction: [i32; 3]) -> i32 {
     mantissa >> (17_u32.wrapping_sub(zeros) & 31)
 }
 
-/// `v / g` for a reciprocal of `g` with 25 fractional bits, in the format of `v`, saturated at half of it.
+/// `v / g` for a reciprocal of `g` with 25 fractional bits, in the format of `v`, saturated at half of it (its
+/// last 8 bits are not).
 #[inline(always)]
 pub(super) fn over(v: i32, per: i32) -> i32 {
-    let product = product(v, per);
-    let high = (product >> 32) as i32;
-    let limit = ((high >> 31) | 1) << 30;
-    if (-(1 << 23)..1 << 23).contains(&high) { (product >> 25) as i32 } else { limit }
+    product_within::<7>(v, per) >> 1
 }
 
 impl Sight {

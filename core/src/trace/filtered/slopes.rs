@@ -11,7 +11,7 @@
 //! slope and `c` the covariance: the value goes with the slope. Formats: 24 fractional bits.
 
 use crate::fif::Course;
-use crate::num::{high, product, reciprocal_sqrt_of, rough_sqrt};
+use crate::num::{high, product, product_within, reciprocal_sqrt_of, rough_sqrt};
 
 /// The surface over a box: what is known along x and along y.
 #[derive(Debug, Clone, Copy)]
@@ -23,13 +23,10 @@ pub(super) struct Slopes {
 /// Slopes at a point: `(p, q)`, 24 fractional bits.
 pub(super) type Slope = [i32; 2];
 
-/// `a b`, 24 fractional bits, saturated at ±64.
+/// `a b`, 24 fractional bits, saturated at ±64 (its last 8 bits are not).
 #[inline(always)]
 pub(super) fn times(a: i32, b: i32) -> i32 {
-    let product = product(a, b);
-    let high = (product >> 32) as i32;
-    let limit = ((high >> 31) | 1) << 30;
-    if (-(1 << 22)..1 << 22).contains(&high) { (product >> 24) as i32 } else { limit }
+    product_within::<6>(a, b)
 }
 
 impl Slopes {
@@ -57,9 +54,9 @@ impl Slopes {
     pub(super) fn points(&self) -> [Slope; 4] {
         let pair = |s: &Course| {
             let (Course { slope, value, .. }, [variance, covariance]) = (*s, s.spread());
-            // 1 / s, where v has 24 fractional bits: mantissa / 2^(31 + half) for the word
-            let (mantissa, half) = reciprocal_sqrt_of(u64::from(variance.max(1).unsigned_abs()) << 24);
-            let over = |c: i32| (product(c, mantissa) >> ((half + 7) & 63)) as i32;
+            // 1 / s, where v has 24 fractional bits: mantissa / 2^(19 + half)
+            let (mantissa, half) = reciprocal_sqrt_of(variance.max(1).unsigned_abs().into());
+            let over = |c: i32| (product(c, mantissa) >> ((half + 19) & 63)) as i32;
             // by Cauchy and Schwarz no larger than the deviation of the value
             let (s, t) = (over(variance), over(covariance));
             [
