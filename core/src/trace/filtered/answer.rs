@@ -181,19 +181,22 @@ impl<'a> View<'a> {
             // 20 fractional bits: below 2^26
             *weight = facing.area >> 2;
             area = area.wrapping_add(weight.unsigned_abs());
-            let (a, b) = match self.finish {
-                Finish::Diffuse { .. } => (facing.lit.max(0), 0),
+            let lit = facing.lit.max(0);
+            let tone = match self.finish {
+                Finish::Diffuse { .. } => lit,
                 Finish::TorranceSparrow { roughness, reflectance, .. } => {
                     let model = TorranceSparrow::within(roughness, reflectance);
-                    (facing.lit.max(0), self.sheen(*slope, &facing, model).to_bits())
+                    highlight += product(self.sheen(*slope, &facing, model).to_bits(), *weight);
+                    lit
                 }
                 Finish::Phong { .. } => {
-                    *along = self.straight.saturating_add(unit_product(facing.eye, facing.lit) << 1);
-                    (facing.lit.max(0), 0)
+                    let twice = (product(facing.eye, facing.lit) >> 29) as i32;
+                    *along = self.straight.saturating_add(twice);
+                    lit
                 }
-                Finish::Mirror => (self.reflection(*slope, &facing).to_bits(), 0),
+                Finish::Mirror => self.reflection(*slope, &facing).to_bits(),
             };
-            (matt, highlight) = (matt + product(a, *weight), highlight + product(b, *weight));
+            matt += product(tone, *weight);
         }
         // of all four at once
         if let Finish::Phong { shininess, .. } = self.finish {
