@@ -98,7 +98,8 @@ impl<'a> FilteredCaster<'a> {
             };
         };
         let [p, q, _] = surface.normal(&leaf).map(i32::wrapping_neg);
-        let (slope, t) = ([p, q], surface.middle(&self.pixels.ray(&below), &leaf).unwrap_or(leaf.span.0));
+        let (slope, (t_in, t_out)) = ([p, q], leaf.span);
+        let t = t_in + ((t_out - t_in) >> 1);
         if into(slope, below) <= 0 {
             return sampled();
         }

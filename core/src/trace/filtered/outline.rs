@@ -121,10 +121,7 @@ pub(super) fn spread(
     let steep = steepness(place.slope, sight.direction);
     let [a, b] = edges(place, sight, steep, pixel);
     let [dx, dy, _] = sight.direction;
-    let ways = Ways {
-        farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)],
-        reach,
-    };
+    let ways = Ways { farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)], reach };
     let rise = |[u, v]: [i32; 2]| ((product(place.slope[0], u) + product(place.slope[1], v)) >> 24) as i32;
     let step = |v: [i32; 2]| ([x.part(v[0]), y.part(v[1])], rise(v));
     let [_, _, z] = sight.at(place.t);

@@ -173,7 +173,7 @@ impl<'a> HeightField<'a> {
     }
 
     /// The middle of a ray's part inside a leaf's box, 24 fractional bits.
-    pub(crate) fn middle(&self, ray: &Ray, leaf: &Leaf) -> Option<i32> {
+    pub(super) fn middle(&self, ray: &Ray, leaf: &Leaf) -> Option<i32> {
         let (f, g) = self.cells(leaf)?;
         let (low, high) = range(f, g);
         let z = ray.upright();
