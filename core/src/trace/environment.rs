@@ -1,7 +1,12 @@
 //! What surrounds a scene, infinitely far away: a tone for every direction.
 
+use core::num::NonZeroU32;
+
 use crate::Error;
-use crate::num::{Real, Unit, Vec3, Wide, reciprocal, reciprocal_sqrt_of, scaled, square};
+use crate::num::{
+    Real, Unit, Vec3, Wide, high, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of, rough_sqrt,
+    rounded_down, scaled, square,
+};
 
 /// A tone for every direction: seen by rays that miss, and in a mirror.
 ///
@@ -106,6 +111,100 @@ impl Environment {
             }
         }
     }
+}
+
+/// A checkerboard, made ready for means over many directions.
+///
+/// A square's tone is the middle of both tones and half of their difference times `S(u) S(v)`, where `S` is 1 on
+/// even and -1 on odd squares and `u = scale e_x / |e_z|`, `v = scale e_y / |e_z|`. Over an interval the mean of
+/// `S` is what its integral gains, a triangle wave: so it is over the box whose sides have the variances of `u`
+/// and `v`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Checkerboard {
+    horizon: Unit,
+    /// The middle and half of the difference.
+    middle: i32,
+    half: i32,
+    /// The scale, and times the root of 3, which makes half of an interval of a deviation.
+    scale: i32,
+    wide: i32,
+    /// Mantissa and shift.
+    per_fade: (u32, u32),
+}
+
+/// Directions around a unit vector `e`, that change by two vectors, each times a number of mean 0.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Around {
+    pub(super) e: [i32; 3],
+    pub(super) changes: [[i32; 3]; 2],
+    /// Of these numbers: `[S_00, S_01, S_11]`, 24 fractional bits, below 64.
+    pub(super) covariance: [i32; 3],
+}
+
+impl Checkerboard {
+    /// None of other surroundings.
+    pub(super) fn new(environment: &Environment) -> Option<Self> {
+        let Environment::Checkerboard { bright, dark, horizon, scale, fade } = *environment else { return None };
+        let [bright, dark] = [bright, dark].map(|tone| tone.to_bits() >> 1);
+        let (middle, half) = (bright.wrapping_add(dark), bright.wrapping_sub(dark));
+        let (scale, per_fade) = (scale.to_bits(), reciprocal(fade.to_bits().unsigned_abs()));
+        let wide = (product(scale, 1_859_775_393) >> 30) as i32;
+        Some(Self { horizon, middle, half, scale, wide, per_fade })
+    }
+
+    /// The mean tone.
+    ///
+    /// Error: that of a tone, and what squares within `2^-9` of the horizon show, which count as grey.
+    #[inline(always)]
+    pub(super) fn over(&self, Around { e, changes, covariance }: &Around) -> Unit {
+        let ([x, y, z], [[ax, ay, az], [bx, by, bz]]) = (*e, *changes);
+        let elevation = z.unsigned_abs();
+        let mut tone = self.middle;
+        if let Some(height) = NonZeroU32::new(elevation).filter(|_| elevation >= 1 << 21) {
+            let (mantissa, zeros) = reciprocal_of(height);
+            // 1 / |e_z|, 20 fractional bits, and times scale and root, 16
+            let per_height = mantissa >> (12_u32.wrapping_sub(zeros) & 31);
+            let per_deviation = (product(per_height, self.wide) >> 28) as u32;
+            let up = [az, bz].map(|up| if z < 0 { up.wrapping_neg() } else { up });
+            let mean = |c: i32, by: [i32; 2]| {
+                let at = rounded_down::<30>(product(c, per_height));
+                let deviation = rough_sqrt(variance(at, by, up, covariance));
+                let half = (product_u(deviation, per_deviation) >> 14).clamp(1 << 10, 1 << 28) as i32;
+                // what leaves a word is an even number of squares
+                between_sides((product(at, self.scale) >> 20) as i32, half)
+            };
+            let both = rounded_down::<30>(product(mean(x, [ax, bx]), mean(y, [ay, by])));
+            tone = tone.wrapping_add((product(self.half, both) >> 30) as i32);
+        }
+        let (mantissa, shift) = self.per_fade;
+        let part = (product_u(elevation, mantissa) >> (shift.wrapping_sub(30) & 63)).min(1 << 30) as i32;
+        mix(self.horizon, Unit::from_bits(tone), part).clamp(Unit::ZERO, Unit::ONE)
+    }
+}
+
+/// The variance of `e_x / |e_z|` times `e_z^2`, 44 fractional bits: of its value `at`, 20, where `e_x` changes by
+/// `by` and `|e_z|` by `up`. Changes count up to 32: what leaves that is far down at the horizon.
+#[inline(always)]
+fn variance(at: i32, by: [i32; 2], up: [i32; 2], [aa, ab, bb]: &[i32; 3]) -> u64 {
+    let change = |by: i32, up: i32| {
+        (by >> 10).wrapping_sub(rounded_down::<30>(product(at, up))).clamp(-1 << 25, (1 << 25) - 1)
+    };
+    let [a, b] = [change(by[0], up[0]), change(by[1], up[1])];
+    let term = |a: i32, b: i32, s: &i32| product(rounded_down::<20>(product(a, b)), *s);
+    (term(a, a, aa) + 2 * term(a, b, ab) + term(b, b, bb)).max(0) as u64
+}
+
+/// The mean of `S` so far to both sides of a place, 24 fractional bits, up to 16: 30 fractional bits.
+#[inline(always)]
+fn between_sides(at: i32, half: i32) -> i32 {
+    let integral = |at: i32| {
+        let odd = at & ((1 << 25) - 1);
+        odd.min((1 << 25) - odd)
+    };
+    let gained = integral(at.wrapping_add(half)).wrapping_sub(integral(at.wrapping_sub(half)));
+    let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(half.unsigned_abs() << 1).unwrap_or(NonZeroU32::MIN));
+    // no more than both sides together, which have at least two zeros
+    high(gained << (zeros.wrapping_sub(2) & 31), mantissa) << 2
 }
 
 /// Whether the square in a direction is an even one; any where its tone does not count.

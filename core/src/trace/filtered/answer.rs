@@ -17,8 +17,8 @@ use core::num::NonZeroU32;
 use super::footprint::Footprint;
 use super::ground::Ground;
 use super::slopes::{Slope, Spread, times};
-use crate::num::{Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of};
-use crate::trace::environment::Environment;
+use crate::num::{Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of, rounded_down};
+use crate::trace::environment::{Around, Checkerboard, Environment};
 use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
 use crate::trace::power::{powers, times as part_of};
@@ -33,6 +33,7 @@ pub(super) struct View<'a> {
     straight: i32,
     finish: Finish,
     environment: &'a Environment,
+    checkerboard: Option<&'a Checkerboard>,
 }
 
 /// A normal: its length's reciprocal, and how it stands to eye and light.
@@ -63,7 +64,7 @@ fn dot([p, q]: Slope, [x, y, z]: [i32; 3]) -> i32 {
 /// `a b` of numbers with 30 fractional bits.
 #[inline(always)]
 fn unit_product(a: i32, b: i32) -> i32 {
-    (product(a, b) >> 30) as i32
+    rounded_down::<30>(product(a, b))
 }
 
 impl Facing {
@@ -103,10 +104,11 @@ impl<'a> View<'a> {
         light: Vec3<Unit>,
         finish: Finish,
         environment: &'a Environment,
+        checkerboard: Option<&'a Checkerboard>,
     ) -> Self {
         let [direction, towards] = [direction, light].map(|v| [v.x, v.y, v.z].map(Unit::to_bits));
         let straight = direction.iter().zip(towards).fold(0, |sum, (a, b)| sum + unit_product(*a, b));
-        Self { direction, light: towards, straight, finish, environment }
+        Self { direction, light: towards, straight, finish, environment, checkerboard }
     }
 
     /// What a box shows in diffuse light, to second order; none where a part of it may turn away.
@@ -143,6 +145,15 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
         let mut shown = Shown::default();
+        if let (Finish::Mirror, Some(checkerboard)) = (self.finish, self.checkerboard) {
+            footprint.each(ground, |slopes| {
+                let mirrored = self.mirrored(&Spread::of(slopes, footprint.half()))?;
+                shown.boxes += 1;
+                shown.matt += i64::from(checkerboard.over(&mirrored).to_bits());
+                Some(())
+            })?;
+            return Some(self.finished(&shown));
+        }
         footprint.each(ground, |slopes| self.add(&slopes.points(), &mut shown))?;
         Some(self.finished(&shown))
     }
@@ -216,6 +227,42 @@ impl<'a> View<'a> {
         let direction = vector(self.direction);
         let sight = Sight { normal: Vec3::new(x, y, z), direction, tangent: Vec3::default() };
         model.tone(&sight, vector(self.light))
+    }
+
+    /// The mirrored rays of a box; none where a part of the box may turn away.
+    ///
+    /// Slopes with the covariance `S` are seen on areas `w = -n . d`, so that their mean is that of all and `S d
+    /// / w`. About it the mirrored ray `d + 2 w n / |n|^2` changes by `2 (p d + d_x n - w (1, 0, 0)) / |n|^2`
+    /// with `p`, and alike with `q`, but for its length, which does not matter.
+    #[inline(always)]
+    fn mirrored(&self, spread: &Spread) -> Option<Around> {
+        let Spread { mean, covariance: [pp, pq, qq] } = *spread;
+        let [dx, dy, dz] = self.direction;
+        let sum = |a: i32, b: i32, c: i32, d: i32| rounded_down::<30>(product(a, b) + product(c, d));
+        let along = [sum(pp, dx, pq, dy), sum(pq, dx, qq, dy)];
+        // one deviation may not turn away
+        let area = dot(mean, self.direction).wrapping_neg() << 2;
+        if area <= 0 || times(area, area) <= sum(along[0], dx, along[1], dy) {
+            return None;
+        }
+        // 1 / w, 25 fractional bits, at most 32: so flat nothing is seen
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area.max(1 << 19).unsigned_abs())?);
+        let per_area = mantissa >> (13_u32.wrapping_sub(zeros) & 31);
+        let seen = |mean: i32, along: i32| mean.saturating_add(rounded_down::<25>(product(along, per_area)));
+        let [p, q] = [seen(mean[0], along[0]), seen(mean[1], along[1])];
+        let Facing { eye, root, .. } = Facing::new([p, q], self);
+        let [p, q, up] = [p >> 2, q >> 2, 1 << 22].map(|c| cosine(c, root));
+        let turned = sum(p, dy, q.wrapping_neg(), dx);
+        let changes = [
+            [eye.wrapping_neg(), turned, sum(p, dz, up, dx)],
+            [turned.wrapping_neg(), eye.wrapping_neg(), sum(q, dz, up, dy)],
+        ];
+        // times 4 / |n|^2
+        let square = unit_product(up, up);
+        let covariance = [pp, pq, qq].map(|c| rounded_down::<28>(product(c, square)));
+        let ahead = |d: i32, n: i32| d.wrapping_add(rounded_down::<29>(product(eye, n)));
+        let e = [ahead(dx, p.wrapping_neg()), ahead(dy, q.wrapping_neg()), ahead(dz, up)];
+        Some(Around { e, changes, covariance })
     }
 
     /// What the mirrored ray meets.

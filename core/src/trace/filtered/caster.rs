@@ -18,6 +18,7 @@ use crate::Error;
 use crate::fif::Sums;
 use crate::num::{Unit, unit};
 use crate::plane::{Field, Tone, along};
+use crate::trace::environment::Checkerboard;
 use crate::trace::finish::Finish;
 use crate::trace::height_field::halves::Pencil;
 use crate::trace::height_field::statistics::Uncounted;
@@ -33,6 +34,8 @@ pub struct FilteredCaster<'a> {
     pixels: Pencil,
     /// From a pixel to the next, on the image plane: to the right and downwards, 28 fractional bits.
     edges: [[i32; 3]; 2],
+    /// Where that is what surrounds the surface.
+    checkerboard: Option<Checkerboard>,
 }
 
 /// How a pixel was found.
@@ -64,7 +67,8 @@ impl<'a> FilteredCaster<'a> {
         let ground = [(x, &hierarchy.x), (y, &hierarchy.y)].map(|(s, p)| Ground::new(*s, p.origin, p.width));
         let pixels = caster.surface.pencil(caster.rays.origin, caster.footprint);
         let edges = [caster.right, caster.down].map(|edge| edge.map(narrow));
-        Ok(Self { caster, ground, quality, pixels, edges })
+        let checkerboard = Checkerboard::new(&caster.environment);
+        Ok(Self { caster, ground, quality, pixels, edges, checkerboard })
     }
 
     /// The picture with one plain sample after another: the ray caster.
@@ -117,7 +121,8 @@ impl<'a> FilteredCaster<'a> {
     #[inline(always)]
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let RayCaster { material, light, environment, .. } = &self.caster;
-        let view = || View::new(unit(sight.direction), light.towards, *material, environment);
+        let checkerboard = self.checkerboard.as_ref();
+        let view = || View::new(unit(sight.direction), light.towards, *material, environment, checkerboard);
         if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
             let (slopes, half) = whole(&self.ground, sight, self.edges, first, reach)?;
             return view().glance(ambient, &Spread::of(&slopes, half));

@@ -152,10 +152,16 @@ pub(super) struct Footprint {
     /// `reach`.
     farther: [(i32, u32); 2],
     reach: i32,
+    half: [i32; 2],
     sides: [Side; 2],
 }
 
 impl Footprint {
+    /// Half of a box along both axes.
+    pub(super) const fn half(&self) -> [i32; 2] {
+        self.half
+    }
+
     /// Where the rays of a line meet the surface: at its middle.
     #[inline(always)]
     fn line(&self, ground: &[Ground<'_>; 2], at: [i32; 2], height: i32) -> [i32; 2] {
@@ -277,7 +283,7 @@ impl Quality {
         let [few, many] = self.parts();
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
-        let (_, sides) = sides(ground, [a, b]);
+        let (half, sides) = sides(ground, [a, b]);
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
         let rises = [a, b].map(rise);
         let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
@@ -297,6 +303,7 @@ impl Quality {
             parts,
             farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)],
             reach,
+            half,
             sides,
         }
     }

@@ -208,7 +208,7 @@ impl<'a> FilteredPatch<'a> {
     /// None where a part of the pixel may turn away from the eye, or is not above the square.
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let PatchCaster { material, light, environment, .. } = &self.caster;
-        let view = View::new(unit(sight.direction), light.towards, *material, environment);
+        let view = View::new(unit(sight.direction), light.towards, *material, environment, None);
         // the mean plane of the cell as large as the footprint on that of the leaf
         let steep = steepness(first.slope, sight.direction);
         let wide = width(edges(&first, sight, steep, self.pixel), 1);
