@@ -4,8 +4,8 @@ use core::num::NonZeroU32;
 
 use crate::Error;
 use crate::num::{
-    Real, Unit, Vec3, Wide, high, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of, rough_sqrt,
-    rounded_down, scaled, square,
+    Real, Unit, Vec3, Wide, high, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of,
+    rough_sqrt, rounded_down, scaled, square,
 };
 
 /// A tone for every direction: seen by rays that miss, and in a mirror.
@@ -144,7 +144,9 @@ pub(super) struct Around {
 impl Checkerboard {
     /// None of other surroundings.
     pub(super) fn new(environment: &Environment) -> Option<Self> {
-        let Environment::Checkerboard { bright, dark, horizon, scale, fade } = *environment else { return None };
+        let Environment::Checkerboard { bright, dark, horizon, scale, fade } = *environment else {
+            return None;
+        };
         let [bright, dark] = [bright, dark].map(|tone| tone.to_bits() >> 1);
         let (middle, half) = (bright.wrapping_add(dark), bright.wrapping_sub(dark));
         let (scale, per_fade) = (scale.to_bits(), reciprocal(fade.to_bits().unsigned_abs()));
@@ -166,14 +168,13 @@ impl Checkerboard {
             let per_height = mantissa >> (12_u32.wrapping_sub(zeros) & 31);
             let per_deviation = (product(per_height, self.wide) >> 28) as u32;
             let up = [az, bz].map(|up| if z < 0 { up.wrapping_neg() } else { up });
-            let mean = |c: i32, by: [i32; 2]| {
-                let at = rounded_down::<30>(product(c, per_height));
-                let deviation = rough_sqrt(variance(at, by, up, covariance));
-                let half = (product_u(deviation, per_deviation) >> 14).clamp(1 << 10, 1 << 28) as i32;
-                // what leaves a word is an even number of squares
-                between_sides((product(at, self.scale) >> 20) as i32, half)
-            };
-            let both = rounded_down::<30>(product(mean(x, [ax, bx]), mean(y, [ay, by])));
+            let at = [x, y].map(|c| rounded_down::<30>(product(c, per_height)));
+            let [u, v] =
+                [variance(at[0], [ax, bx], up, covariance), variance(at[1], [ay, by], up, covariance)];
+            // what leaves a word is an even number of squares
+            let [x, y] = at.map(|at| (product(at, self.scale) >> 20) as i32);
+            let both = product(mean(x, u, per_deviation), mean(y, v, per_deviation));
+            let both = rounded_down::<30>(both);
             tone = tone.wrapping_add((product(self.half, both) >> 30) as i32);
         }
         let (mantissa, shift) = self.per_fade;
@@ -194,16 +195,19 @@ fn variance(at: i32, by: [i32; 2], up: [i32; 2], [aa, ab, bb]: &[i32; 3]) -> u64
     (term(a, a, aa) + 2 * term(a, b, ab) + term(b, b, bb)).max(0) as u64
 }
 
-/// The mean of `S` so far to both sides of a place, 24 fractional bits, up to 16: 30 fractional bits.
+/// The mean of `S` around a place, 24 fractional bits, where what has a [`variance`] counts times so much: 30
+/// fractional bits.
 #[inline(always)]
-fn between_sides(at: i32, half: i32) -> i32 {
+fn mean(at: i32, variance: u64, per_deviation: u32) -> i32 {
     let integral = |at: i32| {
         let odd = at & ((1 << 25) - 1);
         odd.min((1 << 25) - odd)
     };
+    // a half of 16 squares at most: the whole has two zeros at least
+    let half = (product_u(rough_sqrt(variance), per_deviation) >> 14).clamp(1 << 10, 1 << 28) as i32;
     let gained = integral(at.wrapping_add(half)).wrapping_sub(integral(at.wrapping_sub(half)));
-    let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(half.unsigned_abs() << 1).unwrap_or(NonZeroU32::MIN));
-    // no more than both sides together, which have at least two zeros
+    let (mantissa, zeros) =
+        reciprocal_of(NonZeroU32::new(half.unsigned_abs() << 1).unwrap_or(NonZeroU32::MIN));
     high(gained << (zeros.wrapping_sub(2) & 31), mantissa) << 2
 }
 

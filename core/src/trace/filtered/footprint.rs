@@ -36,9 +36,10 @@ pub enum Quality {
 impl Quality {
     /// Parts of the shorter and of the longer edge.
     #[inline(always)]
-    pub(super) const fn parts(self) -> [i32; 2] {
+    pub(super) const fn parts(self, few: bool) -> [i32; 2] {
         match self {
             Self::Coarse => [1, 2],
+            Self::Fine if few => [2, 3],
             Self::Fine => [2, 4],
             Self::Finest => [2, 6],
         }
@@ -272,7 +273,7 @@ impl Quality {
         sight: &Sight,
         pixel: [[i32; 3]; 2],
         place: &Place,
-        reach: i32,
+        (reach, few): (i32, bool),
     ) -> Footprint {
         let [x, y] = ground;
         let slope = place.slope;
@@ -280,7 +281,7 @@ impl Quality {
         let [a, b] = edges(place, sight, steep, pixel);
         // more parts along the longer edge
         let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
-        let [few, many] = self.parts();
+        let [few, many] = self.parts(few);
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
         let (half, sides) = sides(ground, [a, b]);

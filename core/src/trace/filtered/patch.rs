@@ -217,7 +217,7 @@ impl<'a> FilteredPatch<'a> {
         let place = sight.meet(first.t, slope, z.saturating_sub(above), reach);
         let [_, _, z] = sight.at(place.t);
         let steep = steepness(place.slope, sight.direction);
-        let [few, many] = self.quality.parts();
+        let [few, many] = self.quality.parts(false);
         let wide = width(edges(&place, sight, steep, self.pixel), few.wrapping_mul(many));
         let pixel = Pixel::new(&place, z, sight, self.pixel, reach)?;
         let sum = self.sum(&pixel, &view, self.level(wide))?;
