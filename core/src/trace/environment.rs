@@ -156,7 +156,8 @@ impl Checkerboard {
 
     /// The mean tone.
     ///
-    /// Error: that of a tone, and what squares within `2^-9` of the horizon show, which count as grey.
+    /// Error: against that over the box, `2^-12` (`a_mean_of_squares_is_that_over_their_box`); within `2^-9` of
+    /// the horizon squares count as grey.
     #[inline(always)]
     pub(super) fn over(&self, Around { e, changes, covariance }: &Around) -> Unit {
         let ([x, y, z], [[ax, ay, az], [bx, by, bz]]) = (*e, *changes);
@@ -303,6 +304,60 @@ mod tests {
             }
         }
         assert!(evens.iter().all(|n| *n > 3000) && faded > 100, "{evens:?} {faded}");
+    }
+
+    /// Against floating point: the box, and the mean over it.
+    #[test]
+    fn a_mean_of_squares_is_that_over_their_box() {
+        let (mut worst, mut grey, mut plain) = (0.0_f64, 0, 0);
+        let integral = |at: f64| (at.rem_euclid(2.0) - 1.0).abs();
+        for (k, e) in directions().enumerate().filter(|(_, e)| e.z.to_num::<f64>().abs() > 0.05) {
+            let bits = |n: u32, shift: u32| ((k as u32).wrapping_mul(n) as i32) >> shift;
+            let changes = [[0x2c1b_3c6d, 0x297a_2d39, 0x1b56_c4e9], [0x7feb_352d, 0x846c_a68b, 0x9e37_79b9]];
+            let changes = changes.map(|v| v.map(|n| bits(n, 2 + k as u32 % 5)));
+            // from none to a fourth
+            let least = if k % 7 == 0 { 0 } else { 1 << (8 + k % 15) };
+            let covariance = [least, -least / 3, least / 2];
+            let (scale, fade) = (Real::from_bits(1 << (21 + k % 5)), Unit::ONE / 2);
+            let [bright, dark, horizon] = [0.875, 0.125, 0.5].map(Unit::from_num);
+            let board = Environment::Checkerboard { bright, dark, horizon, scale, fade };
+            let around = Around { e: [e.x, e.y, e.z].map(Unit::to_bits), changes, covariance };
+            let got = Checkerboard::new(&board).unwrap().over(&around).to_num::<f64>();
+            let [x, y, z] = [e.x, e.y, e.z].map(|c| c.to_num::<f64>());
+            let [a, b] = changes.map(|v| v.map(|c| f64::from(c) / f64::from(1 << 30)));
+            let [aa, ab, bb] = covariance.map(|c| f64::from(c) / f64::from(1 << 24));
+            let scale = scale.to_num::<f64>();
+            let mean = |c: f64, i: usize| {
+                let at = c / z.abs();
+                let [a, b] = [a, b].map(|v| (v[i] - at * v[2] * z.signum()) / z.abs());
+                let half = scale * (3.0 * (a * a * aa + 2.0 * a * b * ab + b * b * bb)).sqrt();
+                if half < 1e-3 {
+                    let at = (scale * at).rem_euclid(2.0);
+                    // an edge is anybody's
+                    let near = [0.0, 1.0, 2.0].iter().any(|edge| (at - edge).abs() < 2e-3);
+                    return if near {
+                        f64::NAN
+                    } else if at < 1.0 {
+                        1.0
+                    } else {
+                        -1.0
+                    };
+                }
+                // falling towards odd numbers: minus the triangle wave
+                (integral(scale * at - half) - integral(scale * at + half)) / (2.0 * half)
+            };
+            let both = mean(x, 0) * mean(y, 1);
+            let exact = 0.5 + 0.375 * both * (z.abs() / 0.5).min(1.0);
+            if both.is_nan() {
+                continue;
+            }
+            grey += usize::from(both.abs() < 0.2);
+            plain += usize::from(both.abs() == 1.0);
+            worst = worst.max((got - exact).abs());
+            assert!((got - exact).abs() < 2_f64.powi(-12), "{around:?}: {got} {exact}");
+        }
+        assert!(grey > 150 && plain > 150 && worst > 2_f64.powi(-13), "{grey} {plain} {worst}");
+        assert!(Checkerboard::new(&Environment::SKY).is_none());
     }
 
     #[test]
