@@ -15,7 +15,7 @@
 
 use core::num::NonZeroU32;
 
-use super::footprint::{Place, Sight, cut, edges, over, sides, steepness};
+use super::footprint::{Place, Sight, cut, edges, into, over, sides, steepness};
 use super::ground::{Ground, moved};
 use super::slopes::{Slope, Slopes, Spread};
 use crate::fif::Sum;
@@ -152,6 +152,16 @@ pub(super) fn spread(
     }
     sum.add(ground, middle[0], &last, &first);
     let mean = sum.mean(ground)?;
+    // the area on which the eye sees it is the pixel's
+    let ([au, av], [bu, bv]) = (across.0, down.0);
+    let flat = (product(au, bv) - product(av, bu)).wrapping_mul(i64::from(2 * columns));
+    let seen = |area: i64, slope: Slope| {
+        ((area.unsigned_abs() >> 32) as i64).wrapping_mul(into(slope, sight.direction) >> 8)
+    };
+    let (own, pixel) = (seen(sum.twice, mean), seen(flat, place.slope));
+    if own.abs_diff(pixel) > pixel.unsigned_abs() >> 1 {
+        return None;
+    }
     // two boxes, one behind the other along the longer edge
     let between = |v: [i32; 2], w: [i32; 2]| [(v[0] >> 1) + (w[0] >> 1), (v[1] >> 1) + (w[1] >> 1)];
     let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
