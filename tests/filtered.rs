@@ -171,7 +171,7 @@ fn table(view: &View, looks: &[usize], side: u32, depth: u32, places: usize) -> 
     let least = truth.iter().map(|p| p.places).min().unwrap_or(0);
     println!("{}, {side} x {side}: {} interior pixels, {least} samples at least", view.name, truth.len());
     let heads = ["1", "16", "64", "coarse", "fine", "finest"].map(|head| format!("{head:>8}")).join(" ");
-    println!("{:14} {heads}  of fine: sampled, others", "");
+    println!("{:14} {heads}  16/fine  of fine: sampled, others", "");
     view.with_surface(depth, |surface, sums| {
         let row = |(k, look): (usize, &usize)| {
             let samples = [1, 4, 8].map(|n| rms(&truth, k, &view.caster(surface, *look, side, n)));
@@ -186,7 +186,8 @@ fn table(view: &View, looks: &[usize], side: u32, depth: u32, places: usize) -> 
             let others: Vec<Pixel> = truth.iter().filter(|p| !is_sampled(p)).cloned().collect();
             let (sampled, off) = (truth.len() - others.len(), rms(&others, k, &fine));
             let row_printed = row.map(|e| format!("{e:8.5}")).join(" ");
-            println!("{:14} {row_printed}  {sampled:16}, {off:.5}", LOOKS[*look]);
+            let times = row[1] / row[4];
+            println!("{:14} {row_printed}  {times:7.1}  {sampled:16}, {off:.5}", LOOKS[*look]);
             row
         };
         looks.iter().enumerate().map(row).collect()

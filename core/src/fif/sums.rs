@@ -332,6 +332,13 @@ impl<'a> Sums<'a> {
         a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
     }
 
+    /// The sums `by` farther, 30 fractional bits, where the value stays as it is.
+    #[inline(never)]
+    pub(crate) fn beyond(&self, sum: &Sum, by: i32) -> Sum {
+        let area = product(sum.value, by) >> (30_u32.saturating_sub(self.extra[0]) & 63);
+        Sum { area: sum.area.wrapping_add(area as i32), ..*sum }
+    }
+
     /// The mean value from one place to another, `width` to the right or to the left, 30 fractional bits;
     /// closer than 2^-12 of the domain that of a straight line.
     #[inline(always)]

@@ -131,7 +131,7 @@ impl<'a> FilteredCaster<'a> {
         let place = settled(&self.ground, sight, first, reach)?;
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());
-            return view().shown(&outline::spread(&self.ground, sight, self.edges, &place, size)?.points());
+            return view().shown(&outline::spread(&self.ground, sight, self.edges, place, size)?.points());
         }
         view().tone(&self.ground, &self.quality.footprint(&self.ground, sight, self.edges, &place, reach))
     }

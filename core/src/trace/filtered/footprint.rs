@@ -226,7 +226,7 @@ fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
 /// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
 /// domain.
 #[inline(always)]
-fn on_mean(
+pub(super) fn on_mean(
     [x, y]: &[Ground<'_>; 2],
     sight: &Sight,
     from: Place,

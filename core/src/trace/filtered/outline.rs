@@ -15,7 +15,7 @@
 
 use core::num::NonZeroU32;
 
-use super::footprint::{Place, Sight, cut, edges, into, over, sides, steepness};
+use super::footprint::{Place, Sight, cut, edges, on_mean, over, sides, steepness};
 use super::ground::{Ground, moved};
 use super::slopes::{Slope, Slopes, Spread};
 use crate::fif::Sum;
@@ -61,7 +61,7 @@ impl Ways {
         let surface = (product(x.value(u), y.value(v)) >> 24) as i32;
         let above = start.height.saturating_sub(surface).max(self.reach.wrapping_neg()).min(self.reach);
         let [fx, fy] = self.farther;
-        let at = [u.saturating_add(moved(above, fx)), v.saturating_add(moved(above, fy))].map(Ground::inside);
+        let at = [u.saturating_add(moved(above, fx)), v.saturating_add(moved(above, fy))];
         Some(Corner { at, sums: [x.at(at[0])?, y.at(at[1])?] })
     }
 }
@@ -114,12 +114,18 @@ pub(super) fn spread(
     ground: &[Ground<'_>; 2],
     sight: &Sight,
     pixel: [[i32; 3]; 2],
-    place: &Place,
+    mut place: Place,
     (reach, columns): (i32, i32),
 ) -> Option<Spread> {
     let [x, y] = ground;
-    let steep = steepness(place.slope, sight.direction);
-    let [a, b] = edges(place, sight, steep, pixel);
+    let mut steep = steepness(place.slope, sight.direction);
+    let [mut a, mut b] = edges(&place, sight, steep, pixel);
+    // longer than four pixels: the mean plane above all of it
+    if [a, b].as_flattened().iter().any(|length| length.unsigned_abs() > reach.unsigned_abs() >> 1) {
+        place = on_mean(ground, sight, place, &sides(ground, [a, b]).1, reach)?;
+        steep = steepness(place.slope, sight.direction);
+        [a, b] = edges(&place, sight, steep, pixel);
+    }
     let [dx, dy, _] = sight.direction;
     let ways = Ways { farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)], reach };
     let rise = |[u, v]: [i32; 2]| ((product(place.slope[0], u) + product(place.slope[1], v)) >> 24) as i32;
@@ -152,16 +158,6 @@ pub(super) fn spread(
     }
     sum.add(ground, middle[0], &last, &first);
     let mean = sum.mean(ground)?;
-    // the area on which the eye sees it is the pixel's
-    let ([au, av], [bu, bv]) = (across.0, down.0);
-    let flat = (product(au, bv) - product(av, bu)).wrapping_mul(i64::from(2 * columns));
-    let seen = |area: i64, slope: Slope| {
-        ((area.unsigned_abs() >> 32) as i64).wrapping_mul(into(slope, sight.direction) >> 8)
-    };
-    let (own, pixel) = (seen(sum.twice, mean), seen(flat, place.slope));
-    if own.abs_diff(pixel) > pixel.unsigned_abs() >> 1 {
-        return None;
-    }
     // two boxes, one behind the other along the longer edge
     let between = |v: [i32; 2], w: [i32; 2]| [(v[0] >> 1) + (w[0] >> 1), (v[1] >> 1) + (w[1] >> 1)];
     let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
