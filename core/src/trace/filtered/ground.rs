@@ -104,7 +104,7 @@ impl<'a> Ground<'a> {
         Some(self.sums.between(&from, &to, width))
     }
 
-    /// The sums up to a place; beyond an end the profile stays as it is there.
+    /// The sums up to a place; beyond an end the profile goes on straight.
     #[inline(always)]
     pub(super) fn at(&self, place: i32) -> Option<Sum> {
         let inside = place.clamp(0, WHOLE - 1);
