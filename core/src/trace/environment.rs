@@ -4,8 +4,8 @@ use core::num::NonZeroU32;
 
 use crate::Error;
 use crate::num::{
-    Real, Unit, Vec3, Wide, high, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of, rough_sqrt,
-    rounded_down, scaled, square,
+    Real, Unit, Vec3, Wide, high, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of,
+    rough_sqrt, rounded_down, scaled, square,
 };
 
 /// A tone for every direction: seen by rays that miss, and in a mirror.
@@ -144,7 +144,9 @@ pub(super) struct Around {
 impl Checkerboard {
     /// None of other surroundings.
     pub(super) fn new(environment: &Environment) -> Option<Self> {
-        let Environment::Checkerboard { bright, dark, horizon, scale, fade } = *environment else { return None };
+        let Environment::Checkerboard { bright, dark, horizon, scale, fade } = *environment else {
+            return None;
+        };
         let [bright, dark] = [bright, dark].map(|tone| tone.to_bits() >> 1);
         let (middle, half) = (bright.wrapping_add(dark), bright.wrapping_sub(dark));
         let (scale, per_fade) = (scale.to_bits(), reciprocal(fade.to_bits().unsigned_abs()));
@@ -202,7 +204,8 @@ fn between_sides(at: i32, half: i32) -> i32 {
         odd.min((1 << 25) - odd)
     };
     let gained = integral(at.wrapping_add(half)).wrapping_sub(integral(at.wrapping_sub(half)));
-    let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(half.unsigned_abs() << 1).unwrap_or(NonZeroU32::MIN));
+    let (mantissa, zeros) =
+        reciprocal_of(NonZeroU32::new(half.unsigned_abs() << 1).unwrap_or(NonZeroU32::MIN));
     // no more than both sides together, which have at least two zeros
     high(gained << (zeros.wrapping_sub(2) & 31), mantissa) << 2
 }
