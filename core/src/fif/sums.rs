@@ -332,6 +332,21 @@ impl<'a> Sums<'a> {
         a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
     }
 
+    /// The sums `by` beyond an end, 30 fractional bits, where the function goes on straight, as between the end
+    /// and a 1024th of the domain before it.
+    #[inline(never)]
+    pub(crate) fn beyond(&self, end: &Sum, by: i32) -> Sum {
+        let before = if by < 0 { 1 << 22 } else { u32::MAX << 22 };
+        let rise = (product(end.value.wrapping_sub(self.value_at(before)), by.wrapping_abs()) >> 20) as i32;
+        let mean = end.value.wrapping_add(rise >> 1);
+        let area = product(mean, by) >> (30_u32.saturating_sub(self.extra[0]) & 63);
+        Sum {
+            value: end.value.wrapping_add(rise),
+            area: end.area.wrapping_add(area as i32),
+            squares: end.squares,
+        }
+    }
+
     /// The mean value from one place to another, `width` to the right or to the left, 30 fractional bits;
     /// closer than 2^-12 of the domain that of a straight line.
     #[inline(always)]

@@ -7,7 +7,7 @@
 //! - tiny mirrors that lean at random about each of the normals: Torrance and Sparrow's highlight;
 //! - the mirrored ray itself, `d - 2 (n^ . d) n^`.
 //!
-//! Diffuse light changes so little over a pixel that four points stand for all of its boxes, and one box is
+//! Diffuse light changes so little over a pixel that four points stand for all of it, and one box is
 //! answered to second order; what is mirrored has four points for each.
 //!
 //! Formats: slopes and `w` 24 fractional bits, unit vectors and tones 30.

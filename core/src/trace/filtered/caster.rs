@@ -30,7 +30,7 @@ pub struct FilteredCaster<'a> {
     caster: RayCaster<'a>,
     ground: [Ground<'a>; 2],
     quality: Quality,
-    /// The rays from the eye, as wide as a pixel.
+    /// The rays from the eye, half as wide as a pixel, so that a leaf lies near the place that is met.
     pixels: Pencil,
     /// From a pixel to the next, on the image plane: to the right and downwards, 28 fractional bits.
     edges: [[i32; 3]; 2],
@@ -65,7 +65,7 @@ impl<'a> FilteredCaster<'a> {
             return Err(Error::Unsupported { what: "running sums", allowed });
         }
         let ground = [(x, &hierarchy.x), (y, &hierarchy.y)].map(|(s, p)| Ground::new(*s, p.origin, p.width));
-        let pixels = caster.surface.pencil(caster.rays.origin, caster.footprint);
+        let pixels = caster.surface.pencil(caster.rays.origin, caster.footprint.part(2));
         let edges = [caster.right, caster.down].map(|edge| edge.map(narrow));
         let checkerboard = Checkerboard::new(&caster.environment);
         Ok(Self { caster, ground, quality, pixels, edges, checkerboard })
@@ -102,11 +102,12 @@ impl<'a> FilteredCaster<'a> {
             };
         };
         let [p, q, _] = surface.normal(&leaf).map(i32::wrapping_neg);
-        let (slope, (t_in, t_out)) = ([p, q], leaf.span);
+        let (t_in, t_out) = leaf.span;
         let t = t_in + ((t_out - t_in) >> 1);
-        if into(slope, below) <= 0 {
-            return sampled();
-        }
+        // 24 fractional bits against 28: a leaf that is seen at less than a quarter of it tells little of the
+        // plane, for which a level one does
+        let size = i64::from(p.unsigned_abs()) + i64::from(q.unsigned_abs()) + (1 << 24);
+        let slope = if into([p, q], below) > size << 2 { [p, q] } else { [0; 2] };
         let sight = Sight { eye: self.pixels.origin, direction };
         // above the plane through the point of the ray below
         let above = ((into(slope, half) * i64::from(t)) >> 28) as i32;
@@ -130,7 +131,7 @@ impl<'a> FilteredCaster<'a> {
         let place = settled(&self.ground, sight, first, reach)?;
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());
-            return view().shown(&outline::spread(&self.ground, sight, self.edges, &place, size)?.points());
+            return view().shown(&outline::spread(&self.ground, sight, self.edges, place, size)?.points());
         }
         let few = matches!(material, Finish::Mirror) && checkerboard.is_some();
         let footprint = self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few));

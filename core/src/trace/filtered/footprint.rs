@@ -3,15 +3,14 @@
 //!
 //! A ray `eye + t d` that moves by `r` on the image plane moves along the plane with slopes `(p, q)` by
 //! `t (r - d (n . r) / (n . d))`, `n = (-p, -q, 1)`: the pixel's edges `a` and `b`. The plane is the mean one
-//! over the box of the whole pixel, put where the ray through the pixel's centre meets it.
+//! over a box of a pixel's width and a half, put where the ray through the pixel's centre meets it.
 //!
 //! The parallelogram is cut into columns and these into rows. Where a line between two rows lies `e` above
 //! the surface's mean height along it, its rays meet the surface `e d / (-n . d)` farther: the line is moved
-//! so. What a pixel loses at a line, its neighbour gains, and nothing is counted twice. (With all lines on
-//! the plane the tone of `G x G` in matt light is off by 0.0013 however finely it is cut; with two columns of
-//! four rows by 0.0008.) Each part has the variances `(a_x^2 + b_x^2) / 12` and `(a_y^2 + b_y^2) / 12`; its
-//! box is the one with these. Formats: lengths and heights 24 fractional bits, directions 28, parts of the
-//! domain 30.
+//! so. What a pixel loses at a line, its neighbour gains, and nothing is counted twice. Matt light has the
+//! outline instead ([`super::outline`]). Each part has the variances `(a_x^2 + b_x^2) / 12` and `(a_y^2 +
+//! b_y^2) / 12`; its box is the one with these. Formats: lengths and heights 24 fractional bits, directions
+//! 28, parts of the domain 30.
 
 use core::num::NonZeroU32;
 
@@ -25,11 +24,11 @@ use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Quality {
-    /// Two boxes; in diffuse light one.
+    /// Two boxes; in diffuse light one, and no outline.
     Coarse,
-    /// Eight boxes.
+    /// Eight boxes; in diffuse light an outline of eight corners.
     Fine,
-    /// Twelve boxes.
+    /// Twelve boxes; in diffuse light an outline of fourteen corners.
     Finest,
 }
 
@@ -227,7 +226,7 @@ fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
 /// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
 /// domain.
 #[inline(always)]
-fn on_mean(
+pub(super) fn on_mean(
     [x, y]: &[Ground<'_>; 2],
     sight: &Sight,
     from: Place,

@@ -104,16 +104,12 @@ impl<'a> Ground<'a> {
         Some(self.sums.between(&from, &to, width))
     }
 
-    /// A place, or the nearer end of the domain.
-    #[inline(always)]
-    pub(super) fn inside(place: i32) -> i32 {
-        place.clamp(0, WHOLE - 1)
-    }
-
-    /// The sums up to a place inside.
+    /// The sums up to a place; beyond an end the profile goes on straight.
     #[inline(always)]
     pub(super) fn at(&self, place: i32) -> Option<Sum> {
-        self.sums.at((place as u32) << 2)
+        let inside = place.clamp(0, WHOLE - 1);
+        let sum = self.sums.at((inside as u32) << 2)?;
+        Some(if inside == place { sum } else { self.sums.beyond(&sum, place.wrapping_sub(inside)) })
     }
 
     /// The mean value between two places, so far from the first to the second.
