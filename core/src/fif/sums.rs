@@ -16,13 +16,12 @@ use super::ended::Ended;
 use super::function::Fif;
 use super::polynomial::product_q55;
 use super::pyramid::Pyramid;
-use super::stretch::times;
 use super::value::FRACTION_Q55;
 use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
 use crate::num::{
-    Real, Wide, high, high_u, mul_high, mul_high_u, product, product_u, quotient, real_from, reciprocal_of,
-    sqrt,
+    Real, Wide, high, high_u, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
+    reciprocal_of, sqrt,
 };
 
 /// What a function and its slope have come to at one place. 12 bytes.
@@ -37,6 +36,12 @@ pub struct Sum {
 impl Sum {
     /// All zero: for the memory that sums are lent.
     pub const ZERO: Self = Self { value: 0, area: 0, squares: 0 };
+
+    /// The value, 24 fractional bits.
+    #[inline(always)]
+    pub(crate) const fn value(&self) -> i32 {
+        self.value
+    }
 }
 
 /// What a function does between two places: mean slope and value, how much the slope varies, and the value
@@ -69,6 +74,7 @@ impl Course {
     /// The variance of the slope, and the covariance of slope and value.
     #[inline(always)]
     pub(crate) fn spread(&self) -> [i32; 2] {
+        let times = product_within::<7>;
         let variance = self.squares.wrapping_sub(times(self.slope, self.slope)).max(0);
         [variance, times(self.slope, self.middle.wrapping_sub(self.value))]
     }
@@ -96,8 +102,8 @@ pub struct Sums<'a> {
     /// Left ends of the maps' intervals, 31 fractional bits.
     starts: &'a [u32],
     depth: u32,
-    /// How many cells and how wide, 31 fractional bits, if they are of one width.
-    even: Option<(u32, u32)>,
+    /// How many cells and how wide, as [`Sums::place`] says it, if they are of one width.
+    even: Option<(u32, i32)>,
     x0: i64,
     width: u64,
     /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits.
@@ -106,27 +112,30 @@ pub struct Sums<'a> {
     extra: [u32; 2],
 }
 
-/// The reciprocals of an interval's width: mantissas and shifts of products, 1 to 31.
+/// The reciprocals of an interval's width, for [`over`]: how far a difference is shifted up, and a factor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Width {
-    slope: (i32, u32),
-    area: (i32, u32),
-    squares: (i32, u32),
+    slope: (u32, i32),
+    area: (u32, i32),
+    squares: (u32, i32),
 }
 
-/// A mantissa with a shift up to 31.
-#[inline(always)]
-fn short(mantissa: i32, shift: u32) -> (i32, u32) {
-    let more = shift.saturating_sub(31);
-    (mantissa >> (more & 31), (shift - more).max(1))
+/// The width of a cell, 31 fractional bits, with 20 and `extra`.
+fn broad(width: u32, extra: u32) -> i32 {
+    ((width >> 11) << (extra & 15)) as i32
 }
 
-/// The low word of `v mantissa / 2^shift`, of what fits one.
+/// Shifted up by so much, or the factor down.
 #[inline(always)]
-fn over(v: i32, (mantissa, shift): (i32, u32)) -> i32 {
-    let product = product(v, mantissa);
-    let (high, low) = ((product >> 32) as u32, product as u32);
-    (low >> (shift & 31) | high << 1 << ((31 - shift) & 31)) as i32
+fn shifted(up: i32, factor: i32) -> (u32, i32) {
+    let down = up.min(0).unsigned_abs().min(31);
+    (up.max(0).min(31).unsigned_abs(), factor >> down)
+}
+
+/// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the product.
+#[inline(always)]
+fn over(v: i32, (up, factor): (u32, i32)) -> i32 {
+    high(v << (up & 31), factor)
 }
 
 impl Sums<'static> {
@@ -212,7 +221,8 @@ impl<'a> Sums<'a> {
             (exact as u32).abs_diff(*start) <= 1
         };
         let count = (needed - 1).clamp(1, u32::MAX as usize) as u32;
-        let even = (0..).zip(&fif.starts).all(even).then_some((count, (1_u32 << 31) / count));
+        let even =
+            (0..).zip(&fif.starts).all(even).then_some((count, broad((1_u32 << 31) / count, extra[0])));
         let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
         let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
         let (x0, width) = (fif.x0, fif.width);
@@ -238,7 +248,7 @@ impl<'a> Sums<'a> {
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
-        let course = self.between(&self.at(from), &self.at(to), &width);
+        let course = self.between(&self.at(from)?, &self.at(to)?, &width);
         let [slope, value] = [course.slope, course.value].map(Real::from_bits);
         let [variance, covariance] = course.spread().map(Real::from_bits);
         Some(Trend { slope, value, variance, covariance })
@@ -269,14 +279,16 @@ impl<'a> Sums<'a> {
         let (mantissa, zeros) = reciprocal_of(width);
         let (per_domain, more) = self.per_domain;
         let per_length = (product(mantissa, per_domain) >> 31) as i32;
-        let [area, squares] = self.extra.map(|extra| short(mantissa, (30 + extra).saturating_sub(zeros)));
-        Width { slope: short(per_length, 37_u32.saturating_sub(zeros + more)), area, squares }
+        // as far up as means that fit their formats allow
+        let up = |less: u32| zeros.wrapping_sub(less) as i32;
+        let [area, squares] = self.extra.map(|extra| shifted(up(extra), mantissa));
+        Width { slope: shifted(up(8).wrapping_add(more as i32), per_length), area, squares }
     }
 
     /// The two places around another, 32 fractional bits, how far it lies between them, and the cell's width,
-    /// 31.
+    /// 20 and those that areas have more.
     #[inline(always)]
-    fn place(&self, u: u32) -> Option<(&'a [Sum; 2], u32, u32)> {
+    fn place(&self, u: u32) -> Option<(&'a [Sum; 2], u32, i32)> {
         let (node, part, width) = match self.even {
             Some((count, width)) => {
                 let place = product_u(u, count);
@@ -287,31 +299,30 @@ impl<'a> Sums<'a> {
         Some((self.places.get(node..)?.first_chunk()?, part, width))
     }
 
+    #[cold]
     #[inline(never)]
-    fn uneven(&self, u: u32) -> (usize, u32, u32) {
+    fn uneven(&self, u: u32) -> (usize, u32, i32) {
         let cell = (0..self.depth).fold(Ended::WHOLE, |cell, _| cell.holding(self.starts, u, true));
         let (into, width) = (u.saturating_sub(cell.start), cell.end.saturating_sub(cell.start));
         let part = (u64::from(into) << 32).checked_div(width.into()).unwrap_or(0);
-        (cell.index, part.min(u64::from(u32::MAX)) as u32, width)
+        (cell.index, part.min(u64::from(u32::MAX)) as u32, broad(width, self.extra[0]))
     }
 
-    /// What the function has come to at a place, 32 fractional bits.
+    /// What the function has come to at a place, 32 fractional bits: there is one for each.
     #[inline(always)]
-    pub(crate) fn at(&self, u: u32) -> Sum {
-        let Some(([a, b], part, width)) = self.place(u) else { return Sum::ZERO };
+    pub(crate) fn at(&self, u: u32) -> Option<Sum> {
+        let ([a, b], part, width) = self.place(u)?;
         let half = (part >> 1) as i32;
         let rise = |a: i32, b: i32| b.wrapping_sub(a) << 1;
         let value = rise(a.value, b.value);
-        // t (1 - t) / 2 of a cell with 31 fractional bits, and its width with 20 and those that areas have
-        // more
+        // t (1 - t) / 2 of a cell with 31 fractional bits
         let bent = (high_u(part, part.wrapping_neg()) >> 2) as i32;
-        let width = ((width >> 11) << (self.extra[0] & 15)) as i32;
         let short = (product(high(value, bent), width) >> 20) as i32;
-        Sum {
+        Some(Sum {
             value: a.value.wrapping_add(high(value, half)),
             area: a.area.wrapping_add(high(rise(a.area, b.area), half)).wrapping_sub(short),
             squares: a.squares.wrapping_add(high(rise(a.squares, b.squares), half)),
-        }
+        })
     }
 
     /// The value at a place.
@@ -321,14 +332,44 @@ impl<'a> Sums<'a> {
         a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
     }
 
+    /// The sums `by` beyond an end, 30 fractional bits, where the function goes on straight, as between the end
+    /// and a 1024th of the domain before it.
+    #[inline(never)]
+    pub(crate) fn beyond(&self, end: &Sum, by: i32) -> Sum {
+        let before = if by < 0 { 1 << 22 } else { u32::MAX << 22 };
+        let rise = (product(end.value.wrapping_sub(self.value_at(before)), by.wrapping_abs()) >> 20) as i32;
+        let mean = end.value.wrapping_add(rise >> 1);
+        let area = product(mean, by) >> (30_u32.saturating_sub(self.extra[0]) & 63);
+        Sum {
+            value: end.value.wrapping_add(rise),
+            area: end.area.wrapping_add(area as i32),
+            squares: end.squares,
+        }
+    }
+
+    /// The mean value from one place to another, `width` to the right or to the left, 30 fractional bits;
+    /// closer than 2^-12 of the domain that of a straight line.
+    #[inline(always)]
+    pub(crate) fn mean_between(&self, from: &Sum, to: &Sum, width: i32) -> i32 {
+        match NonZeroU32::new(width.unsigned_abs()).filter(|width| width.get() >> 18 > 0) {
+            None => (from.value >> 1).wrapping_add(to.value >> 1),
+            Some(length) => {
+                let (mantissa, zeros) = reciprocal_of(length);
+                let up = zeros.wrapping_sub(2 + self.extra[0]) as i32;
+                let mean = over(to.area.wrapping_sub(from.area), shifted(up, mantissa)) << 2;
+                if width < 0 { mean.wrapping_neg() } else { mean }
+            }
+        }
+    }
+
     /// What it does between two places of this width.
     #[inline(always)]
     pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Course {
         // means of what is inside the format
         Course {
-            slope: over(b.value.wrapping_sub(a.value), width.slope),
-            value: over(b.area.wrapping_sub(a.area), width.area),
-            squares: over(b.squares.wrapping_sub(a.squares), width.squares),
+            slope: over(b.value.wrapping_sub(a.value), width.slope) << 3,
+            value: over(b.area.wrapping_sub(a.area), width.area) << 2,
+            squares: over(b.squares.wrapping_sub(a.squares), width.squares) << 2,
             middle: (a.value >> 1).wrapping_add(b.value >> 1),
         }
     }

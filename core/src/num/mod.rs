@@ -96,7 +96,9 @@ pub(crate) use exponential::exp2_minus;
 pub use formats::{Lumen, Near, Real, Scaling, Unit, Wide};
 pub use limbs::Limbs;
 pub use logarithm::log2;
-pub(crate) use product::{complex_product_added, product, product_shifted, product_u, square_u};
+pub(crate) use product::{
+    complex_product_added, product, product_shifted, product_u, product_within, square_u,
+};
 pub(crate) use product::{high, high_of_double, high_of_square, high_rounded, high_u, rounded_down};
 pub use quantiles::Deviate;
 pub(crate) use quantiles::magnitudes;

@@ -1,7 +1,12 @@
 //! What surrounds a scene, infinitely far away: a tone for every direction.
 
+use core::num::NonZeroU32;
+
 use crate::Error;
-use crate::num::{Real, Unit, Vec3, Wide, reciprocal, reciprocal_sqrt_of, scaled, square};
+use crate::num::{
+    Real, Unit, Vec3, Wide, high, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of,
+    rough_sqrt, rounded_down, scaled, square,
+};
 
 /// A tone for every direction: seen by rays that miss, and in a mirror.
 ///
@@ -108,6 +113,105 @@ impl Environment {
     }
 }
 
+/// A checkerboard, made ready for means over many directions.
+///
+/// A square's tone is the middle of both tones and half of their difference times `S(u) S(v)`, where `S` is 1 on
+/// even and -1 on odd squares and `u = scale e_x / |e_z|`, `v = scale e_y / |e_z|`. Over an interval the mean of
+/// `S` is what its integral gains, a triangle wave: so it is over the box whose sides have the variances of `u`
+/// and `v`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Checkerboard {
+    horizon: Unit,
+    /// The middle and half of the difference.
+    middle: i32,
+    half: i32,
+    /// The scale, and times the root of 3, which makes half of an interval of a deviation.
+    scale: i32,
+    wide: i32,
+    /// Mantissa and shift.
+    per_fade: (u32, u32),
+}
+
+/// Directions around a unit vector `e`, that change by two vectors, each times a number of mean 0.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Around {
+    pub(super) e: [i32; 3],
+    pub(super) changes: [[i32; 3]; 2],
+    /// Of these numbers: `[S_00, S_01, S_11]`, 24 fractional bits, below 64.
+    pub(super) covariance: [i32; 3],
+}
+
+impl Checkerboard {
+    /// None of other surroundings.
+    pub(super) fn new(environment: &Environment) -> Option<Self> {
+        let Environment::Checkerboard { bright, dark, horizon, scale, fade } = *environment else {
+            return None;
+        };
+        let [bright, dark] = [bright, dark].map(|tone| tone.to_bits() >> 1);
+        let (middle, half) = (bright.wrapping_add(dark), bright.wrapping_sub(dark));
+        let (scale, per_fade) = (scale.to_bits(), reciprocal(fade.to_bits().unsigned_abs()));
+        let wide = (product(scale, 1_859_775_393) >> 30) as i32;
+        Some(Self { horizon, middle, half, scale, wide, per_fade })
+    }
+
+    /// The mean tone.
+    ///
+    /// Error: against that over the box, `2^-12` (`a_mean_of_squares_is_that_over_their_box`); within `2^-9` of
+    /// the horizon squares count as grey.
+    #[inline(always)]
+    pub(super) fn over(&self, Around { e, changes, covariance }: &Around) -> Unit {
+        let ([x, y, z], [[ax, ay, az], [bx, by, bz]]) = (*e, *changes);
+        let elevation = z.unsigned_abs();
+        let mut tone = self.middle;
+        if let Some(height) = NonZeroU32::new(elevation).filter(|_| elevation >= 1 << 21) {
+            let (mantissa, zeros) = reciprocal_of(height);
+            // 1 / |e_z|, 20 fractional bits, and times scale and root, 16
+            let per_height = mantissa >> (12_u32.wrapping_sub(zeros) & 31);
+            let per_deviation = (product(per_height, self.wide) >> 28) as u32;
+            let up = [az, bz].map(|up| if z < 0 { up.wrapping_neg() } else { up });
+            let at = [x, y].map(|c| rounded_down::<30>(product(c, per_height)));
+            let [u, v] =
+                [variance(at[0], [ax, bx], up, covariance), variance(at[1], [ay, by], up, covariance)];
+            // what leaves a word is an even number of squares
+            let [x, y] = at.map(|at| (product(at, self.scale) >> 20) as i32);
+            let both = product(mean(x, u, per_deviation), mean(y, v, per_deviation));
+            let both = rounded_down::<30>(both);
+            tone = tone.wrapping_add((product(self.half, both) >> 30) as i32);
+        }
+        let (mantissa, shift) = self.per_fade;
+        let part = (product_u(elevation, mantissa) >> (shift.wrapping_sub(30) & 63)).min(1 << 30) as i32;
+        mix(self.horizon, Unit::from_bits(tone), part).clamp(Unit::ZERO, Unit::ONE)
+    }
+}
+
+/// The variance of `e_x / |e_z|` times `e_z^2`, 44 fractional bits: of its value `at`, 20, where `e_x` changes by
+/// `by` and `|e_z|` by `up`. Changes count up to 32: what leaves that is far down at the horizon.
+#[inline(always)]
+fn variance(at: i32, by: [i32; 2], up: [i32; 2], [aa, ab, bb]: &[i32; 3]) -> u64 {
+    let change = |by: i32, up: i32| {
+        (by >> 10).wrapping_sub(rounded_down::<30>(product(at, up))).clamp(-1 << 25, (1 << 25) - 1)
+    };
+    let [a, b] = [change(by[0], up[0]), change(by[1], up[1])];
+    let term = |a: i32, b: i32, s: &i32| product(rounded_down::<20>(product(a, b)), *s);
+    (term(a, a, aa) + 2 * term(a, b, ab) + term(b, b, bb)).max(0) as u64
+}
+
+/// The mean of `S` around a place, 24 fractional bits, where what has a [`variance`] counts times so much: 30
+/// fractional bits.
+#[inline(always)]
+fn mean(at: i32, variance: u64, per_deviation: u32) -> i32 {
+    let integral = |at: i32| {
+        let odd = at & ((1 << 25) - 1);
+        odd.min((1 << 25) - odd)
+    };
+    // a half of 16 squares at most: the whole has two zeros at least
+    let half = (product_u(rough_sqrt(variance), per_deviation) >> 14).clamp(1 << 10, 1 << 28) as i32;
+    let gained = integral(at.wrapping_add(half)).wrapping_sub(integral(at.wrapping_sub(half)));
+    let (mantissa, zeros) =
+        reciprocal_of(NonZeroU32::new(half.unsigned_abs() << 1).unwrap_or(NonZeroU32::MIN));
+    high(gained << (zeros.wrapping_sub(2) & 31), mantissa) << 2
+}
+
 /// Whether the square in a direction is an even one; any where its tone does not count.
 #[inline(never)]
 pub(super) fn is_even(x: i32, y: i32, elevation: u32, scale: Real) -> bool {
@@ -200,6 +304,60 @@ mod tests {
             }
         }
         assert!(evens.iter().all(|n| *n > 3000) && faded > 100, "{evens:?} {faded}");
+    }
+
+    /// Against floating point: the box, and the mean over it.
+    #[test]
+    fn a_mean_of_squares_is_that_over_their_box() {
+        let (mut worst, mut grey, mut plain) = (0.0_f64, 0, 0);
+        let integral = |at: f64| (at.rem_euclid(2.0) - 1.0).abs();
+        for (k, e) in directions().enumerate().filter(|(_, e)| e.z.to_num::<f64>().abs() > 0.05) {
+            let bits = |n: u32, shift: u32| ((k as u32).wrapping_mul(n) as i32) >> shift;
+            let changes = [[0x2c1b_3c6d, 0x297a_2d39, 0x1b56_c4e9], [0x7feb_352d, 0x846c_a68b, 0x9e37_79b9]];
+            let changes = changes.map(|v| v.map(|n| bits(n, 2 + k as u32 % 5)));
+            // from none to a fourth
+            let least = if k % 7 == 0 { 0 } else { 1 << (8 + k % 15) };
+            let covariance = [least, -least / 3, least / 2];
+            let (scale, fade) = (Real::from_bits(1 << (21 + k % 5)), Unit::ONE / 2);
+            let [bright, dark, horizon] = [0.875, 0.125, 0.5].map(Unit::from_num);
+            let board = Environment::Checkerboard { bright, dark, horizon, scale, fade };
+            let around = Around { e: [e.x, e.y, e.z].map(Unit::to_bits), changes, covariance };
+            let got = Checkerboard::new(&board).unwrap().over(&around).to_num::<f64>();
+            let [x, y, z] = [e.x, e.y, e.z].map(|c| c.to_num::<f64>());
+            let [a, b] = changes.map(|v| v.map(|c| f64::from(c) / f64::from(1 << 30)));
+            let [aa, ab, bb] = covariance.map(|c| f64::from(c) / f64::from(1 << 24));
+            let scale = scale.to_num::<f64>();
+            let mean = |c: f64, i: usize| {
+                let at = c / z.abs();
+                let [a, b] = [a, b].map(|v| (v[i] - at * v[2] * z.signum()) / z.abs());
+                let half = scale * (3.0 * (a * a * aa + 2.0 * a * b * ab + b * b * bb)).sqrt();
+                if half < 1e-3 {
+                    let at = (scale * at).rem_euclid(2.0);
+                    // an edge is anybody's
+                    let near = [0.0, 1.0, 2.0].iter().any(|edge| (at - edge).abs() < 2e-3);
+                    return if near {
+                        f64::NAN
+                    } else if at < 1.0 {
+                        1.0
+                    } else {
+                        -1.0
+                    };
+                }
+                // falling towards odd numbers: minus the triangle wave
+                (integral(scale * at - half) - integral(scale * at + half)) / (2.0 * half)
+            };
+            let both = mean(x, 0) * mean(y, 1);
+            let exact = 0.5 + 0.375 * both * (z.abs() / 0.5).min(1.0);
+            if both.is_nan() {
+                continue;
+            }
+            grey += usize::from(both.abs() < 0.2);
+            plain += usize::from(both.abs() == 1.0);
+            worst = worst.max((got - exact).abs());
+            assert!((got - exact).abs() < 2_f64.powi(-12), "{around:?}: {got} {exact}");
+        }
+        assert!(grey > 150 && plain > 150 && worst > 2_f64.powi(-13), "{grey} {plain} {worst}");
+        assert!(Checkerboard::new(&Environment::SKY).is_none());
     }
 
     #[test]

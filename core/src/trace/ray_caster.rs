@@ -183,6 +183,12 @@ impl<'a> RayCaster<'a> {
         direction
     }
 
+    /// The directions through the centres of pixels of row `y`, carried along by addition.
+    #[inline(always)]
+    pub(super) fn directions(&self, columns: Range<u32>, y: u32) -> Directions<'a, '_> {
+        Directions { caster: self, direction: self.direction(columns.start, y), columns }
+    }
+
     /// The direction moved by an offset in pixels (24 fractional bits), 28 fractional bits.
     pub(super) fn offset(&self, mut direction: [i64; 3], dx: i32, dy: i32) -> [i32; 3] {
         if (dx, dy) != (0, 0) {
@@ -310,16 +316,15 @@ impl Field for RayCaster<'_> {
         let (y, width) = (y.min(self.size.height.saturating_sub(1)), self.size.width);
         let x = x.start.min(width)..x.end.min(width);
         let visible = self.outline.columns(y, width);
-        let directions = Directions { caster: self, direction: self.direction(x.start, y), columns: x };
         let seen = visible.len() as u32;
-        along(directions, move |(x, direction)| {
+        along(self.directions(x, y), move |(x, direction)| {
             self.pixel(x, y, direction, x.wrapping_sub(visible.start) < seen)
         })
     }
 }
 
 /// The columns of a row, each with the direction through the centre of its pixel.
-struct Directions<'a, 'b> {
+pub(super) struct Directions<'a, 'b> {
     caster: &'b RayCaster<'a>,
     columns: Range<u32>,
     direction: [i64; 3],

@@ -7,7 +7,7 @@
 //! - tiny mirrors that lean at random about each of the normals: Torrance and Sparrow's highlight;
 //! - the mirrored ray itself, `d - 2 (n^ . d) n^`.
 //!
-//! Diffuse light changes so little over a pixel that four points stand for all of its boxes, and one box is
+//! Diffuse light changes so little over a pixel that four points stand for all of it, and one box is
 //! answered to second order; what is mirrored has four points for each.
 //!
 //! Formats: slopes and `w` 24 fractional bits, unit vectors and tones 30.
@@ -16,12 +16,12 @@ use core::num::NonZeroU32;
 
 use super::footprint::Footprint;
 use super::ground::Ground;
-use super::slopes::{Pool, Slope, Spread, times};
-use crate::num::{Unit, Vec3, product, reciprocal_of, reciprocal_sqrt_of};
-use crate::trace::environment::Environment;
+use super::slopes::{Slope, Spread, times};
+use crate::num::{Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of, rounded_down};
+use crate::trace::environment::{Around, Checkerboard, Environment};
 use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
-use crate::trace::power::{power, times as part_of};
+use crate::trace::power::{powers, times as part_of};
 
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
@@ -33,12 +33,13 @@ pub(super) struct View<'a> {
     straight: i32,
     finish: Finish,
     environment: &'a Environment,
+    checkerboard: Option<&'a Checkerboard>,
 }
 
 /// A normal: its length's reciprocal, and how it stands to eye and light.
 #[derive(Debug, Clone, Copy)]
 struct Facing {
-    /// `-n . d`, 24 fractional bits.
+    /// `-n . d`, 22 fractional bits.
     area: i32,
     /// `-n^ . d` and `n^ . l`.
     eye: i32,
@@ -54,16 +55,16 @@ pub(super) struct Shown {
     pub(super) highlight: i64,
 }
 
-/// `n . v`, 24 fractional bits.
+/// `n . v`, 22 fractional bits.
 #[inline(always)]
 fn dot([p, q]: Slope, [x, y, z]: [i32; 3]) -> i32 {
-    (z >> 6).wrapping_sub(((product(p, x) + product(q, y)) >> 30) as i32)
+    (z >> 8).wrapping_sub(((product(p, x) + product(q, y)) >> 32) as i32)
 }
 
 /// `a b` of numbers with 30 fractional bits.
 #[inline(always)]
 fn unit_product(a: i32, b: i32) -> i32 {
-    (product(a, b) >> 30) as i32
+    rounded_down::<30>(product(a, b))
 }
 
 impl Facing {
@@ -74,8 +75,15 @@ impl Facing {
         let root = reciprocal_sqrt_of((product(p, p) + product(q, q) + (1 << 48)) as u64);
         let area = dot(slope, view.direction).wrapping_neg();
         let lit = dot(slope, view.light);
-        Self { area, eye: scaled(area, root), lit: scaled(lit, root), root }
+        Self { area, eye: cosine(area, root), lit: cosine(lit, root), root }
     }
+}
+
+/// What is no longer than a normal (22 fractional bits) over its length, 30 fractional bits, of which 28 count.
+#[inline(always)]
+fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
+    // a length of at least 1 and below 2^7: half is 24 to 30
+    high(v << (31_u32.wrapping_sub(half) & 31), mantissa) << 2
 }
 
 /// A number with 24 fractional bits over the length of a normal, 30 fractional bits.
@@ -96,10 +104,11 @@ impl<'a> View<'a> {
         light: Vec3<Unit>,
         finish: Finish,
         environment: &'a Environment,
+        checkerboard: Option<&'a Checkerboard>,
     ) -> Self {
         let [direction, towards] = [direction, light].map(|v| [v.x, v.y, v.z].map(Unit::to_bits));
         let straight = direction.iter().zip(towards).fold(0, |sum, (a, b)| sum + unit_product(*a, b));
-        Self { direction, light: towards, straight, finish, environment }
+        Self { direction, light: towards, straight, finish, environment, checkerboard }
     }
 
     /// What a box shows in diffuse light, to second order; none where a part of it may turn away.
@@ -116,7 +125,7 @@ impl<'a> View<'a> {
         let under = |x: i32, y: i32| [with([pp, pq], x, y), with([pq, qq], x, y)];
         let (along, to_light) = (under(dx, dy), under(lx, ly));
         // one deviation may not turn away
-        let area = facing.area;
+        let area = facing.area << 2;
         if area <= 0 || times(area, area) <= with(along, dx, dy) {
             return None;
         }
@@ -136,16 +145,24 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
         let mut shown = Shown::default();
-        if let Finish::Diffuse { .. } = self.finish {
-            let mut pool = Pool::new(footprint.half());
-            footprint.each(ground, |part| {
-                pool.add(&part.slopes, part.share);
+        if let (Finish::Mirror, Some(checkerboard)) = (self.finish, self.checkerboard) {
+            footprint.each(ground, |slopes| {
+                let mirrored = self.mirrored(&Spread::of(slopes, footprint.half()))?;
+                shown.boxes += 1;
+                shown.matt += i64::from(checkerboard.over(&mirrored).to_bits());
                 Some(())
             })?;
-            self.add(&pool.points()?, &mut shown)?;
-        } else {
-            footprint.each(ground, |part| self.add(&part.slopes.points(), &mut shown))?;
+            return Some(self.finished(&shown));
         }
+        footprint.each(ground, |slopes| self.add(&slopes.points(), &mut shown))?;
+        Some(self.finished(&shown))
+    }
+
+    /// What four points show that stand for all of a pixel; none where one turns away from the eye.
+    #[inline(always)]
+    pub(super) fn shown(&self, points: &[Slope; 4]) -> Option<Unit> {
+        let mut shown = Shown::default();
+        self.add(points, &mut shown)?;
         Some(self.finished(&shown))
     }
 
@@ -166,28 +183,37 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn seen(&self, points: &[Slope; 4]) -> Option<(u32, i64, i64)> {
         let (mut area, mut matt, mut highlight) = (0_u32, 0_i64, 0_i64);
-        for slope in points {
+        let (mut along, mut weights) = ([0; 4], [0; 4]);
+        for ((slope, along), weight) in points.iter().zip(&mut along).zip(&mut weights) {
             let facing = Facing::new(*slope, self);
             if facing.area <= 0 {
                 return None;
             }
             // 20 fractional bits: below 2^26
-            let weight = facing.area >> 4;
+            *weight = facing.area >> 2;
             area = area.wrapping_add(weight.unsigned_abs());
-            let (a, b) = match self.finish {
-                Finish::Diffuse { .. } => (facing.lit.max(0), 0),
+            let lit = facing.lit.max(0);
+            let tone = match self.finish {
+                Finish::Diffuse { .. } => lit,
                 Finish::TorranceSparrow { roughness, reflectance, .. } => {
                     let model = TorranceSparrow::within(roughness, reflectance);
-                    (facing.lit.max(0), self.sheen(*slope, &facing, model).to_bits())
+                    highlight += product(self.sheen(*slope, &facing, model).to_bits(), *weight);
+                    lit
                 }
-                Finish::Phong { shininess, .. } => {
-                    let along = self.straight.saturating_add(unit_product(facing.eye, facing.lit) << 1);
-                    let along = Unit::from_bits(along.clamp(0, 1 << 30));
-                    (facing.lit.max(0), power(along, shininess).to_bits())
+                Finish::Phong { .. } => {
+                    let twice = (product(facing.eye, facing.lit) >> 29) as i32;
+                    *along = self.straight.saturating_add(twice);
+                    lit
                 }
-                Finish::Mirror => (self.reflection(*slope, &facing).to_bits(), 0),
+                Finish::Mirror => self.reflection(*slope, &facing).to_bits(),
             };
-            (matt, highlight) = (matt + product(a, weight), highlight + product(b, weight));
+            matt += product(tone, *weight);
+        }
+        // of all four at once
+        if let Finish::Phong { shininess, .. } = self.finish {
+            for (shown, weight) in powers(along, shininess).into_iter().zip(weights) {
+                highlight += product(shown, weight);
+            }
         }
         Some((area, matt, highlight))
     }
@@ -201,6 +227,42 @@ impl<'a> View<'a> {
         let direction = vector(self.direction);
         let sight = Sight { normal: Vec3::new(x, y, z), direction, tangent: Vec3::default() };
         model.tone(&sight, vector(self.light))
+    }
+
+    /// The mirrored rays of a box; none where a part of the box may turn away.
+    ///
+    /// Slopes with the covariance `S` are seen on areas `w = -n . d`, so that their mean is that of all and `S d
+    /// / w`. About it the mirrored ray `d + 2 w n / |n|^2` changes by `2 (p d + d_x n - w (1, 0, 0)) / |n|^2`
+    /// with `p`, and alike with `q`, but for its length, which does not matter.
+    #[inline(always)]
+    fn mirrored(&self, spread: &Spread) -> Option<Around> {
+        let Spread { mean, covariance: [pp, pq, qq] } = *spread;
+        let [dx, dy, dz] = self.direction;
+        let sum = |a: i32, b: i32, c: i32, d: i32| rounded_down::<30>(product(a, b) + product(c, d));
+        let along = [sum(pp, dx, pq, dy), sum(pq, dx, qq, dy)];
+        // one deviation may not turn away
+        let area = dot(mean, self.direction).wrapping_neg() << 2;
+        if area <= 0 || times(area, area) <= sum(along[0], dx, along[1], dy) {
+            return None;
+        }
+        // 1 / w, 25 fractional bits, at most 32: so flat nothing is seen
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area.max(1 << 19).unsigned_abs())?);
+        let per_area = mantissa >> (13_u32.wrapping_sub(zeros) & 31);
+        let seen = |mean: i32, along: i32| mean.saturating_add(rounded_down::<25>(product(along, per_area)));
+        let [p, q] = [seen(mean[0], along[0]), seen(mean[1], along[1])];
+        let Facing { eye, root, .. } = Facing::new([p, q], self);
+        let [p, q, up] = [p >> 2, q >> 2, 1 << 22].map(|c| cosine(c, root));
+        let turned = sum(p, dy, q.wrapping_neg(), dx);
+        let changes = [
+            [eye.wrapping_neg(), turned, sum(p, dz, up, dx)],
+            [turned.wrapping_neg(), eye.wrapping_neg(), sum(q, dz, up, dy)],
+        ];
+        // times 4 / |n|^2
+        let square = unit_product(up, up);
+        let covariance = [pp, pq, qq].map(|c| rounded_down::<28>(product(c, square)));
+        let ahead = |d: i32, n: i32| d.wrapping_add(rounded_down::<29>(product(eye, n)));
+        let e = [ahead(dx, p.wrapping_neg()), ahead(dy, q.wrapping_neg()), ahead(dz, up)];
+        Some(Around { e, changes, covariance })
     }
 
     /// What the mirrored ray meets.

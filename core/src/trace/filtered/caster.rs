@@ -10,20 +10,19 @@ use core::ops::Range;
 use embedded_graphics_core::geometry::Size;
 
 use super::answer::View;
-use super::footprint::{Place, Quality, Sight, into, whole};
+use super::footprint::{Place, Quality, Sight, into, settled, whole};
 use super::ground::Ground;
+use super::outline;
 use super::slopes::Spread;
 use crate::Error;
 use crate::fif::Sums;
-use crate::num::{Unit, unit};
+use crate::num::{Unit, reciprocal_sqrt_of, scaled, square, unit};
 use crate::plane::{Field, Tone, along};
+use crate::trace::environment::{Around, Checkerboard};
 use crate::trace::finish::Finish;
 use crate::trace::height_field::halves::Pencil;
 use crate::trace::height_field::statistics::Uncounted;
 use crate::trace::ray_caster::{RayCaster, narrow, rounded};
-
-/// Half a pixel, 24 fractional bits.
-const HALF: i32 = 1 << 23;
 
 /// A height field seen by a camera, the normals of each pixel integrated: a [`Field`] of [`Tone`]s.
 #[derive(Debug, Clone)]
@@ -31,10 +30,12 @@ pub struct FilteredCaster<'a> {
     caster: RayCaster<'a>,
     ground: [Ground<'a>; 2],
     quality: Quality,
-    /// The rays from the eye, as wide as a pixel.
+    /// The rays from the eye, half as wide as a pixel, so that a leaf lies near the place that is met.
     pixels: Pencil,
     /// From a pixel to the next, on the image plane: to the right and downwards, 28 fractional bits.
     edges: [[i32; 3]; 2],
+    /// Where that is what surrounds the surface.
+    checkerboard: Option<Checkerboard>,
 }
 
 /// How a pixel was found.
@@ -64,9 +65,10 @@ impl<'a> FilteredCaster<'a> {
             return Err(Error::Unsupported { what: "running sums", allowed });
         }
         let ground = [(x, &hierarchy.x), (y, &hierarchy.y)].map(|(s, p)| Ground::new(*s, p.origin, p.width));
-        let pixels = caster.surface.pencil(caster.rays.origin, caster.footprint);
+        let pixels = caster.surface.pencil(caster.rays.origin, caster.footprint.part(2));
         let edges = [caster.right, caster.down].map(|edge| edge.map(narrow));
-        Ok(Self { caster, ground, quality, pixels, edges })
+        let checkerboard = Checkerboard::new(&caster.environment);
+        Ok(Self { caster, ground, quality, pixels, edges, checkerboard })
     }
 
     /// The picture with one plain sample after another: the ray caster.
@@ -79,37 +81,38 @@ impl<'a> FilteredCaster<'a> {
         if x >= self.caster.size.width || y >= self.caster.size.height {
             return Found::Beyond;
         }
-        self.tone(x, y).1
+        self.tone(x, y, self.caster.direction(x, y).map(narrow)).1
     }
 
     #[inline(never)]
-    fn tone(&self, x: u32, y: u32) -> (Unit, Found) {
-        let centre = self.caster.direction(x, y);
-        let direction = centre.map(narrow);
-        let below = self.caster.offset(centre, 0, HALF);
+    fn tone(&self, x: u32, y: u32, direction: [i32; 3]) -> (Unit, Found) {
+        let [_, down] = self.edges;
+        let half = down.map(|c| c >> 1);
+        let moved = |by: fn(i32, i32) -> i32| {
+            let ([x, y, z], [a, b, c]) = (direction, half);
+            [by(x, a), by(y, b), by(z, c)]
+        };
+        let below = moved(i32::wrapping_add);
         let sampled = || (self.caster.samples(x, y), Found::Sampled);
-        let Some(hit) = self.caster.surface.first_hit(&self.pixels, &below, &mut Uncounted) else {
-            let above = self.caster.offset(centre, 0, -HALF);
-            return match self.caster.surface.leaf(&self.pixels, &above, &mut Uncounted) {
-                None => (self.caster.surroundings(x, y), Found::Beyond),
+        let surface = &self.caster.surface;
+        let Some(leaf) = surface.leaf(&self.pixels, &below, &mut Uncounted) else {
+            return match surface.leaf(&self.pixels, &moved(i32::wrapping_sub), &mut Uncounted) {
+                None => (self.surroundings(x, y, direction), Found::Beyond),
                 Some(_) => sampled(),
             };
         };
-        let [p, q, _] = [hit.normal().x, hit.normal().y, hit.normal().z].map(|c| c.to_bits().wrapping_neg());
-        let (slope, t) = ([p, q], hit.t.to_bits());
-        if into(slope, below) <= 0 {
-            return sampled();
-        }
-        let (sight, lower) = (
-            Sight { eye: self.pixels.origin, direction },
-            Sight { eye: self.pixels.origin, direction: below },
-        );
-        let [[x0, y0, z0], [x1, y1, z1]] = [lower.at(t), sight.at(t)];
-        let rise = into(slope, [x1.wrapping_sub(x0), y1.wrapping_sub(y0), 0]) as i32;
-        let above = z1.wrapping_sub(z0).wrapping_sub(rise);
+        let [p, q, _] = surface.normal(&leaf).map(i32::wrapping_neg);
+        let (t_in, t_out) = leaf.span;
+        let t = t_in + ((t_out - t_in) >> 1);
+        // 24 fractional bits against 28: a leaf that is seen at less than a quarter of it tells little of the
+        // plane, for which a level one does
+        let size = i64::from(p.unsigned_abs()) + i64::from(q.unsigned_abs()) + (1 << 24);
+        let slope = if into([p, q], below) > size << 2 { [p, q] } else { [0; 2] };
+        let sight = Sight { eye: self.pixels.origin, direction };
+        // above the plane through the point of the ray below
+        let above = ((into(slope, half) * i64::from(t)) >> 28) as i32;
         let reach = self.caster.footprint.width(t).saturating_mul(8);
-        let first: Place = sight.meet(t, slope, above, reach);
-        match self.filtered(&sight, first, reach) {
+        match self.filtered(&sight, sight.meet(t, slope, above, reach), reach) {
             Some(tone) => (tone, Found::Filtered),
             None => sampled(),
         }
@@ -119,19 +122,37 @@ impl<'a> FilteredCaster<'a> {
     #[inline(always)]
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let RayCaster { material, light, environment, .. } = &self.caster;
-        let view = || View::new(unit(sight.direction), light.towards, *material, environment);
+        let checkerboard = self.checkerboard.as_ref();
+        let view = || View::new(unit(sight.direction), light.towards, *material, environment, checkerboard);
         if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
             let (slopes, half) = whole(&self.ground, sight, self.edges, first, reach)?;
             return view().glance(ambient, &Spread::of(&slopes, half));
         }
-        let care = (reach, matches!(material, Finish::Diffuse { .. }));
-        let footprint = self.quality.footprint(&self.ground, sight, self.edges, first, care)?;
+        let place = settled(&self.ground, sight, first, reach)?;
+        if let Finish::Diffuse { .. } = material {
+            let size = (reach, self.quality.columns());
+            return view().shown(&outline::spread(&self.ground, sight, self.edges, place, size)?.points());
+        }
+        let few = matches!(material, Finish::Mirror) && checkerboard.is_some();
+        let footprint = self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few));
         view().tone(&self.ground, &footprint)
     }
 
+    /// What surrounds the surface, through a pixel that shows nothing else.
+    #[inline(never)]
+    fn surroundings(&self, x: u32, y: u32, direction: [i32; 3]) -> Unit {
+        let Some(checkerboard) = &self.checkerboard else { return self.caster.surroundings(x, y) };
+        let root = reciprocal_sqrt_of(square(direction));
+        let over = |[x, y, z]: [i32; 3]| [scaled(x, root), scaled(y, root), scaled(z, root)];
+        // 32 times as long with a 1024th of the variance, a twelfth: small edges keep their bits
+        let [right, down] = self.edges.map(|edge| over(edge.map(|c| c.saturating_mul(32))));
+        let covariance = [(1 << 14) / 12, 0, (1 << 14) / 12];
+        checkerboard.over(&Around { e: over(direction), changes: [right, down], covariance })
+    }
+
     #[inline(always)]
-    fn pixel(&self, x: u32, y: u32, visible: bool) -> Tone {
-        let tone = if visible { self.tone(x, y).0 } else { self.caster.surroundings(x, y) };
+    fn pixel(&self, x: u32, y: u32, direction: [i32; 3], visible: bool) -> Tone {
+        let tone = if visible { self.tone(x, y, direction).0 } else { self.surroundings(x, y, direction) };
         rounded(tone.to_bits() as u32)
     }
 }
@@ -145,7 +166,7 @@ impl Field for FilteredCaster<'_> {
 
     fn at(&self, x: u32, y: u32) -> Tone {
         let visible = self.caster.outline.columns(y, self.caster.size.width).contains(&x);
-        self.pixel(x, y, visible)
+        self.pixel(x, y, self.caster.direction(x, y).map(narrow), visible)
     }
 
     fn row(&self, y: u32, x: Range<u32>) -> impl ExactSizeIterator<Item = Tone> {
@@ -153,6 +174,7 @@ impl Field for FilteredCaster<'_> {
         let (y, width) = (y.min(self.caster.size.height.saturating_sub(1)), self.caster.size.width);
         let x = x.start.min(width)..x.end.min(width);
         let visible = self.caster.outline.columns(y, width);
-        along(x, move |x| self.pixel(x, y, visible.contains(&x)))
+        let directions = self.caster.directions(x, y);
+        along(directions, move |(x, direction)| self.pixel(x, y, direction, visible.contains(&x)))
     }
 }

@@ -3,21 +3,20 @@
 //!
 //! A ray `eye + t d` that moves by `r` on the image plane moves along the plane with slopes `(p, q)` by
 //! `t (r - d (n . r) / (n . d))`, `n = (-p, -q, 1)`: the pixel's edges `a` and `b`. The plane is the mean one
-//! over the box of the whole pixel, put where the ray through the pixel's centre meets it.
+//! over a box of a pixel's width and a half, put where the ray through the pixel's centre meets it.
 //!
 //! The parallelogram is cut into columns and these into rows. Where a line between two rows lies `e` above
 //! the surface's mean height along it, its rays meet the surface `e d / (-n . d)` farther: the line is moved
-//! so. What a pixel loses at a line, its neighbour gains, and nothing is counted twice. (With all lines on
-//! the plane the tone of `G x G` in matt light is off by 0.0013 however finely it is cut; with two columns of
-//! four rows by 0.0008.) Each part has the variances `(a_x^2 + b_x^2) / 12` and `(a_y^2 + b_y^2) / 12`; its
-//! box is the one with these. Formats: lengths and heights 24 fractional bits, directions 28, parts of the
-//! domain 30.
+//! so. What a pixel loses at a line, its neighbour gains, and nothing is counted twice. Matt light has the
+//! outline instead ([`super::outline`]). Each part has the variances `(a_x^2 + b_x^2) / 12` and `(a_y^2 +
+//! b_y^2) / 12`; its box is the one with these. Formats: lengths and heights 24 fractional bits, directions
+//! 28, parts of the domain 30.
 
 use core::num::NonZeroU32;
 
 use super::ground::{Ground, Side, moved};
-use super::slopes::{Slope, Slopes};
-use crate::num::{product, reciprocal_of, rough_sqrt};
+use super::slopes::{Slope, Slopes, times};
+use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,22 +24,33 @@ use crate::num::{product, reciprocal_of, rough_sqrt};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Quality {
-    /// Two boxes; in diffuse light one.
+    /// Two boxes; in diffuse light one, and no outline.
     Coarse,
-    /// Eight boxes.
+    /// Eight boxes; in diffuse light an outline of eight corners.
     Fine,
-    /// Twelve boxes.
+    /// Twelve boxes; in diffuse light an outline of fourteen corners.
     Finest,
 }
 
 impl Quality {
     /// Parts of the shorter and of the longer edge.
     #[inline(always)]
-    pub(super) const fn parts(self) -> [i32; 2] {
+    pub(super) const fn parts(self, few: bool) -> [i32; 2] {
         match self {
             Self::Coarse => [1, 2],
+            Self::Fine if few => [2, 3],
             Self::Fine => [2, 4],
             Self::Finest => [2, 6],
+        }
+    }
+
+    /// Columns of an outline.
+    #[inline(always)]
+    pub(super) const fn columns(self) -> i32 {
+        match self {
+            Self::Coarse => 1,
+            Self::Fine => 3,
+            Self::Finest => 6,
         }
     }
 }
@@ -67,21 +77,24 @@ pub(super) fn into([p, q]: Slope, [x, y, z]: [i32; 3]) -> i64 {
 }
 
 /// The reciprocal of how much a ray goes into a plane, which is seen at no flatter an angle than some 4
-/// degrees.
+/// degrees: 25 fractional bits.
 #[inline(always)]
-pub(super) fn steepness(slope: Slope, direction: [i32; 3]) -> (i32, u32) {
-    let [p, q] = slope.map(|s| i64::from(s.unsigned_abs()));
-    let least = (p + q + (1 << 24)) >> 1; // a 32nd of 28 bits
-    let steep = into(slope, direction).max(least).min(i64::from(i32::MAX));
-    reciprocal_of(NonZeroU32::new(steep as u32).unwrap_or(NonZeroU32::MIN))
+pub(super) fn steepness(slope: Slope, direction: [i32; 3]) -> i32 {
+    let ([p, q], [x, y, z]) = (slope, direction);
+    // 20 fractional bits; a 32nd of |p| + |q| + 1 at least
+    let steep = (((product(p, x) + product(q, y)) >> 32) as i32).wrapping_sub(z >> 8);
+    let least = (p.unsigned_abs().wrapping_add(q.unsigned_abs()).wrapping_add(1 << 24)) >> 9;
+    let steep = NonZeroU32::new(steep.max(least as i32) as u32).unwrap_or(NonZeroU32::MIN);
+    let (mantissa, zeros) = reciprocal_of(steep);
+    // at most 16 zeros
+    mantissa >> (17_u32.wrapping_sub(zeros) & 31)
 }
 
-/// `v / g` for a reciprocal of `g`, in a format with `bits` more than `v` over `g` has, saturated.
+/// `v / g` for a reciprocal of `g` with 25 fractional bits, in the format of `v`, saturated at half of it (its
+/// last 8 bits are not).
 #[inline(always)]
-pub(super) fn over(v: i64, (mantissa, zeros): (i32, u32), bits: u32) -> i32 {
-    let v = v.clamp(-(1 << 31), (1 << 31) - 1) as i32;
-    let shift = 62_u32.saturating_sub(zeros + bits);
-    (product(v, mantissa) >> (shift & 63)).clamp(-(1 << 30), 1 << 30) as i32
+pub(super) fn over(v: i32, per: i32) -> i32 {
+    product_within::<7>(v, per) >> 1
 }
 
 impl Sight {
@@ -98,30 +111,28 @@ impl Sight {
     /// from `t`.
     #[inline(always)]
     pub(super) fn meet(&self, t: i32, slope: Slope, above: i32, reach: i32) -> Place {
-        let off = over(i64::from(above), steepness(slope, self.direction), 28);
+        let off = over(above, steepness(slope, self.direction));
         let t = t.wrapping_add(off.max(reach.wrapping_neg()).min(reach));
         let [x, y, _] = self.at(t);
         Place { t, at: [x, y], slope }
     }
 }
 
-/// A pixel's edges along the plane that its ray meets.
+/// A pixel's edges along the plane that its ray meets, saturated at ±64.
 #[inline(always)]
-pub(super) fn edges(place: &Place, sight: &Sight, steep: (i32, u32), edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
+pub(super) fn edges(place: &Place, sight: &Sight, steep: i32, edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
     let [dx, dy, _] = sight.direction;
     edges.map(|r| {
-        let along = over(into(place.slope, r), steep, 28);
-        [(r[0], dx), (r[1], dy)].map(|(r, d)| {
-            // n . r / n . d is along
-            let moved = i64::from(r) - (product(d, along) >> 28);
-            ((moved * i64::from(place.t)) >> 28).clamp(-(1 << 29), 1 << 29) as i32
-        })
+        let along = over(into(place.slope, r) as i32, steep);
+        // n . r / n . d is along
+        let moved = |r: i32, d: i32| times((r >> 4).wrapping_sub(high(d, along)), place.t);
+        [moved(r[0], dx), moved(r[1], dy)]
     })
 }
 
 /// The sides of the box with the variances of a parallelogram.
 #[inline(always)]
-fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
+pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
     let half = [half(a[0], b[0]), half(a[1], b[1])];
     let [x, y] = ground;
@@ -143,14 +154,6 @@ pub(super) struct Footprint {
     reach: i32,
     half: [i32; 2],
     sides: [Side; 2],
-    careful: bool,
-}
-
-/// A part of a footprint: the surface over its box, and the box's share of the ground.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
-    pub(super) slopes: Slopes,
-    pub(super) share: i32,
 }
 
 impl Footprint {
@@ -162,18 +165,9 @@ impl Footprint {
     /// Where the rays of a line meet the surface: at its middle.
     #[inline(always)]
     fn line(&self, ground: &[Ground<'_>; 2], at: [i32; 2], height: i32) -> [i32; 2] {
-        let ([ax, ay], _) = self.steps[0];
         let [x, y] = ground;
-        let surface =
-            |ax: i32, ay: i32| product(x.value(at[0].wrapping_add(ax)), y.value(at[1].wrapping_add(ay)));
-        let mean = if self.careful {
-            // the mean height along it, by two points
-            let (ax, ay) = (ax >> 2, ay >> 2);
-            (surface(ax, ay) >> 1) + (surface(-ax, -ay) >> 1)
-        } else {
-            surface(0, 0)
-        };
-        let mean = (mean >> 24) as i32;
+        let [u, v] = at;
+        let mean = (product(x.value(u), y.value(v)) >> 24) as i32;
         let above = height.saturating_sub(mean).max(-self.reach).min(self.reach);
         let [fx, fy] = self.farther;
         [at[0].wrapping_add(moved(above, fx)), at[1].wrapping_add(moved(above, fy))]
@@ -184,15 +178,10 @@ impl Footprint {
     pub(super) fn each(
         &self,
         ground: &[Ground<'_>; 2],
-        mut then: impl FnMut(&Part) -> Option<()>,
+        mut then: impl FnMut(&Slopes) -> Option<()>,
     ) -> Option<()> {
         let [(a, rise_a), (b, rise_b)] = self.steps;
         let [columns, rows] = self.parts;
-        // the axis along which a part's share is counted
-        let along = usize::from(b[0].unsigned_abs() < b[1].unsigned_abs());
-        let whole = b.get(along).copied().unwrap_or(0);
-        let sign = (whole >> 31) | 1;
-        let shift = 17_u32.saturating_sub(whole.unsigned_abs().leading_zeros()) & 31;
         let (mut first, mut top) = (self.at, self.height);
         for _ in 0..columns {
             let (mut at, mut height) = (first, top);
@@ -202,13 +191,12 @@ impl Footprint {
                 height = height.wrapping_add(rise_b);
                 let line = self.line(ground, at, height);
                 let middle = [(before[0] >> 1) + (line[0] >> 1), (before[1] >> 1) + (line[1] >> 1)];
-                let gained = line[along & 1].wrapping_sub(before[along & 1]).wrapping_mul(sign);
                 let [x, y] = ground;
                 let slopes = Slopes {
                     x: x.around(middle[0], &self.sides[0])?,
                     y: y.around(middle[1], &self.sides[1])?,
                 };
-                then(&Part { slopes, share: (gained >> shift).clamp(0, 1 << 20) })?;
+                then(&slopes)?;
                 before = line;
             }
             first = [first[0].wrapping_add(a[0]), first[1].wrapping_add(a[1])];
@@ -227,10 +215,28 @@ pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
     v.map(|v| (product(v, part) >> 16) as i32)
 }
 
-/// The surface over a box; none where it leaves the domain.
+/// Half of the box above which a pixel's mean plane is taken: three quarters of a pixel, of which eight are
+/// within reach.
 #[inline(always)]
-fn above([x, y]: &[Ground<'_>; 2], at: [i32; 2], [along_x, along_y]: &[Side; 2]) -> Option<Slopes> {
-    Some(Slopes { x: x.around(x.place(at[0]), along_x)?, y: y.around(y.place(at[1]), along_y)? })
+fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
+    let half = (reach >> 4) + (reach >> 5);
+    [x.side(half), y.side(half)]
+}
+
+/// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
+/// domain.
+#[inline(always)]
+pub(super) fn on_mean(
+    [x, y]: &[Ground<'_>; 2],
+    sight: &Sight,
+    from: Place,
+    near: &[Side; 2],
+    reach: i32,
+) -> Option<Place> {
+    let [px, py] = from.at;
+    let slopes = Slopes { x: x.nearest(x.place(px), &near[0])?, y: y.nearest(y.place(py), &near[1])? };
+    let [_, _, z] = sight.at(from.t);
+    Some(sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach))
 }
 
 /// The surface over the box of a pixel, and half of the box: none where it leaves the domain. The mean plane
@@ -243,44 +249,38 @@ pub(super) fn whole(
     first: Place,
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
-    let [x, y] = ground;
-    // eight pixels are within reach
-    let near = (reach >> 4) + (reach >> 5);
-    let slopes = above(ground, first.at, &[x.side(near), y.side(near)])?;
-    let [_, _, z] = sight.at(first.t);
-    let place = sight.meet(first.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach);
+    let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
     let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
-    Some((above(ground, place.at, &sides)?, half))
+    let [x, y] = ground;
+    let [px, py] = place.at;
+    Some((Slopes { x: x.around(x.place(px), &sides[0])?, y: y.around(y.place(py), &sides[1])? }, half))
+}
+
+/// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in, which
+/// may lie far off.
+#[inline(always)]
+pub(super) fn settled(ground: &[Ground<'_>; 2], sight: &Sight, first: Place, reach: i32) -> Option<Place> {
+    on_mean(ground, sight, first, &near(ground, reach), reach)
 }
 
 impl Quality {
-    /// The footprint of a pixel from where its ray meets the surface: none where no plane fits. What is matt
-    /// changes so little over a pixel that where its lines lie counts most: it is measured with more care.
+    /// The footprint of a pixel around where its ray meets the mean plane.
     #[inline(always)]
     pub(super) fn footprint(
         self,
         ground: &[Ground<'_>; 2],
         sight: &Sight,
         pixel: [[i32; 3]; 2],
-        first: Place,
-        (reach, careful): (i32, bool),
-    ) -> Option<Footprint> {
+        place: &Place,
+        (reach, few): (i32, bool),
+    ) -> Footprint {
         let [x, y] = ground;
-        let whole = edges(&first, sight, steepness(first.slope, sight.direction), pixel);
-        let (_, own) = sides(ground, whole);
-        // the leaf where the ray comes in may lie far off the mean plane
-        let mut place = first;
-        for _ in 0..if careful { 2 } else { 1 } {
-            let over_all = above(ground, place.at, &own)?;
-            let [_, _, z] = sight.at(place.t);
-            place = sight.meet(place.t, over_all.mean(), z.wrapping_sub(over_all.height()), reach);
-        }
         let slope = place.slope;
         let steep = steepness(slope, sight.direction);
-        let [a, b] = edges(&place, sight, steep, pixel);
+        let [a, b] = edges(place, sight, steep, pixel);
         // more parts along the longer edge
         let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
-        let [few, many] = self.parts();
+        let [few, many] = self.parts(few);
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
         let (half, sides) = sides(ground, [a, b]);
@@ -296,16 +296,15 @@ impl Quality {
         ];
         let [_, _, z] = sight.at(place.t);
         let [dx, dy, _] = sight.direction;
-        Some(Footprint {
+        Footprint {
             at,
             height: z.wrapping_sub(back(rises[0], rises[1])),
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
-            farther: [x.factor(over(i64::from(dx), steep, 26)), y.factor(over(i64::from(dy), steep, 26))],
+            farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)],
             reach,
             half,
             sides,
-            careful,
-        })
+        }
     }
 }

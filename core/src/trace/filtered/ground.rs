@@ -4,7 +4,7 @@
 
 use core::num::NonZeroU32;
 
-use crate::fif::{Course, Sums, Width};
+use crate::fif::{Course, Sum, Sums, Width};
 use crate::num::{product, reciprocal_of};
 
 /// The whole domain.
@@ -29,7 +29,9 @@ pub(super) struct Side {
 /// A length times a factor.
 #[inline(always)]
 pub(super) fn moved(length: i32, (mantissa, shift): (i32, u32)) -> i32 {
-    (product(length, mantissa) >> (shift & 31)) as i32
+    let product = product(length, mantissa);
+    let (high, low) = ((product >> 32) as i32, product as u32);
+    high << 1 << (31_u32.wrapping_sub(shift) & 31) | (low >> (shift & 31)) as i32
 }
 
 impl<'a> Ground<'a> {
@@ -80,14 +82,47 @@ impl<'a> Ground<'a> {
     /// where more is.
     #[inline(always)]
     pub(super) fn around(&self, middle: i32, side: &Side) -> Option<Course> {
-        let Side { half, width } = side;
-        let (from, most) = (middle.saturating_sub(*half), WHOLE - (half << 1));
-        if from < -(half >> 1) || from > most + (half >> 1) {
+        let Side { half, .. } = *side;
+        let (from, quarter) = (middle.saturating_sub(half), half >> 1);
+        if from < -quarter || from > WHOLE - (half << 1) + quarter {
             return None;
         }
-        let from = from.max(0).min(most);
-        let to = (from + (half << 1)).min(WHOLE - 1);
-        Some(self.sums.between(&self.sums.at((from as u32) << 2), &self.sums.at((to as u32) << 2), width))
+        self.beginning(from, side)
+    }
+
+    /// The same moved inside from anywhere.
+    #[inline(always)]
+    pub(super) fn nearest(&self, middle: i32, side: &Side) -> Option<Course> {
+        self.beginning(middle.saturating_sub(side.half), side)
+    }
+
+    #[inline(always)]
+    fn beginning(&self, from: i32, Side { half, width }: &Side) -> Option<Course> {
+        let from = from.max(0).min(WHOLE - 1 - (half << 1));
+        let to = from + (half << 1);
+        let [from, to] = [self.sums.at((from as u32) << 2)?, self.sums.at((to as u32) << 2)?];
+        Some(self.sums.between(&from, &to, width))
+    }
+
+    /// The sums up to a place; beyond an end the profile goes on straight.
+    #[inline(always)]
+    pub(super) fn at(&self, place: i32) -> Option<Sum> {
+        let inside = place.clamp(0, WHOLE - 1);
+        let sum = self.sums.at((inside as u32) << 2)?;
+        Some(if inside == place { sum } else { self.sums.beyond(&sum, place.wrapping_sub(inside)) })
+    }
+
+    /// The mean value between two places, so far from the first to the second.
+    #[inline(always)]
+    pub(super) fn mean(&self, from: &Sum, to: &Sum, width: i32) -> i32 {
+        self.sums.mean_between(from, to, width)
+    }
+
+    /// A slope for one of a number per domain.
+    #[inline(always)]
+    pub(super) fn per_length(&self, slope: i32) -> i32 {
+        let (mantissa, shift) = self.per_length;
+        (product(slope, mantissa) >> (shift.wrapping_add(6) & 63)) as i32
     }
 
     /// The value at a place, that at the nearer end outside.

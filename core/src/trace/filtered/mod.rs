@@ -5,6 +5,7 @@ mod answer;
 mod caster;
 mod footprint;
 mod ground;
+mod outline;
 mod patch;
 mod slopes;
 

@@ -79,7 +79,7 @@ impl Pixel {
         }
         let ([dx, dy, _], [p, q]) = (sight.direction, place.slope);
         // 22 fractional bits
-        let moved = [dx, dy].map(|d| over(d.into(), steepness, 22));
+        let moved = [dx, dy].map(|d| over(d, steepness) >> 6);
         let linear = |x: i32, y: i32| {
             let z = ((product(moved[0], x) + product(moved[1], y)) >> 22).clamp(-(1 << 30), 1 << 30) as i32;
             let less = |c: i32, slope: i32| {
@@ -90,7 +90,7 @@ impl Pixel {
         let of = |v: i32| coefficient(v, det);
         let across = [linear(of(b[1]), of(b[0].wrapping_neg())), linear(of(a[1].wrapping_neg()), of(a[0]))];
         // 1 / (-n . d), 22 fractional bits
-        let t = over(1 << 28, steepness, 22);
+        let t = over(1 << 28, steepness) >> 6;
         let along = [p, q].map(|slope| (product(slope, t) >> 24).clamp(-(1 << 30), 1 << 30) as i32);
         let along = [along[0].wrapping_neg(), along[1].wrapping_neg(), t];
         let d = unit(sight.direction);
@@ -208,7 +208,7 @@ impl<'a> FilteredPatch<'a> {
     /// None where a part of the pixel may turn away from the eye, or is not above the square.
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let PatchCaster { material, light, environment, .. } = &self.caster;
-        let view = View::new(unit(sight.direction), light.towards, *material, environment);
+        let view = View::new(unit(sight.direction), light.towards, *material, environment, None);
         // the mean plane of the cell as large as the footprint on that of the leaf
         let steep = steepness(first.slope, sight.direction);
         let wide = width(edges(&first, sight, steep, self.pixel), 1);
@@ -217,7 +217,7 @@ impl<'a> FilteredPatch<'a> {
         let place = sight.meet(first.t, slope, z.saturating_sub(above), reach);
         let [_, _, z] = sight.at(place.t);
         let steep = steepness(place.slope, sight.direction);
-        let [few, many] = self.quality.parts();
+        let [few, many] = self.quality.parts(false);
         let wide = width(edges(&place, sight, steep, self.pixel), few.wrapping_mul(many));
         let pixel = Pixel::new(&place, z, sight, self.pixel, reach)?;
         let sum = self.sum(&pixel, &view, self.level(wide))?;

@@ -10,10 +10,8 @@
 //! Four points with all of them: along each axis, `f -+ s` with `F -+ c / s`, `s^2` the variance of the
 //! slope and `c` the covariance: the value goes with the slope. Formats: 24 fractional bits.
 
-use core::num::NonZeroU32;
-
 use crate::fif::Course;
-use crate::num::{high, product, reciprocal_of, reciprocal_sqrt_of, rough_sqrt};
+use crate::num::{high, product, product_within, reciprocal_sqrt_of, rough_sqrt};
 
 /// The surface over a box: what is known along x and along y.
 #[derive(Debug, Clone, Copy)]
@@ -25,13 +23,10 @@ pub(super) struct Slopes {
 /// Slopes at a point: `(p, q)`, 24 fractional bits.
 pub(super) type Slope = [i32; 2];
 
-/// `a b`, 24 fractional bits, saturated at ±64.
+/// `a b`, 24 fractional bits, saturated at ±64 (its last 8 bits are not).
 #[inline(always)]
 pub(super) fn times(a: i32, b: i32) -> i32 {
-    let product = product(a, b);
-    let high = (product >> 32) as i32;
-    let limit = ((high >> 31) | 1) << 30;
-    if (-(1 << 22)..1 << 22).contains(&high) { (product >> 24) as i32 } else { limit }
+    product_within::<6>(a, b)
 }
 
 impl Slopes {
@@ -59,9 +54,9 @@ impl Slopes {
     pub(super) fn points(&self) -> [Slope; 4] {
         let pair = |s: &Course| {
             let (Course { slope, value, .. }, [variance, covariance]) = (*s, s.spread());
-            // 1 / s, where v has 24 fractional bits: mantissa / 2^(31 + half) for the word
-            let (mantissa, half) = reciprocal_sqrt_of(u64::from(variance.max(1).unsigned_abs()) << 24);
-            let over = |c: i32| (product(c, mantissa) >> ((half + 7) & 63)) as i32;
+            // 1 / s, where v has 24 fractional bits: mantissa / 2^(19 + half)
+            let (mantissa, half) = reciprocal_sqrt_of(variance.max(1).unsigned_abs().into());
+            let over = |c: i32| (product(c, mantissa) >> ((half + 19) & 63)) as i32;
             // by Cauchy and Schwarz no larger than the deviation of the value
             let (s, t) = (over(variance), over(covariance));
             [
@@ -109,15 +104,6 @@ impl Moments {
     }
 }
 
-/// The slopes of several boxes, each with its share.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pool {
-    thirds: [i32; 2],
-    share: u32,
-    means: [i64; 2],
-    squares: [i64; 3],
-}
-
 /// Mean and covariance of slopes: `[S_pp, S_pq, S_qq]`, 24 fractional bits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spread {
@@ -156,6 +142,17 @@ impl Spread {
         [at(s, more), at(s, less), at(-s, more.saturating_neg()), at(-s, less.saturating_neg())]
     }
 
+    /// Of two boxes that count alike.
+    #[inline(always)]
+    pub(super) fn of_two(boxes: &[Slopes; 2], half: [i32; 2]) -> Self {
+        let thirds = thirds(half);
+        let [a, b] = boxes.each_ref().map(|slopes| Moments::new(slopes, thirds));
+        let middle = |a: i32, b: i32| (a >> 1).wrapping_add(b >> 1);
+        let [[p, q], [r, s]] = [a.mean, b.mean];
+        let [[pp, pq, qq], [rr, rs, ss]] = [a.squares, b.squares];
+        Self::new([middle(p, r), middle(q, s)], [middle(pp, rr), middle(pq, rs), middle(qq, ss)])
+    }
+
     /// Of one box.
     #[inline(always)]
     pub(super) fn of(slopes: &Slopes, half: [i32; 2]) -> Self {
@@ -171,30 +168,4 @@ fn thirds(half: [i32; 2]) -> [i32; 2] {
         let square = (product(h, h) >> 17).min(i64::from(i32::MAX)) as i32;
         high(square, 0x5555_5555)
     })
-}
-
-impl Pool {
-    /// Of boxes that are `2 half` wide.
-    #[inline(always)]
-    pub(super) fn new(half: [i32; 2]) -> Self {
-        Self { thirds: thirds(half), share: 0, means: [0; 2], squares: [0; 3] }
-    }
-
-    /// Adds a box; all shares together are below `2^25`.
-    #[inline(always)]
-    pub(super) fn add(&mut self, slopes: &Slopes, share: i32) {
-        let Moments { mean, squares } = Moments::new(slopes, self.thirds);
-        self.share = self.share.wrapping_add(share.unsigned_abs());
-        self.means.iter_mut().zip(mean).for_each(|(sum, mean)| *sum += product(mean, share));
-        self.squares.iter_mut().zip(squares).for_each(|(sum, square)| *sum += product(square, share));
-    }
-
-    /// Four points for all; none without a share.
-    #[inline(always)]
-    pub(super) fn points(&self) -> Option<[Slope; 4]> {
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(self.share)?);
-        // a sum is below the share times 2^31
-        let over = |sum: i64| (product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30) as i32;
-        Some(Spread::new(self.means.map(over), self.squares.map(over)).points())
-    }
 }
