@@ -30,8 +30,8 @@ pub struct FilteredCaster<'a> {
     caster: RayCaster<'a>,
     ground: [Ground<'a>; 2],
     quality: Quality,
-    /// The rays from the eye, as wide as a pixel; half as wide where an outline is looked for, so that a leaf lies
-    /// near the place that is met.
+    /// The rays from the eye, as wide as a pixel; half as wide where an outline is looked for, so that a leaf
+    /// lies near the place that is met.
     pixels: Pencil,
     /// From a pixel to the next, on the image plane: to the right and downwards, 28 fractional bits.
     edges: [[i32; 3]; 2],
