@@ -39,7 +39,7 @@ pub(crate) fn high_mixed(a: i32, b: u32) -> i32 {
 }
 
 /// `a b` of numbers with 24 fractional bits, in the same format; at `2^WHOLE` and beyond it is the end of
-/// that range, but for its last 8 bits. Cost: 4 Cortex-M4 instructions.
+/// that range, but for its last 8 bits.
 #[inline(always)]
 pub(crate) fn product_within<const WHOLE: u32>(a: i32, b: i32) -> i32 {
     let product = product(a, b);
