@@ -132,7 +132,8 @@ fn shifted(up: i32, factor: i32) -> (u32, i32) {
     (up.max(0).min(31).unsigned_abs(), factor >> down)
 }
 
-/// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the product.
+/// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the
+/// product.
 #[inline(always)]
 fn over(v: i32, (up, factor): (u32, i32)) -> i32 {
     high(v << (up & 31), factor)
@@ -332,8 +333,8 @@ impl<'a> Sums<'a> {
         a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
     }
 
-    /// The sums `by` beyond an end, 30 fractional bits, where the function goes on straight, as between the end
-    /// and a 1024th of the domain before it.
+    /// The sums `by` beyond an end, 30 fractional bits, where the function goes on straight, as between the
+    /// end and a 1024th of the domain before it.
     #[inline(never)]
     pub(crate) fn beyond(&self, end: &Sum, by: i32) -> Sum {
         let before = if by < 0 { 1 << 22 } else { u32::MAX << 22 };

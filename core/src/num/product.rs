@@ -38,8 +38,8 @@ pub(crate) fn high_mixed(a: i32, b: u32) -> i32 {
     if cfg!(no_long_product) { halves::high_mixed(a, b) } else { (whole::product_mixed(a, b) >> 32) as i32 }
 }
 
-/// `a b` of numbers with 24 fractional bits, in the same format; at `2^WHOLE` and beyond it is the end of that
-/// range, but for its last 8 bits. Cost: 4 Cortex-M4 instructions.
+/// `a b` of numbers with 24 fractional bits, in the same format; at `2^WHOLE` and beyond it is the end of
+/// that range, but for its last 8 bits.
 #[inline(always)]
 pub(crate) fn product_within<const WHOLE: u32>(a: i32, b: i32) -> i32 {
     let product = product(a, b);
@@ -376,6 +376,26 @@ mod tests {
         }
         assert_eq!(halves::product_by_short(a, b as u16), whole::product_u(a, u32::from(b as u16)));
         assert_eq!(u64::from(halves::high_of_square_u(a)), whole::product_u(a, a) >> 32, "{a}");
+    }
+
+    /// A product with 24 fractional bits: rounded down, and at the end of its range within 8 bits.
+    #[test]
+    fn a_product_within_a_range_is_the_exact_one_or_its_end() {
+        let (mut inside, mut outside) = (0, 0);
+        let words = [0, 1, -1, 1 << 24, -(1 << 24), 123_456_789, -987_654_321, 1 << 30, i32::MAX, i32::MIN];
+        for (a, b) in words.iter().flat_map(|a| words.map(|b| (*a, b))) {
+            let exact = (i64::from(a) * i64::from(b)) >> 24;
+            let got = i64::from(super::product_within::<6>(a, b));
+            if (-1 << 30..1 << 30).contains(&exact) {
+                assert_eq!(got, exact, "{a} {b}");
+                inside += 1;
+            } else {
+                let end = if exact < 0 { -1 << 30 } else { (1 << 30) - 256 };
+                assert!((end..end + 256).contains(&got), "{a} {b}: {got}");
+                outside += 1;
+            }
+        }
+        assert!(inside > 30 && outside > 30, "{inside} {outside}");
     }
 
     /// Words whose halves are the ends of theirs, in all four places.

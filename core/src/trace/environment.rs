@@ -115,10 +115,10 @@ impl Environment {
 
 /// A checkerboard, made ready for means over many directions.
 ///
-/// A square's tone is the middle of both tones and half of their difference times `S(u) S(v)`, where `S` is 1 on
-/// even and -1 on odd squares and `u = scale e_x / |e_z|`, `v = scale e_y / |e_z|`. Over an interval the mean of
-/// `S` is what its integral gains, a triangle wave: so it is over the box whose sides have the variances of `u`
-/// and `v`.
+/// A square's tone is the middle of both tones and half of their difference times `S(u) S(v)`, where `S` is 1
+/// on even and -1 on odd squares and `u = scale e_x / |e_z|`, `v = scale e_y / |e_z|`. Over an interval the
+/// mean of `S` is what its integral gains, a triangle wave: so it is over the box whose sides have the
+/// variances of `u` and `v`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Checkerboard {
     horizon: Unit,
@@ -156,8 +156,8 @@ impl Checkerboard {
 
     /// The mean tone.
     ///
-    /// Error: against that over the box, `2^-12` (`a_mean_of_squares_is_that_over_their_box`); within `2^-9` of
-    /// the horizon squares count as grey.
+    /// Error: against that over the box, `2^-12` (`a_mean_of_squares_is_that_over_their_box`); within `2^-9`
+    /// of the horizon squares count as grey.
     #[inline(always)]
     pub(super) fn over(&self, Around { e, changes, covariance }: &Around) -> Unit {
         let ([x, y, z], [[ax, ay, az], [bx, by, bz]]) = (*e, *changes);
@@ -184,8 +184,8 @@ impl Checkerboard {
     }
 }
 
-/// The variance of `e_x / |e_z|` times `e_z^2`, 44 fractional bits: of its value `at`, 20, where `e_x` changes by
-/// `by` and `|e_z|` by `up`. Changes count up to 32: what leaves that is far down at the horizon.
+/// The variance of `e_x / |e_z|` times `e_z^2`, 44 fractional bits: of its value `at`, 20, where `e_x`
+/// changes by `by` and `|e_z|` by `up`. Changes count up to 32: what leaves that is far down at the horizon.
 #[inline(always)]
 fn variance(at: i32, by: [i32; 2], up: [i32; 2], [aa, ab, bb]: &[i32; 3]) -> u64 {
     let change = |by: i32, up: i32| {

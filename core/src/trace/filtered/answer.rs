@@ -8,7 +8,7 @@
 //! - the mirrored ray itself, `d - 2 (n^ . d) n^`.
 //!
 //! Diffuse light changes so little over a pixel that four points stand for all of it, and one box is
-//! answered to second order; what is mirrored has four points for each.
+//! answered to second order; what is mirrored has four points for each, but a checkerboard one look-up.
 //!
 //! Formats: slopes and `w` 24 fractional bits, unit vectors and tones 30.
 
@@ -79,7 +79,8 @@ impl Facing {
     }
 }
 
-/// What is no longer than a normal (22 fractional bits) over its length, 30 fractional bits, of which 28 count.
+/// What is no longer than a normal (22 fractional bits) over its length, 30 fractional bits, of which 28
+/// count.
 #[inline(always)]
 fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     // a length of at least 1 and below 2^7: half is 24 to 30
@@ -231,9 +232,9 @@ impl<'a> View<'a> {
 
     /// The mirrored rays of a box; none where a part of the box may turn away.
     ///
-    /// Slopes with the covariance `S` are seen on areas `w = -n . d`, so that their mean is that of all and `S d
-    /// / w`. About it the mirrored ray `d + 2 w n / |n|^2` changes by `2 (p d + d_x n - w (1, 0, 0)) / |n|^2`
-    /// with `p`, and alike with `q`, but for its length, which does not matter.
+    /// Slopes with the covariance `S` are seen on areas `w = -n . d`, so that their mean is that of all and
+    /// `S d / w`. About it the mirrored ray `d + 2 w n / |n|^2` changes by `2 (p d + d_x n - w (1, 0, 0)) /
+    /// |n|^2` with `p`, and alike with `q`, but for its length, which does not matter.
     #[inline(always)]
     fn mirrored(&self, spread: &Spread) -> Option<Around> {
         let Spread { mean, covariance: [pp, pq, qq] } = *spread;

@@ -30,7 +30,8 @@ pub struct FilteredCaster<'a> {
     caster: RayCaster<'a>,
     ground: [Ground<'a>; 2],
     quality: Quality,
-    /// The rays from the eye, half as wide as a pixel, so that a leaf lies near the place that is met.
+    /// The rays from the eye, as wide as a pixel; half as wide where an outline is looked for, so that a leaf
+    /// lies near the place that is met.
     pixels: Pencil,
     /// From a pixel to the next, on the image plane: to the right and downwards, 28 fractional bits.
     edges: [[i32; 3]; 2],
@@ -65,7 +66,9 @@ impl<'a> FilteredCaster<'a> {
             return Err(Error::Unsupported { what: "running sums", allowed });
         }
         let ground = [(x, &hierarchy.x), (y, &hierarchy.y)].map(|(s, p)| Ground::new(*s, p.origin, p.width));
-        let pixels = caster.surface.pencil(caster.rays.origin, caster.footprint.part(2));
+        let outlined = quality != Quality::Coarse && matches!(caster.material, Finish::Diffuse { .. });
+        let pixels = caster.footprint.part(if outlined { 2 } else { 1 });
+        let pixels = caster.surface.pencil(caster.rays.origin, pixels);
         let edges = [caster.right, caster.down].map(|edge| edge.map(narrow));
         let checkerboard = Checkerboard::new(&caster.environment);
         Ok(Self { caster, ground, quality, pixels, edges, checkerboard })

@@ -26,14 +26,14 @@ use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt};
 pub enum Quality {
     /// Two boxes; in diffuse light one, and no outline.
     Coarse,
-    /// Eight boxes; in diffuse light an outline of eight corners.
+    /// Eight boxes, in a mirror of a checkerboard six; in diffuse light an outline of eight corners.
     Fine,
     /// Twelve boxes; in diffuse light an outline of fourteen corners.
     Finest,
 }
 
 impl Quality {
-    /// Parts of the shorter and of the longer edge.
+    /// Parts of the shorter and of the longer edge; `few` where what each shows is smooth.
     #[inline(always)]
     pub(super) const fn parts(self, few: bool) -> [i32; 2] {
         match self {
@@ -90,8 +90,8 @@ pub(super) fn steepness(slope: Slope, direction: [i32; 3]) -> i32 {
     mantissa >> (17_u32.wrapping_sub(zeros) & 31)
 }
 
-/// `v / g` for a reciprocal of `g` with 25 fractional bits, in the format of `v`, saturated at half of it (its
-/// last 8 bits are not).
+/// `v / g` for a reciprocal of `g` with 25 fractional bits, in the format of `v`, saturated at half of it
+/// (its last 8 bits are not).
 #[inline(always)]
 pub(super) fn over(v: i32, per: i32) -> i32 {
     product_within::<7>(v, per) >> 1
@@ -256,8 +256,8 @@ pub(super) fn whole(
     Some((Slopes { x: x.around(x.place(px), &sides[0])?, y: y.around(y.place(py), &sides[1])? }, half))
 }
 
-/// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in, which
-/// may lie far off.
+/// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in,
+/// which may lie far off.
 #[inline(always)]
 pub(super) fn settled(ground: &[Ground<'_>; 2], sight: &Sight, first: Place, reach: i32) -> Option<Place> {
     on_mean(ground, sight, first, &near(ground, reach), reach)

@@ -2,19 +2,19 @@
 //!
 //! Over a part of the ground, `int p dA = loop h dy`, `int q dA = -loop h dx` and `int dA = loop x dy`, by
 //! Green's theorem: how high the surface is along the pixel's outline tells its mean slopes, however rough it
-//! is inside. Along a straight edge `h = F G` has the mean `F^ G^ + dF dG / 12`, `F^` and `G^` the exact means
-//! of both along it, by running sums, and `dF`, `dG` what they gain: what is left out is how `F` bends times
-//! how `G` does.
+//! is inside. Along a straight edge `h = F G` has the mean `F^ G^ + dF dG / 12`, `F^` and `G^` the exact
+//! means of both along it, by running sums, and `dF`, `dG` what they gain: what is left out is how `F` bends
+//! times how `G` does.
 //!
 //! The corners are where the pixel's rays meet the surface: each goes from the mean plane, of which it is `e`
 //! above the surface, by `e d / (-n . d)`. Left and right edges lie along the rays, so that what the surface
 //! does between two corners moves nothing out of them; the upper and the lower edge are cut into columns. A
-//! corner beyond the domain stands on the profiles that go on straight: what they make wrong is a small corner
-//! of the pixel. How slopes vary about their mean, two boxes tell, each as wide as half of the pixel.
+//! corner beyond the domain stands on the profiles that go on straight: what they make wrong is a small
+//! corner of the pixel. How slopes vary about their mean, two boxes tell, each as wide as half of the pixel.
 //!
-//! (In floating point matt `G x G` in 96 x 96 pixels is so off by 0.00064, of which 0.00044 is what four points
-//! for all slopes are off; in eight boxes that follow the surface by 0.00106. With exact means and the spread
-//! of one box it would be 0.00096, with the exact spread and the means of eight boxes 0.00103.)
+//! (In floating point matt `G x G` in 96 x 96 pixels is so off by 0.00064, of which 0.00044 is what four
+//! points for all slopes are off; in eight boxes that follow the surface by 0.00106. With exact means and the
+//! spread of one box it would be 0.00096, with the exact spread and the means of eight boxes 0.00103.)
 //!
 //! Formats: as the footprint.
 
