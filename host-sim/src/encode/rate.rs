@@ -39,8 +39,9 @@ const STEPS: f64 = 300.0;
 /// The most encodings, at different steps: rough ones, and all.
 const ROUGH: usize = 5;
 const PASSES: usize = 12;
-/// How many encodings the prices of bins are learnt from.
-const LEARNT: u32 = 3;
+/// How many encodings the prices of bins are learnt from, so close to the target.
+const LEARNT: u32 = 5;
+const CLOSE: f64 = 0.05;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
 const FINER: [u16; 4] = [0, 2, 7, 19];
 const BETWEEN: usize = 6;
@@ -152,7 +153,7 @@ pub(crate) fn meet(
         return Err(Error::Degenerate { what: "number of encodings" });
     };
     let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
-    let (mut pool, mut passes): (Option<Vec<Pool>>, u32) = (None, 0);
+    let (mut pool, mut passes, mut learnt): (Option<Vec<Pool>>, u32, u32) = (None, 0, 0);
     let mut one = |(step, thrift): (u16, f32)| {
         let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift, every: 1 };
         let known = Known { candidates: &candidates, pools: pool.as_deref(), counts: Some(&counts) };
@@ -163,8 +164,9 @@ pub(crate) fn meet(
             pool = Some(pools);
         }
         // nor would one with prices that change each time
-        if passes < LEARNT {
+        if learnt < LEARNT {
             counts = now;
+            learnt += u32::from(target.missed(&encoded).abs() < CLOSE);
         }
         passes += 1;
         said(&encoded);
@@ -265,7 +267,7 @@ fn settled(best: Encoded, truth: &Still, target: Target) -> Result<Encoded, Erro
 fn slope(tried: &[(u16, f64)]) -> f64 {
     match tried {
         [.., (a, above), (b, below)] if (above - below).abs() < 100.0 => {
-            ((f64::from(*b) - f64::from(*a)) / (above - below)).clamp(0.5 * STEPS, 2.0 * STEPS)
+            ((f64::from(*b) - f64::from(*a)) / (above - below)).clamp(0.5 * STEPS, STEPS)
         }
         // a flat picture has infinite decibels
         _ => STEPS,
