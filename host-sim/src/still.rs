@@ -125,6 +125,32 @@ impl Still {
         if matches!(self.pixels, Pixels::Deep(_)) { 65535 } else { 255 }
     }
 
+    /// How many samples there are, of all channels.
+    pub(crate) const fn count(&self) -> usize {
+        match &self.pixels {
+            Pixels::Grey(pixels) => pixels.len(),
+            Pixels::Deep(pixels) => pixels.len(),
+            Pixels::Colour(pixels) => 3 * pixels.len(),
+        }
+    }
+
+    /// The squared differences of all samples from those of a picture of the same kind.
+    pub(crate) fn error(&self, other: &Self) -> f64 {
+        let square = |a: u32, b: u32| u64::from(a.abs_diff(b)).pow(2);
+        let small = |a: &[u8], b: &[u8]| -> u64 {
+            a.iter().zip(b).map(|(a, b)| square((*a).into(), (*b).into())).sum()
+        };
+        let sum = match (&self.pixels, &other.pixels) {
+            (Pixels::Grey(a), Pixels::Grey(b)) => small(a, b),
+            (Pixels::Colour(a), Pixels::Colour(b)) => small(a.as_flattened(), b.as_flattened()),
+            (Pixels::Deep(a), Pixels::Deep(b)) => {
+                a.iter().zip(b).map(|(a, b)| square((*a).into(), (*b).into())).sum()
+            }
+            _ => return f64::INFINITY,
+        };
+        sum as f64
+    }
+
     /// All samples of all channels, one after the other.
     pub(crate) fn samples(&self) -> Vec<f64> {
         match &self.pixels {

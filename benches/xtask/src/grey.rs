@@ -7,7 +7,7 @@ use std::process::Command;
 use anyhow::{Context as _, Result, bail};
 
 use crate::peer::tool;
-use crate::quality::{ms_ssim, psnr};
+use crate::quality::{decibels, ms_ssim};
 
 /// A picture.
 #[derive(Debug)]
@@ -78,8 +78,10 @@ impl Grey {
     pub(crate) fn likeness(&self, other: &[u8]) -> Likeness {
         let numbers = |samples: &[u8]| samples.iter().map(|v| f64::from(*v)).collect::<Vec<_>>();
         let (a, b) = (numbers(&self.samples), numbers(other));
-        let alike = ms_ssim(&a, &b, self.width as u32, 1, 255);
-        Likeness { psnr: psnr(&a, &b, 255), ms_ssim: alike.unwrap_or(f64::NAN) }
+        let error = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
+        let psnr = decibels(error, a.len(), 255);
+        let alike = ms_ssim(a, b, self.width as u32, 1, 255);
+        Likeness { psnr, ms_ssim: alike.unwrap_or(f64::NAN) }
     }
 
     /// Half as large, each sample the mean of four; an odd last row or column is left out.

@@ -147,7 +147,7 @@ fn ablation(own: &Own<'_>, name: &str, rates: &[f64]) -> Result<()> {
         let mut saved = String::new();
         for part in parts {
             let said = own.encode(target, part)?;
-            cells.push(said.map_or_else(|| "-".to_owned(), |said| format!("{:.2}", said.like.psnr)));
+            cells.push(shown(said.map(|said| said.like)));
             if part.is_empty() {
                 saved = own.coder()?;
             }

@@ -21,6 +21,12 @@ impl Cosine {
         }))
     }
 
+    /// A frequency along one axis of a square of `2^size`.
+    pub(super) fn wave(&self, size: u32, frequency: u8) -> &[f32] {
+        let start = usize::from(frequency) << size;
+        &self.0[(size - 2) as usize][start..start + (1 << size)]
+    }
+
     /// Of a square of `2^size`, row after row.
     pub(super) fn forward(&self, size: u32, square: &[f32], into: &mut Coefficients) {
         match size {

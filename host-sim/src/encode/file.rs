@@ -8,7 +8,8 @@ use attractor::codec::{Header, Planes, Profile, Sample, Step};
 use embedded_graphics::geometry::Size;
 
 use super::cosine::Cosine;
-use super::partition::{Partition, Without};
+use super::partition::{Partition, Target, Without};
+use super::quality::decibels;
 use super::range_encoder::{Counts, Prices, RangeEncoder};
 use super::samples::Samples;
 use super::search::{Candidates, Effort};
@@ -37,6 +38,39 @@ pub(super) struct Pool {
     pub(super) settled: Settled,
 }
 
+/// Rows of luma in a band.
+const BAND: u32 = 32;
+/// Of how many bands a rough encoding sees at least.
+const FEW: u32 = 6;
+
+/// At what step, how much more a bit is worth than it should be, and how many bands there are for each one
+/// that is encoded: where that is not each, the bytes are no stream, but let expect what it takes.
+#[derive(Clone, Copy)]
+pub(super) struct At {
+    pub(super) step: Step,
+    pub(super) thrift: f32,
+    pub(super) every: u32,
+}
+
+/// What is known of the picture before an encoding: domains, what later sweeps will find in place of the
+/// picture, and what the encoding before took of each bin.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    pub(super) candidates: &'a [Candidates],
+    pub(super) pools: Option<&'a [Pool]>,
+    pub(super) counts: Option<&'a Counts>,
+}
+
+/// An encoding.
+pub(super) struct Pass {
+    pub(super) bytes: Vec<u8>,
+    /// Of what was encoded, where the encoder has drawn all as it will be decoded: grey, in one pass.
+    pub(super) decibels: Option<f64>,
+    /// By the first sweep.
+    pub(super) settled: Vec<Settled>,
+    pub(super) counts: Counts,
+}
+
 /// A picture ready to be encoded.
 pub(super) struct Source<'a> {
     size: Size,
@@ -47,10 +81,18 @@ pub(super) struct Source<'a> {
     originals: Vec<Samples>,
     cosine: Cosine,
     prices: Prices,
+    effort: Effort,
 }
 
 impl<'a> Source<'a> {
-    pub(super) fn new(size: Size, planes: Planes, deep: bool, values: &'a [Vec<u16>], plan: Plan) -> Self {
+    pub(super) fn new(
+        size: Size,
+        planes: Planes,
+        deep: bool,
+        values: &'a [Vec<u16>],
+        plan: Plan,
+        effort: Effort,
+    ) -> Self {
         let mut this = Self {
             size,
             planes,
@@ -60,6 +102,7 @@ impl<'a> Source<'a> {
             originals: Vec::new(),
             cosine: Cosine::new(),
             prices: Prices::new(),
+            effort,
         };
         this.originals =
             this.shapes(Step::MAX).iter().zip(values).map(|(shape, plane)| samples(shape, plane)).collect();
@@ -114,30 +157,20 @@ impl<'a> Source<'a> {
         if matches!(self.plan.profile, Profile::Pure) { LAMBDA_PURE } else { LAMBDA }
     }
 
-    /// The stream, and what its first sweep settles. Domains of sweeps lie in `pools`, the planes as they
-    /// will
-    /// be decoded, or else the picture. A bit is worth `thrift` times as much as it should be.
-    pub(super) fn encode(
-        &self,
-        (step, thrift): (Step, f32),
-        candidates: &[Candidates],
-        pools: Option<&[Pool]>,
-        counts: Option<&Counts>,
-    ) -> Result<(Vec<u8>, Vec<Settled>, Counts), Error> {
-        if self.deep {
-            self.encode_as::<u16>((step, thrift), candidates, pools, counts)
-        } else {
-            self.encode_as::<u8>((step, thrift), candidates, pools, counts)
-        }
+    /// How many bands there are for each of which a rough encoding needs to see one.
+    pub(super) fn sparse(&self) -> u32 {
+        // of small pictures all
+        (self.size.height / BAND / FEW).clamp(1, 8)
     }
 
-    fn encode_as<S: Sample + Default>(
-        &self,
-        (step, thrift): (Step, f32),
-        candidates: &[Candidates],
-        pools: Option<&[Pool]>,
-        counts: Option<&Counts>,
-    ) -> Result<(Vec<u8>, Vec<Settled>, Counts), Error> {
+    /// Encodes. Domains of sweeps lie in the pools, the planes as they will be decoded, or else the picture.
+    pub(super) fn encode(&self, at: At, known: Known<'_>) -> Result<Pass, Error> {
+        if self.deep { self.encode_as::<u16>(at, known) } else { self.encode_as::<u8>(at, known) }
+    }
+
+    fn encode_as<S: Sample + Default>(&self, at: At, known: Known<'_>) -> Result<Pass, Error> {
+        let At { step, thrift, every } = at;
+        let Known { candidates, pools, counts } = known;
         let header = self.header(step, 0);
         let shapes = self.shapes(step);
         let mut memory = vec![S::default(); shapes.iter().map(Plane::<S>::samples).sum()];
@@ -154,7 +187,9 @@ impl<'a> Source<'a> {
         let mut settled: Vec<Settled> =
             shapes.iter().map(padded).map(|(width, height)| Settled::new(width, height)).collect();
         let mut out = RangeEncoder::new();
-        for row in (0..self.size.height).step_by(32) {
+        let streaming = self.plan.profile == Profile::Streaming;
+        let (mut error, mut seen, mut target) = (0, 0, Target::none());
+        for row in (0..self.size.height).step_by((BAND * every) as usize) {
             for (index, plane) in (0..).zip(&mut planes) {
                 let band = row >> header.halved(index);
                 plane.begin(band, 0);
@@ -170,12 +205,22 @@ impl<'a> Source<'a> {
                     lambda: thrift * self.lambda() * q * q,
                     late: self.late(),
                     without: self.plan.without,
+                    effort: Effort { polish: self.effort.polish && every == 1, ..self.effort },
                     rates: self.prices.rates(&out.models, counts, shapes[index as usize].chroma),
                     counts,
                     before: pools.map(|pools| &pools[index as usize].settled),
                     settled: &mut settled[index as usize],
+                    target,
                 };
                 partition.band(band, &mut out);
+                target = partition.target;
+                if streaming && self.planes == Planes::Grey {
+                    let start = (band * self.size.width) as usize;
+                    let rows = (self.size.height - band).min(BAND) * self.size.width;
+                    let truth = self.values[0][start..].iter().take(rows as usize);
+                    error += truth.zip(plane.picture()).map(|(a, b)| off(*a, b.get().number())).sum::<u64>();
+                    seen += rows;
+                }
             }
         }
         let now = out.counts;
@@ -184,8 +229,14 @@ impl<'a> Source<'a> {
         let length = self.header(step, payload.len() as u32).write(&mut start)?;
         let mut bytes = [&start[..length], &payload].concat();
         bytes.extend(crc32(&bytes).to_le_bytes());
-        Ok((bytes, settled, now))
+        let decibels = (seen > 0).then(|| decibels(error as f64, seen as usize, (1 << S::BITS) - 1));
+        Ok(Pass { bytes, decibels, settled, counts: now })
     }
+}
+
+/// Their difference squared.
+fn off(a: u16, b: i32) -> u64 {
+    u64::from(b.abs_diff(i32::from(a))).pow(2)
 }
 
 fn samples(shape: &Shape, plane: &[u16]) -> Samples {

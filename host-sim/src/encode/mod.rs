@@ -3,6 +3,7 @@
 mod cosine;
 mod file;
 mod partition;
+mod polish;
 mod quality;
 mod quantise;
 mod range_encoder;
@@ -23,14 +24,17 @@ pub(crate) use rate::{Encoded, Target, meet};
 pub(crate) use search::Effort;
 
 use crate::cli::{Encode, EncodeEffort, EncodePart, EncodeProfile};
+use crate::decode::decoded;
 use crate::fail::{Fail, say};
 use crate::output;
 use crate::still::Still;
 
 impl Effort {
     /// How hard to look.
-    pub(crate) const FAST: Self = Self { isometries: 1, candidates: 2, far: false };
-    pub(crate) const BEST: Self = Self { isometries: 8, candidates: 16, far: true };
+    pub(crate) const FAST: Self =
+        Self { isometries: 1, candidates: 2, far: false, rounds: 1, polish: false, filled: 0.995 };
+    pub(crate) const BEST: Self =
+        Self { isometries: 8, candidates: 16, far: true, rounds: 2, polish: true, filled: 0.998 };
 }
 
 impl Plan {
@@ -107,9 +111,11 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
         _ => {}
     }
     output::write(&args.output, &best.bytes)?;
-    let (truth, got) = (still.samples(), best.picture.samples());
+    let picture = decoded(&best.bytes, 0, None)
+        .map_err(|error| Fail::new(format_args!("{}: {error}", args.output.display())))?;
+    let (truth, got) = (still.samples(), picture.samples());
     let channels = (truth.len() as f64 / pixels) as usize;
-    let alike = ms_ssim(&truth, &got, still.size.width, channels, still.peak());
+    let alike = ms_ssim(truth, got, still.size.width, channels, still.peak());
     let alike = alike.map_or_else(String::new, |alike| format!(", MS-SSIM {alike:.4}"));
     writeln!(
         std::io::stdout(),

@@ -6,20 +6,19 @@
 //! when it is written.
 
 use attractor::codec::shared::Coder as _;
-use attractor::codec::shared::{Domain, Leaf, Plane, Setting};
+use attractor::codec::shared::{Domain, Leaf, Plane, Setting, scan};
 use attractor::codec::{Profile, Sample};
 
 use super::cosine::{Coefficients, Cosine};
+use super::polish::Rounded;
 use super::quantise::Quantiser;
 use super::range_encoder::{Cost, Counts, Prices, RangeEncoder, Rates};
 use super::samples::Samples;
-use super::search::Candidates;
+use super::search::{Candidates, Effort};
 use super::settled::Settled;
 
 /// How many domains of a leaf are weighed with what its coefficients add to them.
 const WEIGHED: usize = 5;
-/// How often the levels of a leaf are weighed again.
-const ROUNDS: u32 = 2;
 
 /// A square.
 enum Node {
@@ -51,22 +50,31 @@ pub(super) struct Partition<'a, 'm, S: Sample> {
     /// Bits for domains that a sweep more must wait for.
     pub(super) late: [f32; 2],
     pub(super) without: Without,
+    pub(super) effort: Effort,
     pub(super) rates: Rates,
     /// How often bins of each model had which value in the encoding before.
     pub(super) counts: Option<&'a Counts>,
     /// What the first sweep of the encoding before this one settled, and what that of this one does.
     pub(super) before: Option<&'a Settled>,
     pub(super) settled: &'a mut Settled,
+    /// The square that is weighed.
+    pub(super) target: Box<Target>,
 }
 
 /// The pixels of a square, mean off.
-struct Target {
+pub(super) struct Target {
     values: [f32; 1024],
     energy: f32,
     coefficients: Coefficients,
     /// Of the mean, what is left of what the neighbours let expect, and the nearest number of steps.
     off: f32,
     mean: i32,
+}
+
+impl Target {
+    pub(super) fn none() -> Box<Self> {
+        Box::new(Self { values: [0.0; 1024], energy: 0.0, coefficients: [0.0; 256], off: 0.0, mean: 0 })
+    }
 }
 
 impl<S: Sample> Partition<'_, '_, S> {
@@ -89,7 +97,7 @@ impl<S: Sample> Partition<'_, '_, S> {
         }
         let must_divide = self.without.split && size > 3;
         let (mut cost, leaf) =
-            if must_divide { (f32::INFINITY, Leaf::default()) } else { self.leaf(x, y, size) };
+            if must_divide { (f32::INFINITY, Box::default()) } else { self.leaf(x, y, size) };
         if size > 2 && !(self.without.split && size == 3) {
             let [whole, parts] = self.rates.bins[self.plane.split_context(x, y, size)];
             cost += self.lambda * whole;
@@ -111,7 +119,7 @@ impl<S: Sample> Partition<'_, '_, S> {
             self.plane.restore(&edge);
         }
         self.draw(&leaf, x, y, size);
-        (cost, Node::Leaf(Box::new(leaf)))
+        (cost, Node::Leaf(leaf))
     }
 
     fn write(&mut self, node: &mut Node, out: &mut RangeEncoder, x: u32, y: u32, size: u32) {
@@ -120,6 +128,9 @@ impl<S: Sample> Partition<'_, '_, S> {
             Node::Leaf(leaf) => {
                 if size > 2 {
                     out.bin(self.plane.split_context(x, y, size), false);
+                }
+                if self.effort.polish {
+                    self.polish(leaf, x, y, size);
                 }
                 leaf.code(out, &self.plane.setting(x, y, size));
                 self.draw(leaf, x, y, size);
@@ -152,23 +163,69 @@ impl<S: Sample> Partition<'_, '_, S> {
         }
     }
 
-    /// The best leaf for a square, and its cost.
-    fn leaf(&self, x: u32, y: u32, size: u32) -> (f32, Leaf) {
-        let target = self.target(x, y, size);
+    /// Weighs a leaf once more with its samples as they are rounded. Those of a domain in sweeps are not
+    /// known yet.
+    fn polish(&self, leaf: &mut Leaf, x: u32, y: u32, size: u32) {
         let setting = self.plane.setting(x, y, size);
-        let mut best = self.cost(&target, &target.coefficients, target.energy, None, &setting, ROUNDS);
-        if best.0 <= 12.0 * self.lambda {
-            return best;
+        let known = leaf.domain.is_none() || matches!(self.profile, Profile::Streaming);
+        if !(setting.transform && known && leaf.last > 0) {
+            return;
+        }
+        let (n, shape) = (1_usize << size, *self.plane.shape());
+        let mut rounded = Rounded {
+            cosine: self.cosine,
+            size,
+            seen: [shape.width - x, shape.height - y].map(|left| n.min(left as usize)),
+            peak: ((1 << S::BITS) - 1) as f32,
+            truth: [0.0; 1024],
+            drawn: [0.0; 1024],
+        };
+        let mean = self.original.square(x, y, n, &mut rounded.truth);
+        rounded.truth.iter_mut().take(n * n).for_each(|value| *value += mean);
+        let base = self.plane.expected(x, y, size) as f32 / 128.0 + leaf.mean as f32 * self.step / n as f32;
+        rounded.drawn.fill(base);
+        if let Some(domain) = &leaf.domain {
+            let mut copied = [0; 1024];
+            self.plane.copied(domain, x, y, size, &mut copied);
+            let contrast = domain.contrast() as f32 / 1024.0;
+            let drawn = rounded.drawn.iter_mut().zip(&copied).take(n * n);
+            drawn.for_each(|(drawn, copied)| *drawn += contrast * *copied as f32);
+        }
+        for place in &scan(size)[1..=leaf.last as usize] {
+            let level = leaf.levels.get(*place);
+            if level != 0 {
+                rounded.add(*place, level as f32 * self.step);
+            }
+        }
+        rounded.polish(leaf, self.step, self.lambda, |leaf| {
+            let mut cost = Cost { rates: &self.rates, bits: 0.0 };
+            leaf.code(&mut cost, &setting);
+            cost.bits
+        });
+    }
+
+    /// The best leaf for a square, and its cost.
+    fn leaf(&mut self, x: u32, y: u32, size: u32) -> (f32, Box<Leaf>) {
+        self.aim(x, y, size);
+        let target = &*self.target;
+        let setting = self.plane.setting(x, y, size);
+        let (mut best, mut other) = (Box::<Leaf>::default(), Box::<Leaf>::default());
+        let mut least =
+            self.cost(&target.coefficients, target.energy, &setting, self.effort.rounds, &mut best);
+        let candidates = self.candidates.of(x, y, size);
+        if candidates.is_empty() || least <= 12.0 * self.lambda {
+            return (least, best);
         }
         let count = 1_usize << (2 * size);
         // what each would cost if nothing were added to it
         let (mut copied, mut copy) = ([0; 1024], [0.0; 1024]);
         let mut likely = Vec::new();
-        for candidate in self.candidates.of(x, y, size) {
+        for candidate in candidates {
             if candidate.gain < 4.0 * self.lambda {
                 break;
             }
-            if !self.plane.copied(&candidate.domain, x, y, size, &mut copied) {
+            let domain = candidate.domain();
+            if !self.plane.copied(&domain, x, y, size, &mut copied) {
                 continue;
             }
             let (mut dot, mut energy) = (0.0, 0.0);
@@ -183,11 +240,11 @@ impl<S: Sample> Partition<'_, '_, S> {
             let contrast = (dot / energy).clamp(-1.0, 1.0);
             let eighths = ((8.0 * contrast.abs() + 0.5) as u32).clamp(1, 8);
             let sign = if contrast < 0.0 { 8 } else { 0 };
-            let domain = Domain { scaling: (eighths - 1) | sign, ..candidate.domain };
-            let leaf = Leaf { domain: Some(domain), ..Leaf::default() };
+            let domain = Domain { scaling: (eighths - 1) | sign, ..domain };
             let gain = contrast * (2.0 * dot - contrast * energy);
             let late = self.late_bits(&domain, x, y, size);
-            let cost = self.lambda * (self.plain_bits(&leaf, &setting) + late) - gain;
+            (other.domain, other.mean) = (Some(domain), 0);
+            let cost = self.lambda * (self.plain_bits(&mut other, &setting) + late) - gain;
             likely.push((cost, domain, dot, energy, late));
         }
         likely.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -205,16 +262,18 @@ impl<S: Sample> Partition<'_, '_, S> {
                 rest.iter_mut().zip(&frequencies).for_each(|(rest, domain)| *rest -= contrast * domain);
                 let energy = target.energy - 2.0 * contrast * dot + contrast * contrast * energy;
                 let late = self.lambda * late;
-                let mut with = self.cost(&target, &rest, energy, Some(domain), &setting, 0);
-                if with.0 + late < best.0 + 4.0 * self.lambda {
-                    with = self.cost(&target, &rest, energy, Some(domain), &setting, ROUNDS);
+                other.domain = Some(domain);
+                let mut with = late + self.cost(&rest, energy, &setting, 0, &mut other);
+                if with < least + 4.0 * self.lambda {
+                    with = late + self.cost(&rest, energy, &setting, self.effort.rounds, &mut other);
                 }
-                if with.0 + late < best.0 {
-                    best = (with.0 + late, with.1);
+                if with < least {
+                    least = with;
+                    std::mem::swap(&mut best, &mut other);
                 }
             }
         }
-        best
+        (least, best)
     }
 
     /// What a domain costs for what it makes later sweeps wait: bits.
@@ -230,54 +289,51 @@ impl<S: Sample> Partition<'_, '_, S> {
     }
 
     /// Bits of a leaf's domain and mean.
-    fn plain_bits(&self, leaf: &Leaf, setting: &Setting) -> f32 {
+    fn plain_bits(&self, leaf: &mut Leaf, setting: &Setting) -> f32 {
         let mut cost = Cost { rates: &self.rates, bits: 0.0 };
-        let mut plain = Leaf { domain: leaf.domain, mean: leaf.mean, ..Leaf::default() };
-        plain.code(&mut cost, &Setting { transform: false, ..*setting });
+        leaf.code(&mut cost, &Setting { transform: false, ..*setting });
         cost.bits
     }
 
-    fn target(&self, x: u32, y: u32, size: u32) -> Target {
-        let n = 1_usize << size;
-        let mut values = [0.0; 1024];
-        let mean = self.original.square(x, y, n, &mut values);
-        let energy = values[..n * n].iter().map(|value| value * value).sum();
-        let mut coefficients = [0.0; 256];
-        self.cosine.forward(size, &values[..n * n], &mut coefficients);
-        let off = mean - self.plane.expected(x, y, size) as f32 / 128.0;
-        let mean = (off * n as f32 / self.step).round() as i32;
-        Target { values, energy, coefficients, off, mean }
+    fn aim(&mut self, x: u32, y: u32, size: u32) {
+        let (n, target) = (1_usize << size, &mut *self.target);
+        let mean = self.original.square(x, y, n, &mut target.values);
+        let values = &target.values[..n * n];
+        target.energy = values.iter().map(|value| value * value).sum();
+        self.cosine.forward(size, values, &mut target.coefficients);
+        target.off = mean - self.plane.expected(x, y, size) as f32 / 128.0;
+        target.mean = (target.off * n as f32 / self.step).round() as i32;
     }
 
+    /// Sets a leaf's mean and levels, whose domain is known, and tells its cost.
     fn cost(
         &self,
-        target: &Target,
         coefficients: &Coefficients,
         energy: f32,
-        domain: Option<Domain>,
         setting: &Setting,
         rounds: u32,
-    ) -> (f32, Leaf) {
-        let mut leaf = Leaf { domain, ..Leaf::default() };
+        leaf: &mut Leaf,
+    ) -> f32 {
         let mut cost = energy;
         if setting.transform && !self.without.transform {
             let quantiser = Quantiser { rates: &self.rates, step: self.step, lambda: self.lambda };
-            cost += quantiser.levels(coefficients, setting, &mut leaf, rounds);
+            cost += quantiser.levels(coefficients, setting, leaf, rounds);
         } else if setting.transform {
             cost += self.lambda * self.rates.last[(setting.size - 2) as usize][0];
         }
         // the nearest mean, or one that is a step nearer to what the neighbours let expect
         let n = (1 << setting.size) as f32;
-        let price = |leaf: &mut Leaf, mean: i32| {
+        let mut price = |mean: i32| {
             leaf.mean = mean;
-            let off = target.off * n - mean as f32 * self.step;
+            let off = self.target.off * n - mean as f32 * self.step;
             off * off + self.lambda * self.plain_bits(leaf, setting)
         };
-        let nearer = target.mean - target.mean.signum();
-        let (less, all) = (price(&mut leaf, nearer), price(&mut leaf, target.mean));
-        if less < all {
-            leaf.mean = nearer;
+        let mean = self.target.mean;
+        let all = price(mean);
+        let less = if mean == 0 { all } else { price(mean - mean.signum()) };
+        if less >= all {
+            leaf.mean = mean;
         }
-        (cost.max(0.0) + less.min(all), leaf)
+        cost.max(0.0) + less.min(all)
     }
 }

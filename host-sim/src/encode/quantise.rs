@@ -70,11 +70,13 @@ fn order(size: u32) -> Order {
 }
 
 impl Choice<'_> {
+    #[inline]
     fn level(&self, i: usize) -> i32 {
         self.grid[cell(self.scan[i])]
     }
 
     /// Bits of whether the level at a place is not 0.
+    #[inline]
     fn significance(&self, i: usize, level: i32) -> f32 {
         let at = cell(self.scan[i]);
         let about = (self.grid[at - ROW] + self.grid[at - 1]).min(2) as usize;
@@ -83,6 +85,7 @@ impl Choice<'_> {
     }
 
     /// Squared error and price of a level, against that of no level, but for its significance.
+    #[inline]
     fn magnitude(&self, i: usize, level: i32) -> f32 {
         if level == 0 {
             return 0.0;
@@ -93,6 +96,7 @@ impl Choice<'_> {
         l * l - 2.0 * l * length + self.lambda * (1.0 + large + rest)
     }
 
+    #[inline]
     fn nearest(&self, i: usize) -> i32 {
         ((self.values[i] + 0.5) as i32).min(LARGEST)
     }
@@ -230,8 +234,9 @@ impl Quantiser<'_> {
             order: &ORDERS[(setting.size - 2) as usize],
             last: 0,
         };
+        let steps = 1.0 / self.step;
         for i in 1..=most {
-            choice.values[i] = value(i).abs() / self.step;
+            choice.values[i] = value(i).abs() * steps;
         }
         let mut cost = choice.first(most);
         for _ in 0..rounds {

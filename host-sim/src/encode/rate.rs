@@ -1,16 +1,16 @@
 //! The step that meets a target: so many bytes at most, or so many decibels at least.
 //!
 //! Bytes and decibels are nearly straight lines over the logarithm of the step; a few encodings bracket the
-//! target and narrow it down. Domains are looked for once, when the step is roughly known.
+//! target and narrow it down. Domains are looked for once, when the step is roughly known: of large pictures
+//! from some bands alone.
 
 use attractor::Error;
 use attractor::codec::shared::crc32;
-use attractor::codec::{Profile, Step, check};
+use attractor::codec::{Planes, Profile, Step, check};
 
-use super::file::{Plan, Pool, Source};
-use super::quality::psnr;
-use super::range_encoder::Counts;
-use super::search::{Candidates, Effort};
+use super::file::{At, Known, Plan, Pool, Source};
+use super::quality::decibels;
+use super::search::Effort;
 use crate::decode::{decoded, decoded_with_planes};
 use crate::still::Still;
 
@@ -26,35 +26,41 @@ pub(crate) enum Target {
 pub(crate) struct Encoded {
     pub(crate) bytes: Vec<u8>,
     pub(crate) psnr: f64,
-    pub(crate) picture: Still,
     pub(crate) step: u16,
-    pools: Vec<Pool>,
-    counts: Counts,
 }
 
 /// Where a header says how many sweeps.
 const REACH: usize = 12;
 
-/// Steps to begin with, at once.
-const FIRST: [u16; 2] = [0x780, 0x900];
-/// The most encodings, at different steps.
+/// A step to begin with.
+const FIRST: u16 = 0x900;
+/// Bytes grow about as fast as the step shrinks, of which 256 are an octave.
+const STEPS: f64 = 300.0;
+/// The most encodings, at different steps: rough ones, and all.
+const ROUGH: usize = 5;
 const PASSES: usize = 12;
+/// How many encodings the prices of bins are learnt from, so close to the target.
+const LEARNT: u32 = 5;
+const CLOSE: f64 = 0.05;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
 const FINER: [u16; 4] = [0, 2, 7, 19];
-const BETWEEN: usize = 10;
-/// What part of the bytes is filled at least, and what is enough where that is not met soon.
-const NEAR: f64 = 0.998;
-const ENOUGH: f64 = 0.993;
-/// What is aimed at: a shade below the target, so that the next one is allowed.
-const AIM: f64 = -0.001;
+const BETWEEN: usize = 6;
+/// What part of the bytes is enough where what is wanted is not met soon.
+const ENOUGH: f64 = 0.992;
 
 impl Target {
-    /// How far an encoding is on the wrong side: above 0 if the step is too fine.
-    fn miss(self, encoded: &Encoded) -> f64 {
+    /// How far an encoding of so many bytes and decibels is on the wrong side: above 0 if the step is too
+    /// fine.
+    fn miss(self, bytes: f64, psnr: f64) -> f64 {
         match self {
-            Self::Bytes(bytes) => (encoded.bytes.len() as f64 / bytes).ln(),
-            Self::Decibels(decibels) => (encoded.psnr - decibels) * 0.12,
+            Self::Bytes(target) => (bytes / target).ln(),
+            Self::Decibels(decibels) => (psnr - decibels) * 0.12,
         }
+    }
+
+    /// The same of a whole one.
+    fn missed(self, encoded: &Encoded) -> f64 {
+        self.miss(encoded.bytes.len() as f64, encoded.psnr)
     }
 
     /// Whether it is met: a part of the bytes or more, and not above them; within 0.05 dB and not below.
@@ -79,7 +85,7 @@ impl Target {
     /// Of those that are allowed and within 1 per cent the one of most decibels, or of least bytes; else the
     /// nearest that is allowed, or the nearest of all.
     fn best(self, tried: &[Encoded]) -> Option<&Encoded> {
-        let off = |e: &Encoded| self.miss(e).abs();
+        let off = |e: &Encoded| self.missed(e).abs();
         let worth = |e: &Encoded| match self {
             Self::Bytes(_) => e.psnr,
             Self::Decibels(_) => -(e.bytes.len() as f64),
@@ -101,62 +107,90 @@ pub(crate) fn meet(
     said: &mut dyn FnMut(&Encoded),
 ) -> Result<Encoded, Error> {
     let (kind, values) = still.planes(halved);
-    let source = Source::new(still.size, kind, still.peak() > 255, &values, plan);
-    let truth = still.samples();
-    let one = |(step, thrift): (u16, f32),
-               candidates: &[Candidates],
-               pools: Option<&[Pool]>,
-               counts: Option<&Counts>| {
-        let step = Step::from_bits(step).unwrap_or(Step::MAX);
-        let (bytes, settled, counts) = source.encode((step, thrift), candidates, pools, counts)?;
-        let (picture, planes) = decoded_with_planes(&bytes)?;
-        let planes = planes.into_iter().zip(settled);
-        let pools = planes.map(|(samples, settled)| Pool { samples, settled }).collect();
-        let psnr = psnr(&truth, &picture.samples(), still.peak());
-        Ok(Encoded { bytes, psnr, picture, step: step.to_bits(), pools, counts })
+    let source = Source::new(still.size, kind, still.peak() > 255, &values, plan, effort);
+    let sweeps = plan.profile != Profile::Streaming;
+    let encode = |at: At, known: Known<'_>| {
+        let pass = source.encode(at, known)?;
+        let mut pools = Vec::new();
+        let psnr = match pass.decibels {
+            Some(psnr) => psnr,
+            // what it takes is all that is asked of a part
+            None if at.every > 1 => f64::NAN,
+            None => {
+                let (picture, planes) = decoded_with_planes(&pass.bytes)?;
+                if sweeps {
+                    let planes = planes.into_iter().zip(pass.settled);
+                    pools = planes.map(|(samples, settled)| Pool { samples, settled }).collect();
+                }
+                psnr(still, &picture)
+            }
+        };
+        let encoded = Encoded { bytes: pass.bytes, psnr, step: at.step.to_bits() };
+        Ok::<_, Error>((encoded, pools, pass.counts))
     };
-    // first without domains: fast, and not far from what is wanted
+    // first without domains: fast, and not far from what is wanted. Decibels of colour are those of a picture
     let none = source.candidates(None, Step::MAX);
-    let rough = |step| one((step, 1.0), &none, None, None);
-    let (fine, coarse) = rayon::join(|| rough(FIRST[0]), || rough(FIRST[1]));
-    let mut rough_ones = vec![fine?, coarse?];
-    rough_ones.iter().for_each(&mut *said);
-    narrow(target, &mut rough_ones, FIRST[0], 4, 0.03, |step| {
-        let encoded = rough(step)?;
-        said(&encoded);
-        Ok(encoded)
-    })?;
-    let nearest = |a: &Encoded, b: &Encoded| target.miss(a).abs().total_cmp(&target.miss(b).abs());
-    let Some(rough) = rough_ones.into_iter().min_by(nearest) else {
+    let every = match target {
+        Target::Decibels(_) if sweeps || kind != Planes::Grey => 1,
+        _ => source.sparse(),
+    };
+    let rough = |step: u16| {
+        let step = Step::from_bits(step).unwrap_or(Step::MAX);
+        let at = At { step, thrift: 1.0, every };
+        let (encoded, _, counts) = encode(at, Known { candidates: &none, pools: None, counts: None })?;
+        let miss = target.miss((encoded.bytes.len() * every as usize) as f64, encoded.psnr);
+        Ok::<_, Error>((encoded.step, miss, counts))
+    };
+    let mut roughly = vec![rough(FIRST)?];
+    while roughly.len() < ROUGH && !roughly.iter().any(|(_, miss, _)| miss.abs() < 0.03) {
+        let tried: Vec<_> = roughly.iter().map(|(step, miss, _)| (*step, *miss)).collect();
+        let Some(step) = next(target, &tried, 0.0, STEPS) else { break };
+        roughly.push(rough(step)?);
+    }
+    let steps = slope(&roughly.iter().map(|(step, miss, _)| (*step, *miss)).collect::<Vec<_>>());
+    let nearest = roughly.into_iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let Some((near, _, mut counts)) = nearest else {
         return Err(Error::Degenerate { what: "number of encodings" });
     };
-    let candidates = source.candidates(Some(effort), Step::from_bits(rough.step).unwrap_or(Step::MAX));
-    let mut one = |at, pools: Option<&[Pool]>, counts: &Counts| {
-        let encoded = one(at, &candidates, pools, Some(counts))?;
+    let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
+    let (mut pool, mut passes, mut learnt): (Option<Vec<Pool>>, u32, u32) = (None, 0, 0);
+    let mut one = |(step, thrift): (u16, f32)| {
+        let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift, every: 1 };
+        let known = Known { candidates: &candidates, pools: pool.as_deref(), counts: Some(&counts) };
+        let (encoded, pools, now) = encode(at, known)?;
+        // the next ones take their domains from what this one looks like; then the pool stays, or no step
+        // would meet the target
+        if passes < 2 && sweeps {
+            pool = Some(pools);
+        }
+        // nor would one with prices that change each time
+        if learnt < LEARNT {
+            counts = now;
+            learnt += u32::from(target.missed(&encoded).abs() < CLOSE);
+        }
+        passes += 1;
         said(&encoded);
         Ok::<_, Error>(encoded)
     };
-    let sweeps = plan.profile != Profile::Streaming;
-    let (mut pool, mut passes): (Option<Vec<Pool>>, u32) = (None, 0);
-    let mut counts = rough.counts;
-    let mut tried = Vec::new();
-    narrow(target, &mut tried, rough.step, PASSES, 0.0, |step| {
-        let encoded = one((step, 1.0), pool.as_deref().filter(|_| sweeps), &counts)?;
-        // the next ones take their domains from what this one looks like; then the pool stays, or no step
-        // would meet the target
-        if passes < 2 {
-            pool = Some(encoded.pools.clone());
-            passes += 1;
-        }
-        counts = encoded.counts;
-        Ok(encoded)
-    })?;
+    // in the middle of what is enough
+    let aim = match target {
+        Target::Bytes(_) => -0.5 * (1.0 - effort.filled),
+        Target::Decibels(_) => 0.003,
+    };
+    let mut tried: Vec<Encoded> = vec![one((near, 1.0))?];
+    // the more of them there are, the sooner it is enough
+    let filled = |tries: usize| (effort.filled - 0.0007 * tries as f64).max(ENOUGH);
+    while tried.len() < PASSES && !tried.iter().any(|e| target.is_met(e, filled(tried.len() - 1))) {
+        let points: Vec<_> = tried.iter().map(|e| (e.step, target.missed(e))).collect();
+        let Some(step) = next(target, &points, aim, steps) else { break };
+        tried.push(one((step, 1.0))?);
+    }
     // where bytes are no straight line at all: ever further off, until a step is allowed
     let mut stride = 4;
     while !tried.iter().any(|e| target.allows(e)) {
         stride *= 2;
-        let coarsest = tried.iter().map(|e| e.step).max().unwrap_or(rough.step);
-        let finest = tried.iter().map(|e| e.step).min().unwrap_or(rough.step);
+        let coarsest = tried.iter().map(|e| e.step).max().unwrap_or(near);
+        let finest = tried.iter().map(|e| e.step).min().unwrap_or(near);
         let step = match target {
             Target::Bytes(_) => (coarsest + stride).min(Step::MAX.to_bits()),
             Target::Decibels(_) => finest.saturating_sub(stride),
@@ -164,36 +198,35 @@ pub(crate) fn meet(
         if step == coarsest || step == finest {
             break;
         }
-        tried.push(one((step, 1.0), pool.as_deref().filter(|_| sweeps), &counts)?);
+        tried.push(one((step, 1.0))?);
     }
     // between two steps: bits a little dearer at the coarsest step that is too fine
     let finest = tried.iter().filter(|e| !target.allows(e)).map(|e| e.step).max();
     let finest = finest.filter(|_| tried.iter().any(|e| target.allows(e)));
     if let (Target::Bytes(_), Some(step)) = (target, finest) {
         for finer in FINER {
-            let part = if finer == 0 { NEAR } else { ENOUGH };
             // logarithms of what a bit is worth, and what is missed
             let (mut over, mut under) = ((0.0, f64::from(finer) * 0.0035), None::<(f64, f64)>);
             if finer == 0 {
                 let there = tried.iter().find(|e| e.step == step);
-                over.1 = there.map_or(0.0, |e| target.miss(e));
+                over.1 = there.map_or(0.0, |e| target.missed(e));
             }
             for turn in 0..BETWEEN {
-                if tried.iter().any(|e| target.is_met(e, part)) {
+                if tried.iter().any(|e| target.is_met(e, filled(tried.len() - 1))) {
                     break;
                 }
                 let thrift = match under {
                     Some((dear, below)) => {
                         // a straight line, and in turn the middle: there are pictures whose bytes jump
-                        let straight = (over.1 - AIM) / (over.1 - below).max(1e-9);
+                        let straight = (over.1 - aim) / (over.1 - below).max(1e-9);
                         let share = if turn % 2 == 0 { straight } else { 0.5 };
                         over.0 + (dear - over.0) * share.clamp(0.05, 0.95)
                     }
-                    None => over.0 + 2.0 * (over.1 - AIM),
+                    None => over.0 + 2.0 * (over.1 - aim),
                 };
                 let at = (step.saturating_sub(finer), thrift.exp() as f32);
-                let encoded = one(at, pool.as_deref().filter(|_| sweeps), &counts)?;
-                let miss = target.miss(&encoded);
+                let encoded = one(at)?;
+                let miss = target.missed(&encoded);
                 if miss > 0.0 {
                     over = (thrift, miss);
                 } else {
@@ -203,66 +236,66 @@ pub(crate) fn meet(
             }
         }
     }
-    let best = target.best(&tried).cloned().unwrap_or(rough);
-    if sweeps { settled(best, &truth, still.peak(), target) } else { Ok(best) }
+    let best = target.best(&tried).cloned();
+    let best = best.ok_or(Error::Degenerate { what: "number of encodings" })?;
+    if sweeps { settled(best, still, target) } else { Ok(best) }
+}
+
+/// Peak signal to noise of all samples.
+fn psnr(truth: &Still, picture: &Still) -> f64 {
+    decibels(truth.error(picture), truth.count(), truth.peak())
 }
 
 /// The same stream with no more sweeps than it needs: so many that more of them gain less than 0.02 dB.
-fn settled(best: Encoded, truth: &[f64], peak: u32, target: Target) -> Result<Encoded, Error> {
+fn settled(best: Encoded, truth: &Still, target: Target) -> Result<Encoded, Error> {
     let most = check(&best.bytes)?.reach;
     for reach in 1..most {
         let picture = decoded(&best.bytes, 0, Some(u32::from(reach)))?;
-        let psnr = psnr(truth, &picture.samples(), peak);
+        let psnr = psnr(truth, &picture);
         if psnr < best.psnr - 0.02 || matches!(target, Target::Decibels(least) if psnr < least) {
             continue;
         }
         let mut bytes = best.bytes[..best.bytes.len() - 4].to_vec();
         bytes[REACH] = reach;
         bytes.extend(crc32(&bytes).to_le_bytes());
-        return Ok(Encoded { bytes, psnr, picture, ..best });
+        return Ok(Encoded { bytes, psnr, ..best });
     }
     Ok(best)
 }
 
-/// Encodes with steps ever nearer to the target: a first one, or what the ones before let expect.
-fn narrow(
-    target: Target,
-    tried: &mut Vec<Encoded>,
-    first: u16,
-    passes: usize,
-    enough: f64,
-    mut encode: impl FnMut(u16) -> Result<Encoded, Error>,
-) -> Result<(), Error> {
-    let aim = if enough > 0.0 { 0.0 } else { AIM };
-    while tried.len() < passes {
-        if tried.iter().any(|e| target.is_met(e, NEAR) || target.miss(e).abs() < enough) {
-            break;
+/// How many steps it takes to have as much again, from the two last ones tried.
+fn slope(tried: &[(u16, f64)]) -> f64 {
+    match tried {
+        [.., (a, above), (b, below)] if (above - below).abs() < 100.0 => {
+            ((f64::from(*b) - f64::from(*a)) / (above - below)).clamp(0.5 * STEPS, STEPS)
         }
-        // 256 an octave: nearly a logarithm
-        let here = |e: &Encoded| (f64::from(e.step), target.miss(e));
-        let fine = tried.iter().map(here).filter(|e| e.1 > 0.0).max_by(|a, b| a.0.total_cmp(&b.0));
-        let coarse = tried.iter().map(here).filter(|e| e.1 <= 0.0).min_by(|a, b| a.0.total_cmp(&b.0));
-        // bytes grow about as fast as the step shrinks
-        let far = |(step, miss): (f64, f64)| step + ((miss - aim) * 300.0).clamp(-1500.0, 1500.0);
-        let step = match (fine, coarse) {
-            (Some((a, above)), Some((b, below))) if b - a > 1.0 => {
-                let share = ((above - aim) / (above - below)).clamp(0.05, 0.95);
-                (a + share * (b - a)).clamp(a + 1.0, b - 1.0)
-            }
-            // no straight line so close: decibels are tried for at finer steps, one by one
-            (Some(_), Some((b, _))) => match target {
-                Target::Bytes(_) => break,
-                Target::Decibels(_) => tried.iter().map(|e| f64::from(e.step)).fold(b, f64::min) - 1.0,
-            },
-            (Some(fine), None) => far(fine) + 1.0,
-            (None, Some(coarse)) => far(coarse) - 1.0,
-            (None, None) => f64::from(first),
-        };
-        let step = step.round().clamp(0.0, f64::from(Step::MAX.to_bits())) as u16;
-        if tried.iter().any(|e| e.step == step) {
-            break;
-        }
-        tried.push(encode(step)?);
+        // a flat picture has infinite decibels
+        _ => STEPS,
     }
-    Ok(())
+}
+
+/// The step to try next, from those tried and how far they missed; none where there is none between. On one
+/// side of the target it takes so many `steps` to have as much again.
+fn next(target: Target, tried: &[(u16, f64)], aim: f64, steps: f64) -> Option<u16> {
+    // 256 an octave: nearly a logarithm
+    let points = || tried.iter().map(|(step, miss)| (f64::from(*step), *miss));
+    let fine = points().filter(|e| e.1 > 0.0).max_by(|a, b| a.0.total_cmp(&b.0));
+    let coarse = points().filter(|e| e.1 <= 0.0).min_by(|a, b| a.0.total_cmp(&b.0));
+    let far = |(step, miss): (f64, f64)| step + ((miss - aim) * steps).clamp(-1500.0, 1500.0);
+    let step = match (fine, coarse) {
+        (Some((a, above)), Some((b, below))) if b - a > 1.0 => {
+            let share = ((above - aim) / (above - below)).clamp(0.05, 0.95);
+            (a + share * (b - a)).clamp(a + 1.0, b - 1.0)
+        }
+        // no straight line so close: decibels are tried for at finer steps, one by one
+        (Some(_), Some((b, _))) => match target {
+            Target::Bytes(_) => return None,
+            Target::Decibels(_) => points().map(|e| e.0).fold(b, f64::min) - 1.0,
+        },
+        (Some(fine), None) => far(fine) + 1.0,
+        (None, Some(coarse)) => far(coarse) - 1.0,
+        (None, None) => return None,
+    };
+    let step = step.round().clamp(0.0, f64::from(Step::MAX.to_bits())) as u16;
+    (!tried.iter().any(|(other, _)| *other == step)).then_some(step)
 }

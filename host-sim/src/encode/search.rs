@@ -23,18 +23,41 @@ pub(crate) struct Effort {
     pub(super) candidates: usize,
     /// Whether to look beyond what is near.
     pub(super) far: bool,
+    /// How often the levels of a leaf are weighed again.
+    pub(super) rounds: u32,
+    /// Whether leaves are weighed once more with their samples as they are rounded.
+    pub(super) polish: bool,
+    /// What part of the bytes asked for is filled at least.
+    pub(super) filled: f64,
 }
 
-/// A domain and what it takes off the error.
+/// A domain and what it takes off the error, in little room: there are more of them than pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) gain: f32,
-    pub(super) domain: Domain,
+    column: u16,
+    row: u16,
+    isometry: u8,
+    near: bool,
+}
+
+impl Candidate {
+    const fn new(gain: f32, domain: &Domain) -> Self {
+        let Domain { near, column, row, isometry, .. } = *domain;
+        // pictures have at most 16384 pixels a side
+        Self { gain, column: column as u16, row: row as u16, isometry: isometry as u8, near }
+    }
+
+    /// Of any contrast.
+    pub(super) fn domain(&self) -> Domain {
+        let [column, row] = [self.column, self.row].map(u32::from);
+        Domain { near: self.near, column, row, isometry: self.isometry.into(), scaling: 0 }
+    }
 }
 
 /// The candidates of every square of every size.
 pub(super) struct Candidates {
-    by_size: [Vec<Vec<Candidate>>; 4],
+    by_size: [Vec<Box<[Candidate]>>; 4],
     columns: [usize; 4],
 }
 
@@ -60,7 +83,8 @@ impl Candidates {
         least: f32,
     ) -> Self {
         let mut this = Self::none();
-        let cosine = Cosine::new();
+        let (cosine, pool) = (Cosine::new(), Pool::new(pool));
+        let pool = &pool;
         for size in 2..=shape.largest {
             let k = (size - 2) as usize;
             let (columns, rows) = (shape.width.div_ceil(1 << size), shape.height.div_ceil(1 << size));
@@ -100,6 +124,38 @@ impl Candidates {
     }
 }
 
+/// Where domains lie: samples, and the sums of all above and to the left of each and of their squares.
+struct Pool<'a> {
+    samples: &'a Samples,
+    sums: Vec<[f64; 2]>,
+}
+
+impl<'a> Pool<'a> {
+    fn new(samples: &'a Samples) -> Self {
+        let across = samples.width + 1;
+        let mut sums = vec![[0.0; 2]; across];
+        for row in samples.values.chunks_exact(samples.width) {
+            let mut left = [0.0; 2];
+            sums.push(left);
+            for value in row {
+                let (value, [above, squares]) = (f64::from(*value), sums[sums.len() - across]);
+                left = [left[0] + value, left[1] + value * value];
+                sums.push([above + left[0], squares + left[1]]);
+            }
+        }
+        Self { samples, sums }
+    }
+
+    /// Of a square of `n` a side, its mean off.
+    fn energy(&self, x: usize, y: usize, n: usize) -> f32 {
+        let across = self.samples.width + 1;
+        let corners =
+            [(y + n, x + n), (y, x), (y, x + n), (y + n, x)].map(|(y, x)| self.sums[y * across + x]);
+        let [sum, squares] = [0, 1].map(|i| corners[0][i] + corners[1][i] - corners[2][i] - corners[3][i]);
+        (squares - sum * sum / (n * n) as f64) as f32
+    }
+}
+
 /// The far domains of leaves of one size.
 struct Index {
     tree: Option<Tree>,
@@ -114,7 +170,7 @@ fn direction(coefficients: &Coefficients) -> Option<[f32; 8]> {
 }
 
 impl Index {
-    fn new(shape: &Shape, pool: &Samples, size: u32, band: u32, cosine: &Cosine) -> Self {
+    fn new(shape: &Shape, pool: &Pool, size: u32, band: u32, cosine: &Cosine) -> Self {
         let (mut places, mut directions) = (Vec::new(), Vec::new());
         let (mut square, mut coefficients) = ([0.0; 1024], [0.0; 256]);
         for row in 0..shape.far(size).map_or(0, |(_, rows)| rows) {
@@ -126,7 +182,7 @@ impl Index {
                 let Some(Place { x: px, y: py, .. }) = shape.place(&domain, last, below, size) else {
                     continue;
                 };
-                pool.square(px, py, 1 << size, &mut square);
+                pool.samples.square(px, py, 1 << size, &mut square);
                 cosine.forward(size, &square, &mut coefficients);
                 if let Some(direction) = direction(&coefficients) {
                     places.push((column, row));
@@ -178,15 +234,15 @@ impl Square {
     fn search(
         &self,
         shape: &Shape,
-        pool: &Samples,
+        pool: &Pool,
         index: Option<&Index>,
         cosine: &Cosine,
         effort: Effort,
         least: f32,
-    ) -> Vec<Candidate> {
+    ) -> Box<[Candidate]> {
         let mut best = Best { list: Vec::with_capacity(effort.candidates + 1), most: effort.candidates };
         if self.energy < least {
-            return best.list;
+            return best.list.into();
         }
         let turned: Vec<[f32; 1024]> = (0..effort.isometries).map(|isometry| self.turned(isometry)).collect();
         for row in 0..16 {
@@ -195,7 +251,7 @@ impl Square {
                 self.weigh(shape, pool, domain, (0..).zip(&turned), &mut best);
             }
         }
-        let Some(Index { tree: Some(tree), places }) = index else { return best.list };
+        let Some(Index { tree: Some(tree), places }) = index else { return best.list.into() };
         let mut coefficients = [0.0; 256];
         for (isometry, square) in (0..).zip(&turned) {
             cosine.forward(self.size, square, &mut coefficients);
@@ -209,14 +265,14 @@ impl Square {
                 }
             }
         }
-        best.list
+        best.list.into()
     }
 
     /// Offers a domain in each of the isometries.
     fn weigh<'a>(
         &self,
         shape: &Shape,
-        pool: &Samples,
+        pool: &Pool,
         domain: Domain,
         turned: impl Iterator<Item = (u32, &'a [f32; 1024])>,
         best: &mut Best,
@@ -225,16 +281,10 @@ impl Square {
             return;
         };
         let n = 1_usize << self.size;
-        let start = py as usize * pool.width + px as usize;
-        let rows = || pool.values[start..].chunks(pool.width).take(n).map(|row| &row[..n]);
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for row in rows() {
-            for value in row {
-                sum += value;
-                squares += value * value;
-            }
-        }
-        let energy = squares - sum * sum / (n * n) as f32;
+        let samples = pool.samples;
+        let start = py as usize * samples.width + px as usize;
+        let rows = || samples.values[start..].chunks(samples.width).take(n).map(|row| &row[..n]);
+        let energy = pool.energy(px as usize, py as usize, n);
         if energy < 0.5 * (n * n) as f32 {
             return;
         }
@@ -250,7 +300,7 @@ impl Square {
             let dot: f32 = sums.iter().sum();
             let contrast = (dot / energy).clamp(-1.0, 1.0);
             let gain = 2.0 * contrast * dot - contrast * contrast * energy;
-            best.offer(Candidate { gain, domain: Domain { isometry, ..domain } });
+            best.offer(Candidate::new(gain, &Domain { isometry, ..domain }));
         }
     }
 }
