@@ -129,7 +129,7 @@ fn broad(width: u32, extra: u32) -> i32 {
 #[inline(always)]
 fn shifted(up: i32, factor: i32) -> (u32, i32) {
     let down = up.min(0).unsigned_abs().min(31);
-    (up.max(0).min(31).unsigned_abs(), factor >> down)
+    (up.clamp(0, 31).unsigned_abs(), factor >> down)
 }
 
 /// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the
