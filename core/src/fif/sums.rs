@@ -357,7 +357,7 @@ impl<'a> Sums<'a> {
             Some(length) => {
                 let (mantissa, zeros) = reciprocal_of(length);
                 let up = zeros.wrapping_sub(2 + self.extra[0]) as i32;
-                let mean = over(to.area.wrapping_sub(from.area), shifted(up, mantissa)) << 2;
+                let mean = over(to.area.wrapping_sub(from.area), shifted(up, mantissa)) << 2 | 2;
                 if width < 0 { mean.wrapping_neg() } else { mean }
             }
         }
@@ -366,10 +366,10 @@ impl<'a> Sums<'a> {
     /// What it does between two places of this width.
     #[inline(always)]
     pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Course {
-        // means of what is inside the format
+        // means of what is inside the format, in the middle of what the bits cut off may be
         Course {
-            slope: over(b.value.wrapping_sub(a.value), width.slope) << 3,
-            value: over(b.area.wrapping_sub(a.area), width.area) << 2,
+            slope: over(b.value.wrapping_sub(a.value), width.slope) << 3 | 4,
+            value: over(b.area.wrapping_sub(a.area), width.area) << 2 | 2,
             squares: over(b.squares.wrapping_sub(a.squares), width.squares) << 2,
             middle: (a.value >> 1).wrapping_add(b.value >> 1),
         }

@@ -4,6 +4,8 @@
 //! target and narrow it down. Domains are looked for once, when the step is roughly known: of large pictures
 //! from some bands alone.
 
+use std::cell::Cell;
+
 use attractor::Error;
 use attractor::codec::shared::crc32;
 use attractor::codec::{Planes, Profile, Step, check};
@@ -39,11 +41,8 @@ const STEPS: f64 = 300.0;
 /// The most encodings, at different steps: rough ones, and all.
 const ROUGH: usize = 5;
 const PASSES: usize = 12;
-/// How many encodings the prices of bins are learnt from, so close to the target.
-const LEARNT: u32 = 5;
-const CLOSE: f64 = 0.05;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
-const FINER: [u16; 4] = [0, 2, 7, 19];
+const FINER: [u16; 8] = [0, 2, 7, 19, 4, 11, 14, 29];
 const BETWEEN: usize = 6;
 /// What part of the bytes is enough where what is wanted is not met soon.
 const ENOUGH: f64 = 0.992;
@@ -72,6 +71,11 @@ impl Target {
             }
             Self::Decibels(decibels) => (0.0..0.05).contains(&(encoded.psnr - decibels)),
         }
+    }
+
+    /// Whether decibels are so near that nothing is tried between two steps: of bytes each counts.
+    fn is_near(self, encoded: &Encoded) -> bool {
+        matches!(self, Self::Decibels(decibels) if (0.0..0.2).contains(&(encoded.psnr - decibels)))
     }
 
     /// Whether an encoding is allowed at all.
@@ -153,7 +157,8 @@ pub(crate) fn meet(
         return Err(Error::Degenerate { what: "number of encodings" });
     };
     let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
-    let (mut pool, mut passes, mut learnt): (Option<Vec<Pool>>, u32, u32) = (None, 0, 0);
+    let (mut pool, mut passes): (Option<Vec<Pool>>, u32) = (None, 0);
+    let learns = Cell::new(true);
     let mut one = |(step, thrift): (u16, f32)| {
         let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift, every: 1 };
         let known = Known { candidates: &candidates, pools: pool.as_deref(), counts: Some(&counts) };
@@ -163,10 +168,9 @@ pub(crate) fn meet(
         if passes < 2 && sweeps {
             pool = Some(pools);
         }
-        // nor would one with prices that change each time
-        if learnt < LEARNT {
+        // prices of bins are those of the one before, until bits are weighed between two steps
+        if learns.get() {
             counts = now;
-            learnt += u32::from(target.missed(&encoded).abs() < CLOSE);
         }
         passes += 1;
         said(&encoded);
@@ -201,10 +205,12 @@ pub(crate) fn meet(
         tried.push(one((step, 1.0))?);
     }
     // between two steps: bits a little dearer at the coarsest step that is too fine
-    let finest = tried.iter().filter(|e| !target.allows(e)).map(|e| e.step).max();
-    let finest = finest.filter(|_| tried.iter().any(|e| target.allows(e)));
-    if let (Target::Bytes(_), Some(step)) = (target, finest) {
+    let finest = tried.iter().filter(|e| target.missed(e) > 0.0).map(|e| e.step).max();
+    let finest = finest.filter(|_| tried.iter().any(|e| target.missed(e) <= 0.0));
+    if let Some(step) = finest.filter(|_| !tried.iter().any(|e| target.is_near(e))) {
         for finer in FINER {
+            // of small pictures bytes may jump past what is enough while the prices stay
+            learns.set(finer > 0);
             // logarithms of what a bit is worth, and what is missed
             let (mut over, mut under) = ((0.0, f64::from(finer) * 0.0035), None::<(f64, f64)>);
             if finer == 0 {
@@ -212,7 +218,8 @@ pub(crate) fn meet(
                 over.1 = there.map_or(0.0, |e| target.missed(e));
             }
             for turn in 0..BETWEEN {
-                if tried.iter().any(|e| target.is_met(e, filled(tried.len() - 1))) {
+                let enough = |e: &Encoded| target.is_near(e) || target.is_met(e, filled(tried.len() - 1));
+                if tried.iter().any(enough) {
                     break;
                 }
                 let thrift = match under {
