@@ -1,25 +1,19 @@
-//! As `nopanic`, for surfaces and the ray caster: height fields with filtered normals, and terrain. An image
-//! of its own, so that each fits the flash of a Cortex-M0.
+//! As `nopanic`, for height fields under the ray caster, plain and with filtered normals. An image of its own, so
+//! that each fits the flash of a Cortex-M0.
 #![no_std]
 #![no_main]
 
-use core::hint::black_box as bb;
-use core::ops::ControlFlow;
-
 use attractor::Error;
 use attractor::fif::{Cell, Fif, Knot, Moments, Pyramid, Spread, Sum, Sums};
-use attractor::num::{Near, RandomField, Real, Scaling, Unit, Vec3, Wide};
+use attractor::num::{Near, Real, Scaling, Unit, Vec3, Wide};
 use attractor::patch::{HeightMoments, Mask, Sheet, SlopeMoments};
 use attractor::plane::Field;
-use attractor::terrain::{
-    Heights, InnerGeometry, Law, Magnification, PlaneToLine, Rows, Seam, Seamed, Side, Triangles,
-};
 use attractor::trace::{
-    Camera, DeepTerrain, Environment, Filter, FilteredCaster, FilteredPatch, Finish, HeightField,
-    HeightRange, Light, PatchCaster, PatchSurface, Quality, Ray, RayCaster, Sampling, Statistics, Surface,
-    Terrain,
+    Camera, Environment, Filter, FilteredCaster, FilteredPatch, Finish, HeightField, Light, PatchCaster,
+    PatchSurface, Quality, Ray, RayCaster, Sampling, Statistics,
 };
 use attractor_cortex_m::{Wire, entry, semihosting};
+use core::hint::black_box as bb;
 use embedded_graphics::pixelcolor::Rgb565;
 
 attractor_cortex_m::never_panics!();
@@ -28,7 +22,6 @@ attractor_cortex_m::never_panics!();
 fn main() -> ! {
     // what is refused is refused: only panics count
     let _ = bb(rays());
-    let _ = bb(terrain());
     // linked everywhere, and run where there is stack for the moments
     if bb(cfg!(roomy)) {
         let _ = bb(lattice());
@@ -98,48 +91,4 @@ fn seen<'a>(sheet: Sheet<'a, Mask, 16>) -> Result<PatchCaster<'a, Mask, 16>, Err
         .with_light(Light::new(v)?)
         .with_environment(bb(Environment::SKY))?
         .with_sampling(bb(Sampling::Centre), bb(Filter::Box))
-}
-
-/// Surfaces by subdivision: heights, rows, triangles, patches, and both kinds under rays.
-fn terrain() -> Result<(), Error> {
-    let knots = bb([Real::ONE; 9]);
-    let law = Law::new(bb(Unit::DELTA), bb(Unit::DELTA))?;
-    let seams = [Seam::new(bb(1), bb([0, 0]), bb([0, 1]))?];
-    let random = Seamed::new(RandomField::new(bb(1)), &seams);
-    let knots = Heights::new(bb(3), bb(3), &knots)?.with_origin(bb(1), bb(1))?;
-    let function = PlaneToLine::new(knots, law, random)?;
-    let [u, v] = function.point(bb(3), bb(1), bb(2));
-    bb((function.height(u, v), law.offset(bb(1)), law.reach(bb(1), bb(2)), knots.range()));
-    bb(function.extrapolated(bb(Side::West), &mut [Real::ZERO; 3]))?;
-    let near = Magnification { eye: bb([u; 3]), length: bb(Unit::DELTA), most: bb(4) };
-    bb(Triangles::new(&function, bb(1), bb([0, 0]), &near)?.last());
-    let (mut rows, mut heights) = ([Real::ZERO; 64], [Real::ZERO; 81]);
-    Rows::of(&function, bb(1), [bb(0)..bb(2), bb(0)..bb(2)], bb(2), &mut rows)?.write(&mut heights)?;
-    Rows::new(&function, bb(2), &mut rows)?.write(&mut heights)?;
-    let heights = Heights::new(bb(9), bb(9), &heights)?;
-    let patch = bb(InnerGeometry::BSpline).patch(&heights, bb(1), bb(2));
-    bb((
-        patch.height(bb(Unit::DELTA), Unit::DELTA),
-        patch.slopes(bb(Unit::DELTA), Unit::DELTA),
-        patch.range(),
-    ));
-    let over = bb([[Real::ZERO, Real::ONE]; 2]);
-    crossed(&DeepTerrain::new(&function, bb(3), over)?);
-    let mut ranges = [HeightRange::default(); Terrain::ranges(9, 9)];
-    let land = Terrain::new(heights, bb(InnerGeometry::Ferguson), over, &mut ranges)?;
-    crossed(&land);
-    crossed(&land.with_plain(bb(Real::ZERO)));
-    Ok(())
-}
-
-/// All that a caster asks of a surface.
-fn crossed(surface: &impl Surface) {
-    let ray = Ray::new(bb(Vec3::X), bb(Vec3::Z));
-    let mut last = None;
-    surface.cross(&ray, bb(Unit::DELTA), &mut |crossing| {
-        last = Some(crossing);
-        bb(ControlFlow::Continue(()))
-    });
-    bb(last.map(|crossing| surface.point(&ray, bb(Unit::DELTA), &crossing, bb(true))));
-    bb((surface.value(bb(Vec3::X)), surface.extent(), surface.ball(), surface.error()));
 }
