@@ -176,9 +176,9 @@ pub fn stream(random: &mut Random, whole: bool) -> Result<Vec<u8>, Error> {
     stream_of(random, whole, 48)
 }
 
-/// A stream of up to `side` pixels a side, or a third and three times as many. If it is to be whole it can be decoded. Else three of four
-/// could be; then bytes are changed here and there in two of three, header, length and checksum stay right in
-/// seven of eight, so that the changed bins are read.
+/// A stream of up to `side` pixels a side, or a third and three times as many. If it is to be whole it can be
+/// decoded. Else three of four could be; then bytes are changed here and there in two of three, header,
+/// length and checksum stay right in seven of eight, so that the changed bins are read.
 ///
 /// # Errors
 /// None: a payload is far below what a header can say.

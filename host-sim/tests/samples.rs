@@ -400,8 +400,8 @@ field_of_view = 22
 quality = "fine"
 "#;
 
-/// Of the pixels of a picture of 40 x 40: how many are filtered, at edges and beyond the surface; and the squares
-/// of what the filtered ones and one sample each are off from many samples.
+/// Of the pixels of a picture of 40 x 40: how many are filtered, at edges and beyond the surface; and the
+/// squares of what the filtered ones and one sample each are off from many samples.
 fn listed(text: &str) -> ([u32; 3], [f64; 2]) {
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("i,j,found,filtered,sampled,one"));

@@ -3,9 +3,9 @@
 //! something else where they keep leaves are faults; so is, in each sixteenth stream as it was made, a sample
 //! that is not the reference's.
 //!
-//! The streams are those of `tests/streams.rs`. Each is decoded as it is, then again and again with other bytes
-//! changed, at another scale, and with another checksum, so that the changed bins are read. An execution is one
-//! stream decoded, of profiles iterated and pure by two decoders. Memory is lent once.
+//! The streams are those of `tests/streams.rs`. Each is decoded as it is, then again and again with other
+//! bytes changed, at another scale, and with another checksum, so that the changed bins are read. An
+//! execution is one stream decoded, of profiles iterated and pure by two decoders. Memory is lent once.
 
 use std::hint::black_box;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -4,9 +4,9 @@
 //! that it pushes and subtracts from the stack pointer anywhere, and a path's is the sum of its functions'
 //! frames; a branch to another function is a tail call, at which the caller's frame is gone (Arm's procedure
 //! call standard). A call through a register may go to any function whose address the image holds: as a word
-//! of its constants or data, or as the two halves that MOVW and MOVT of one function load. An image that calls
-//! itself, or moves the stack pointer by a register, has no bound of this kind. What an interrupt pushes (at
-//! most 104 bytes with the FPU's registers) comes on top; the vector table calls nothing else.
+//! of its constants or data, or as the two halves that MOVW and MOVT of one function load. An image that
+//! calls itself, or moves the stack pointer by a register, has no bound of this kind. What an interrupt
+//! pushes (at most 104 bytes with the FPU's registers) comes on top; the vector table calls nothing else.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

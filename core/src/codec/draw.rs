@@ -242,8 +242,8 @@ impl<'a, S: Sample> Plane<'a, S> {
     }
 
     /// Where the samples of a domain are, and the contrast. At a small scale its place is rounded down: as it
-    /// lies in the halved picture, what is drawn of it does as well, and where it does not touch its leaf, whose
-    /// place is whole there, that does not either.
+    /// lies in the halved picture, what is drawn of it does as well, and where it does not touch its leaf,
+    /// whose place is whole there, that does not either.
     #[inline(never)]
     fn source(&self, map: &Unsettled) -> (Source<'a, S>, i32) {
         let Unsettled { column, row, isometry, contrast, .. } = *map;

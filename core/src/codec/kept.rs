@@ -8,8 +8,8 @@
 //! - plane, size and isometry: `isometry 16 + plane 4 + size - 2`;
 //! - column and row in cells of 4 x 4, column and row of its domain in the halved picture;
 //! - mean and contrast: `z(mean) 32 + z(contrast)`, `z(v) = 2 v` or `-2 v - 1`;
-//! - each coefficient that is not 0, as `8 zeros + min(z(level), 8)`, `zeros` those before it along the scan, where
-//!   that is a multiple of 8 `z(level) - 8` after it; and a 0.
+//! - each coefficient that is not 0, as `8 zeros + min(z(level), 8)`, `zeros` those before it along the scan,
+//!   where that is a multiple of 8 `z(level) - 8` after it; and a 0.
 
 use core::cell::Cell;
 

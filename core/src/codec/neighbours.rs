@@ -1,5 +1,5 @@
-//! What a square learns from those above it and to its left, and leaves to those after it: the base along their
-//! edges, how small they are and whether they have domains.
+//! What a square learns from those above it and to its left, and leaves to those after it: the base along
+//! their edges, how small they are and whether they have domains.
 
 use core::cell::Cell;
 

@@ -25,8 +25,8 @@ pub(super) struct RangeDecoder<I> {
 }
 
 impl<I: Iterator<Item = u8>> RangeDecoder<I> {
-    /// A payload of so many bytes, of which none has been read. It must be told to [`begin`](Self::begin): what
-    /// changes it before it lies where it stays makes a compiler keep its models twice on the stack.
+    /// A payload of so many bytes, of which none has been read. It must be told to [`begin`](Self::begin):
+    /// what changes it before it lies where it stays makes a compiler keep its models twice on the stack.
     #[inline(always)]
     pub(super) const fn new(source: I, payload: u32, crc: Crc) -> Self {
         let models = [Model::BLANK; COUNT];

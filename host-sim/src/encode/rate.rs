@@ -168,7 +168,7 @@ pub(crate) fn meet(
         if passes < 2 && sweeps {
             pool = Some(pools);
         }
-        // prices of bins are those of the one before, until bits are weighed between two steps
+        // prices of bins are those of the one before, but while bits are weighed at the nearest step
         if learns.get() {
             counts = now;
         }

@@ -436,9 +436,9 @@ impl Leaf {
         there.map(|(v, u, _, value)| 2.0 / self.n as f64 * value * wave(*v, i) * wave(*u, j)).sum()
     }
 
-    /// By how much mean and transform, drawn with `side` pixels a side, are off in column `j` where they are computed as the format has it: the
-    /// mean of the edges and the steps by `2^-8` each; each cosine by `2^-15`, a column's term by `2^-5`, the
-    /// first of them twice, the sum by `2^-8`.
+    /// By how much mean and transform, drawn with `side` pixels a side, are off in column `j` where they are
+    /// computed as the format has it: the mean of the edges and the steps by `2^-8` each; each cosine by
+    /// `2^-15`, a column's term by `2^-5`, the first of them twice, the sum by `2^-8`.
     fn off(&self, j: usize, side: usize) -> f64 {
         let n = self.n as f64;
         let (table, term) = (0.5_f64.powi(15), 1.0 / 32.0);

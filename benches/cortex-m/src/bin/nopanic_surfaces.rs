@@ -1,5 +1,5 @@
-//! As `nopanic`, for height fields under the ray caster, plain and with filtered normals. An image of its own, so
-//! that each fits the flash of a Cortex-M0.
+//! As `nopanic`, for height fields under the ray caster, plain and with filtered normals. An image of its
+//! own, so that each fits the flash of a Cortex-M0.
 #![no_std]
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! As `nopanic`, for terrain by subdivision: heights, rows, triangles, patches, and both kinds under rays. An image
-//! of its own, so that each fits the flash of a Cortex-M0.
+//! As `nopanic`, for terrain by subdivision: heights, rows, triangles, patches, and both kinds under rays. An
+//! image of its own, so that each fits the flash of a Cortex-M0.
 #![no_std]
 #![no_main]
 

@@ -9,8 +9,8 @@
 //! `P = (cos(e)^(2/m) cos(w)^(2/n), cos(e)^(2/m) sin(w)^(2/n), sin(e)^(2/m))`; of a sphere that is longitude
 //! and latitude.
 //!
-//! Source: course unit V, section 5.7, 4 (whose formula has lost the absolute values); Barr, "Superquadrics and
-//! Angle-Preserving Transformations", 1981, for the parametrisation.
+//! Source: course unit V, section 5.7, 4 (whose formula has lost the absolute values); Barr, "Superquadrics
+//! and Angle-Preserving Transformations", 1981, for the parametrisation.
 
 use crate::camera::Ray;
 use crate::vector::Vector;
