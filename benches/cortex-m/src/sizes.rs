@@ -1,6 +1,10 @@
-//! What iterators take on a 32-bit machine, checked where they are compiled: the sizes that core's
+//! What iterators and decoders take on a 32-bit machine, checked where they are compiled: the sizes that core's
 //! documentation states.
 
+use core::iter::Copied;
+use core::slice::Iter;
+
+use attractor::codec::{Stream, Sweeps};
 use attractor::curve::{Elbow, Generator, LSystem, OneVariable, Refined, Subdivision, Turtle, TwoVariable};
 use attractor::ifs::{CopiedPath, CopiedPoints, Ifs};
 use attractor::plane::Density;
@@ -8,7 +12,12 @@ use attractor::plane::Density;
 /// Order 12 of the Koch curve and depth 12 of a copier may take so much.
 const MOST: usize = 600;
 
+/// Bytes of a stream in flash.
+type Bytes<'a> = Copied<Iter<'a, u8>>;
+
 const _: () = {
+    assert!(size_of::<Stream<'_, u8, Bytes<'_>>>() <= 2150);
+    assert!(size_of::<Sweeps<'_, u8, Bytes<'_>>>() <= 512);
     assert!(size_of::<Refined<'_, 4, 12>>() <= MOST && size_of::<Refined<'_, 4, 12>>() == 32 * 12 + 72);
     assert!(size_of::<CopiedPath<'_, 4, 12>>() <= MOST && size_of::<CopiedPath<'_, 4, 12>>() == 40 * 12 + 72);
     assert!(size_of::<CopiedPoints<'_, 4, 12>>() == size_of::<CopiedPath<'_, 4, 12>>());

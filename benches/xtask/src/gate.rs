@@ -54,7 +54,7 @@ struct Budget {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 enum Of {
     /// Instructions a unit.
     Kernel,
@@ -66,6 +66,8 @@ enum Of {
     Ram,
     /// Bytes of stack that a scene takes.
     Stack,
+    /// The most bytes of stack that an image can take, what it lends included.
+    ImageStack,
 }
 
 /// A kernel that takes more than f32 on the FPU, or more than a twentieth of soft f64, and why.
@@ -244,6 +246,10 @@ fn over_budget(
             Of::Flash => measured.flash.iter().find(|row| row.name == *name).map(|row| row.bytes as f64),
             Of::Ram => scene().map(|row| row.ram_bytes as f64),
             Of::Stack => scene().map(|row| row.stack_bytes as f64),
+            Of::ImageStack => {
+                let row = measured.flash.iter().find(|row| row.name == *name);
+                row.and_then(|row| row.stack).map(|bytes| bytes as f64)
+            }
         };
         let what = format!("{:?} {name}", budget.of).to_lowercase();
         match (figure, &budget.why) {

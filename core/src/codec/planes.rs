@@ -7,6 +7,7 @@ use embedded_graphics_core::geometry::Size;
 use super::header::{Header, WHAT};
 use super::kept::{Kept, Unsettled};
 use super::leaf::{Leaf, Setting};
+use super::levels::Levels;
 use super::plane::Plane;
 use super::range_decoder::RangeDecoder;
 use super::sample::Sample;
@@ -21,7 +22,6 @@ pub(super) const BAND: u32 = 32;
 pub(super) struct Planes<'a, S: Sample> {
     header: Header,
     planes: [Plane<'a, S>; 3],
-    leaf: Leaf,
 }
 
 impl<'a, S: Sample> Planes<'a, S> {
@@ -29,7 +29,7 @@ impl<'a, S: Sample> Planes<'a, S> {
     pub(super) fn new(header: Header, scale: i32, memory: &mut &'a [Cell<S>]) -> Self {
         let mut plane = |index| Plane::new(header.shape(index, scale), memory);
         let planes = [plane(0), plane(1), plane(2)];
-        Self { header, planes, leaf: Leaf::default() }
+        Self { header, planes }
     }
 
     /// Decodes the band that begins at a row of luma: whether all of it could be.
@@ -40,10 +40,12 @@ impl<'a, S: Sample> Planes<'a, S> {
         done: u32,
         mut seen: impl FnMut(u32, &Leaf, &Setting, [u32; 2], Option<Unsettled>),
     ) -> bool {
+        // here and not with the planes: a stream that is moved takes less
+        let mut leaf = Leaf::default();
         for (index, plane) in (0..self.header.count()).zip(self.planes.as_mut_slice()) {
             plane.begin(row >> self.header.halved(index), done);
             let sound =
-                plane.decode(decoder, &mut self.leaf, RangeDecoder::ended, |leaf, setting, at, map| {
+                plane.decode(decoder, &mut leaf, RangeDecoder::ended, |leaf, setting, at, map| {
                     seen(index, leaf, setting, at, map);
                 });
             if !sound || decoder.ended() {
@@ -53,10 +55,12 @@ impl<'a, S: Sample> Planes<'a, S> {
         true
     }
 
-    /// Sweeps over leaves that were kept instead of a stream.
+    /// Sweeps over leaves that were kept instead of a stream. Apart: what it needs is not on the stack of a
+    /// sweep over the stream.
+    #[inline(never)]
     pub(super) fn redraw(&mut self, kept: &mut Kept<'a, S>) {
         let planes = &mut self.planes;
-        kept.retain(&mut self.leaf.levels, |index, levels, map| {
+        kept.retain(&mut Levels::default(), |index, levels, map| {
             planes.get_mut(index as usize).is_some_and(|plane| !plane.redraw(levels, map))
         });
     }

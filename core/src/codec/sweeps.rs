@@ -24,13 +24,13 @@ use crate::plane::Field;
 /// A picture of profile [`Iterated`](super::Profile::Iterated) or [`Pure`](super::Profile::Pure), black at
 /// first, then sharper with each sweep. It is a field at any time.
 ///
-/// Size: 1.1 KiB and the samples that [`Opened::samples`] counts: the picture, five quarters of a row, and
+/// Size: 0.5 KiB and the samples that [`Opened::samples`] counts: the picture, five quarters of a row, and
 /// one for each 128 pixels. More is used as well: a leaf takes 9 samples and mostly 1 for each coefficient,
-/// if it depends on itself or on what comes after it. So what is there between sweeps is the picture and less
-/// than 4 KiB for 240 x 240 at 0.27 bits a pixel. A sweep over the stream takes 2.7 KiB of stack besides, 1.7
-/// of them for its decoder, on a 32-bit machine.
+/// if it depends on itself or on what comes after it. So what is there between sweeps is the picture and 3.3
+/// KiB for 240 x 240 at 0.27 bits a pixel. A sweep over the stream takes 3.2 KiB of stack besides, 1.7 of
+/// them for its decoder, on a 32-bit machine.
 ///
-/// Cost: in all, with those 4 KiB, about 70 instructions a pixel for a stream that was made for two sweeps,
+/// Cost: in all, with those 3.3 KiB, about 70 instructions a pixel for a stream that was made for two sweeps,
 /// kernel `decode sweeps`, and 108 for four, kernel `decode four sweeps`; without, 99 and 191.
 #[derive(Debug)]
 pub struct Sweeps<'a, S: Sample, I> {
