@@ -44,10 +44,9 @@ impl<'a, S: Sample> Planes<'a, S> {
         let mut leaf = Leaf::default();
         for (index, plane) in (0..self.header.count()).zip(self.planes.as_mut_slice()) {
             plane.begin(row >> self.header.halved(index), done);
-            let sound =
-                plane.decode(decoder, &mut leaf, RangeDecoder::ended, |leaf, setting, at, map| {
-                    seen(index, leaf, setting, at, map);
-                });
+            let sound = plane.decode(decoder, &mut leaf, RangeDecoder::ended, |leaf, setting, at, map| {
+                seen(index, leaf, setting, at, map);
+            });
             if !sound || decoder.ended() {
                 return false;
             }
