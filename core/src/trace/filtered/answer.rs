@@ -130,6 +130,16 @@ fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     high(v << (31_u32.wrapping_sub(half) & 31), mantissa) << 2
 }
 
+/// The sum of four areas, each below 2^29; none where one is below 0.
+#[inline(always)]
+fn area([a, b, c, d]: [i32; 4]) -> Option<NonZeroU32> {
+    if a | b | c | d < 0 {
+        return None;
+    }
+    // what no unit of area shows does not count
+    Some(NonZeroU32::MIN | a.wrapping_add(b).wrapping_add(c).wrapping_add(d) as u32)
+}
+
 /// The tone of a matt surface.
 #[inline(always)]
 fn matte(ambient: Unit, matt: Unit) -> Unit {
@@ -183,33 +193,54 @@ impl<'a> View<'a> {
     }
 
     /// What the footprint shows; none where a part of it may turn away from the eye.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Unit> {
-        let (mut shown, mut slopes) = (Shown::default(), Slopes::default());
-        match (self.finish, self.checkerboard) {
-            (Finish::Mirror, Some(checkerboard)) => {
-                for _ in 0..footprint.count() {
-                    footprint.next(ground, &mut slopes)?;
-                    let mirrored = self.mirrored(&Spread::of(&slopes, footprint.half()))?;
-                    shown.boxes += 1;
-                    shown.matt += checkerboard.over(&mirrored).to_bits() as u32 >> 2;
-                }
-            }
-            (Finish::Phong { shininess, .. }, _) => {
-                let exponent = Exponent::new(shininess);
-                for _ in 0..footprint.count() {
-                    footprint.next(ground, &mut slopes)?;
-                    shown.add(&self.phong(exponent, &mut slopes.points())?);
-                }
-            }
-            _ => {
-                for _ in 0..footprint.count() {
-                    footprint.next(ground, &mut slopes)?;
-                    shown.add(&self.seen(&mut slopes.points())?);
-                }
-            }
-        }
+        let shown = match (self.finish, self.checkerboard) {
+            (Finish::Mirror, Some(checkerboard)) => self.reflected(checkerboard, ground, footprint)?,
+            (Finish::Phong { shininess, .. }, _) => self.shining(shininess, ground, footprint)?,
+            _ => self.pointed(ground, footprint)?,
+        };
         Some(self.finished(&shown))
+    }
+
+    /// What it shows of a checkerboard.
+    #[inline(never)]
+    fn reflected(
+        &self,
+        checkerboard: &Checkerboard,
+        ground: &[Ground<'_>; 2],
+        footprint: &mut Footprint,
+    ) -> Option<Shown> {
+        let (mut shown, mut slopes) = (Shown::default(), Slopes::default());
+        for _ in 0..footprint.count() {
+            footprint.next(ground, &mut slopes)?;
+            let mirrored = self.mirrored(&Spread::of(&slopes, footprint.deviations()))?;
+            shown.boxes += 1;
+            shown.matt = shown.matt.wrapping_add(checkerboard.over(&mirrored).to_bits() as u32 >> 2);
+        }
+        Some(shown)
+    }
+
+    /// What it shows with Phong's highlight.
+    #[inline(never)]
+    fn shining(&self, shininess: u16, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
+        let (mut shown, mut slopes, exponent) = (Shown::default(), Slopes::default(), Exponent::new(shininess));
+        for _ in 0..footprint.count() {
+            footprint.next(ground, &mut slopes)?;
+            shown.add(&self.phong(exponent, &mut slopes.points())?);
+        }
+        Some(shown)
+    }
+
+    /// What it shows of anything by points.
+    #[inline(never)]
+    fn pointed(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
+        let (mut shown, mut slopes) = (Shown::default(), Slopes::default());
+        for _ in 0..footprint.count() {
+            footprint.next(ground, &mut slopes)?;
+            shown.add(&self.seen(&mut slopes.points())?);
+        }
+        Some(shown)
     }
 
     /// What four points show that stand for all of a pixel; none where one turns away from the eye.
@@ -242,38 +273,42 @@ impl<'a> View<'a> {
     /// Four points with Phong's highlight; no exponent is that of 0.
     #[inline(always)]
     fn phong(&self, exponent: Option<Exponent>, points: &mut [Slope; 4]) -> Option<Seen> {
-        let seen = self.four(points, |point, facing| {
+        let matt = self.all(points, |slope, facing| {
             let (eye, lit) = (facing.eye(), facing.lit());
             // m . l is at most 1
-            *point = [self.straight.wrapping_add(high(eye, lit) << 3), facing.area];
+            slope[0] = self.straight.wrapping_add(high(eye, lit) << 3);
             lit.max(0)
-        })?;
+        });
         let [[a, s], [b, t], [c, u], [d, v]] = *points;
-        let Some(exponent) = exponent else { return Some(Seen { highlight: i64::from(seen.area.get()) << 30, ..seen }) };
+        let area = area([s, t, u, v])?;
+        let Some(exponent) = exponent else {
+            return Some(Seen { area, matt, highlight: i64::from(area.get()) << 30 });
+        };
         let [a, b, c, d] = exponent.powers([a, b, c, d]);
         let on = |shown: u32, weight: i32| product_u(shown, weight as u32);
-        let highlight = (on(a, s) + on(b, t) + on(c, u) + on(d, v)) >> 2;
-        Some(Seen { highlight: highlight as i64, ..seen })
+        let highlight = on(a, s).wrapping_add(on(b, t)).wrapping_add(on(c, u)).wrapping_add(on(d, v)) >> 2;
+        Some(Seen { area, matt, highlight: highlight as i64 })
     }
 
-    /// The sum of four points' areas, and of what `tone` says of each times its area; none where one turns
-    /// away from the eye.
+    /// Four points without one; none where one turns away from the eye.
     #[inline(always)]
-    fn four(
-        &self,
-        points: &mut [Slope; 4],
-        mut tone: impl FnMut(&mut Slope, &Facing) -> i32,
-    ) -> Option<Seen> {
-        let (mut area, mut matt, mut turned) = (0_u32, 0_i64, 0);
+    fn four(&self, points: &mut [Slope; 4], tone: impl FnMut(&mut Slope, &Facing) -> i32) -> Option<Seen> {
+        let matt = self.all(points, tone);
+        let [[_, s], [_, t], [_, u], [_, v]] = *points;
+        Some(Seen { area: area([s, t, u, v])?, matt, highlight: 0 })
+    }
+
+    /// The sum of what `tone` says of four points, each times its area, 52 fractional bits. Leaves the areas as
+    /// the points' second numbers.
+    #[inline(always)]
+    fn all(&self, points: &mut [Slope; 4], mut tone: impl FnMut(&mut Slope, &Facing) -> i32) -> i64 {
+        let mut matt = 0_i64;
         for slope in points {
             let facing = Facing::new(*slope, self);
-            turned |= facing.area;
-            // below 2^29
-            area = area.wrapping_add(facing.area as u32);
-            matt += product(tone(slope, &facing), facing.area);
+            matt = matt.wrapping_add(product(tone(slope, &facing), facing.area));
+            slope[1] = facing.area;
         }
-        let area = NonZeroU32::new(if turned < 0 { 0 } else { area })?;
-        Some(Seen { area, matt, highlight: 0 })
+        matt
     }
 
     /// The highlight of tiny mirrors.

@@ -128,8 +128,8 @@ impl<'a> FilteredCaster<'a> {
         let checkerboard = self.checkerboard.as_ref();
         let view = || View::new(unit(sight.direction), light.towards, *material, environment, checkerboard);
         if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
-            let (slopes, half) = whole(&self.ground, sight, self.edges, first, reach)?;
-            return view().glance(ambient, &Spread::of(&slopes, half));
+            let (slopes, deviations) = whole(&self.ground, sight, self.edges, first, reach)?;
+            return view().glance(ambient, &Spread::of(&slopes, deviations));
         }
         let place = settled(&self.ground, sight, first, reach)?;
         if let Finish::Diffuse { .. } = material {

@@ -15,7 +15,7 @@
 use core::num::NonZeroU32;
 
 use super::ground::{Ground, Side};
-use super::slopes::{Slope, Slopes, times};
+use super::slopes::{Slope, Slopes, deviations, times};
 use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt, rounded_down};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
@@ -132,13 +132,13 @@ pub(super) fn edges(place: &Place, sight: &Sight, steep: i32, edges: [[i32; 3]; 
     [moved(right), moved(down)]
 }
 
-/// The sides of the box with the variances of a parallelogram.
+/// The sides of the box with the variances of a parallelogram, and how far its places deviate.
 #[inline(always)]
 pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
     let half = [half(a[0], b[0]), half(a[1], b[1])];
     let [x, y] = ground;
-    (half, [x.side(half[0]), y.side(half[1])])
+    (deviations(half), [x.side(half[0]), y.side(half[1])])
 }
 
 /// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
@@ -178,7 +178,7 @@ pub(super) struct Footprint {
     steps: [([i32; 2], i32); 2],
     parts: [i32; 2],
     ways: Ways,
-    half: [i32; 2],
+    deviations: [i32; 2],
     sides: [Side; 2],
     /// The end of a column's first line, on the plane, and its height.
     first: ([i32; 2], i32),
@@ -189,9 +189,9 @@ pub(super) struct Footprint {
 }
 
 impl Footprint {
-    /// Half of a box along both axes.
-    pub(super) const fn half(&self) -> [i32; 2] {
-        self.half
+    /// How far the places of a box deviate from its middle.
+    pub(super) const fn deviations(&self) -> [i32; 2] {
+        self.deviations
     }
 
     /// How many parts.
@@ -261,7 +261,7 @@ pub(super) fn on_mean(
     Some(sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach))
 }
 
-/// The surface over the box of a pixel, and half of the box: none where it leaves the domain. The mean plane
+/// The surface over the box of a pixel, and how far its places deviate: none where it leaves the domain. The mean plane
 /// is that above a box around where the ray comes in, three quarters of a pixel to both sides.
 #[inline(always)]
 pub(super) fn whole(
@@ -272,11 +272,11 @@ pub(super) fn whole(
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
     let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
-    let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
+    let (deviations, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
     let ([x, y], [px, py]) = (ground, place.at);
     let mut slopes = Slopes::default();
     slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
-    Some((slopes, half))
+    Some((slopes, deviations))
 }
 
 /// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in,
@@ -306,7 +306,7 @@ impl Quality {
         let [few, many] = self.parts(few);
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
-        let (half, sides) = sides(ground, [a, b]);
+        let (deviations, sides) = sides(ground, [a, b]);
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
         let rises = [a, b].map(rise);
         let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
@@ -323,7 +323,7 @@ impl Quality {
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
             ways: Ways::new(ground, sight, steep, reach),
-            half,
+            deviations,
             sides,
             first,
             line: first,

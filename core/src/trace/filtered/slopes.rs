@@ -90,23 +90,24 @@ struct Moments {
 }
 
 impl Moments {
-    /// Of a box with `h^2 / 3`, 31 fractional bits, along both axes.
+    /// Of a box with so large [`deviations`].
     #[inline(always)]
-    fn new(Slopes { x, y }: &Slopes, [third_x, third_y]: [i32; 2]) -> Self {
+    fn new(Slopes { x, y }: &Slopes, [along_x, along_y]: [i32; 2]) -> Self {
         let steep = |slope: i32| slope.clamp(-(1 << 24), (1 << 24) - 1) << 7;
         let high_up = |value: i32| value.clamp(-(1 << 25), (1 << 25) - 1) << 6;
         let (f, big_f, g, big_g) = (steep(x.slope), high_up(x.value), steep(y.slope), high_up(y.value));
-        // that of the value, as of a straight line: h^2 / 3 is below 1/3 of what is shown
-        let square = |v: i32, slope: i32, third: i32| {
-            wide(high(v, v).wrapping_add(high(high(slope, slope), third) << 1))
+        // that of the value, as of a straight line
+        let square = |v: i32, slope: i32, deviation: i32| {
+            let off = high(slope, deviation) << 1;
+            wide(high(v, v).wrapping_add(high(off, off)))
         };
         let (with_f, with_g) = (high(f, wide(x.middle)), high(g, wide(y.middle)));
         Self {
             mean: [high(f, big_g), high(big_f, g)],
             squares: [
-                high(x.squares << 2, square(big_g, g, third_y)),
+                high(x.squares << 2, square(big_g, g, along_y)),
                 high(wide(with_f), wide(with_g)) >> 4,
-                high(y.squares << 2, square(big_f, f, third_x)),
+                high(y.squares << 2, square(big_f, f, along_x)),
             ],
         }
     }
@@ -150,11 +151,10 @@ impl Spread {
         [at(s, more), at(s, less), at(-s, more.saturating_neg()), at(-s, less.saturating_neg())]
     }
 
-    /// Of two boxes that count alike.
+    /// Of two boxes with the same [`deviations`] that count alike.
     #[inline(always)]
-    pub(super) fn of_two(boxes: &[Slopes; 2], half: [i32; 2]) -> Self {
-        let thirds = thirds(half);
-        let [a, b] = boxes.each_ref().map(|slopes| Moments::new(slopes, thirds));
+    pub(super) fn of_two(boxes: &[Slopes; 2], deviations: [i32; 2]) -> Self {
+        let [a, b] = [Moments::new(&boxes[0], deviations), Moments::new(&boxes[1], deviations)];
         let middle = |a: i32, b: i32| (a >> 1).wrapping_add(b >> 1);
         let [[p, q], [r, s]] = [a.mean, b.mean];
         let [[pp, pq, qq], [rr, rs, ss]] = [a.squares, b.squares];
@@ -163,17 +163,16 @@ impl Spread {
 
     /// Of one box.
     #[inline(always)]
-    pub(super) fn of(slopes: &Slopes, half: [i32; 2]) -> Self {
-        let Moments { mean, squares } = Moments::new(slopes, thirds(half));
+    pub(super) fn of(slopes: &Slopes, deviations: [i32; 2]) -> Self {
+        let Moments { mean, squares } = Moments::new(slopes, deviations);
         Self::new(mean, squares)
     }
 }
 
-/// `h^2 / 3`, 31 fractional bits.
+/// How far a box's places deviate from its middle, `h / sqrt(3)` for half of it, 31 fractional bits. A half
+/// beyond 1 counts as 1: that is far beyond what a pixel shows.
 #[inline(always)]
-fn thirds(half: [i32; 2]) -> [i32; 2] {
-    half.map(|h| {
-        let square = (product(h, h) >> 17).min(i64::from(i32::MAX)) as i32;
-        high(square, 0x5555_5555)
-    })
+pub(super) fn deviations([x, y]: [i32; 2]) -> [i32; 2] {
+    let deviation = |half: i32| high(half.min((1 << 24) - 1) << 7, 0x49e6_9d16) << 1;
+    [deviation(x), deviation(y)]
 }
