@@ -162,8 +162,8 @@ fn less(width: u32) -> i32 {
 /// Shifted up by so much, or the factor down.
 #[inline(always)]
 fn shifted(up: i32, factor: i32) -> (i32, i32) {
-    let down = up.min(0).unsigned_abs().min(31);
-    (1 << up.clamp(0, 31).unsigned_abs(), factor >> down)
+    let down = up.wrapping_neg().clamp(0, 31);
+    (1 << up.clamp(0, 31), factor >> down)
 }
 
 /// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the

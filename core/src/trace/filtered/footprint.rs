@@ -55,12 +55,13 @@ impl Quality {
     }
 }
 
-/// A plane above the ground that a ray meets: where, and its slopes.
+/// A plane above the ground that a ray meets: where, its slopes, and their [`steepness`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) t: i32,
     pub(super) at: [i32; 2],
     pub(super) slope: Slope,
+    pub(super) steep: i32,
 }
 
 /// A ray from the eye.
@@ -111,21 +112,22 @@ impl Sight {
     /// from `t`.
     #[inline(always)]
     pub(super) fn meet(&self, t: i32, slope: Slope, above: i32, reach: i32) -> Place {
-        let off = over(above, steepness(slope, self.direction));
+        let steep = steepness(slope, self.direction);
+        let off = over(above, steep);
         let t = t.wrapping_add(off.max(reach.wrapping_neg()).min(reach));
         let [x, y, _] = self.at(t);
-        Place { t, at: [x, y], slope }
+        Place { t, at: [x, y], slope, steep }
     }
 }
 
 /// A pixel's edges along the plane that its ray meets, saturated at ±64.
 #[inline(always)]
-pub(super) fn edges(place: &Place, sight: &Sight, steep: i32, edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
+pub(super) fn edges(place: &Place, sight: &Sight, edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
     let [dx, dy, _] = sight.direction;
     let [right, down] = edges;
     let moved = |r: [i32; 3]| {
         // n . r / n . d
-        let along = over(into(place.slope, r) as i32, steep);
+        let along = over(into(place.slope, r) as i32, place.steep);
         let moved = |r: i32, d: i32| times((r >> 4).wrapping_sub(high(d, along)), place.t);
         [moved(r[0], dx), moved(r[1], dy)]
     };
@@ -231,10 +233,10 @@ impl Footprint {
 /// One of `n` parts, `n` up to 6.
 #[inline(always)]
 pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
-    /// `2^16 / n`.
-    const PART: [i32; 7] = [0, 1 << 16, 1 << 15, 21845, 1 << 14, 13107, 10923];
+    /// `2^31 / n`.
+    const PART: [i32; 7] = [0, i32::MAX, 1 << 30, 0x2aaa_aaab, 1 << 29, 0x1999_999a, 0x1555_5555];
     let part = PART.get(n as usize).copied().unwrap_or(0);
-    v.map(|v| (product(v, part) >> 16) as i32)
+    [high(v[0], part) << 1, high(v[1], part) << 1]
 }
 
 /// Half of the box above which a pixel's mean plane is taken: three quarters of a pixel, of which eight are
@@ -272,7 +274,7 @@ pub(super) fn whole(
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
     let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
-    let (deviations, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
+    let (deviations, sides) = sides(ground, edges(&place, sight, pixel));
     let ([x, y], [px, py]) = (ground, place.at);
     let mut slopes = Slopes::default();
     slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
@@ -299,8 +301,7 @@ impl Quality {
     ) -> Footprint {
         let [x, y] = ground;
         let slope = place.slope;
-        let steep = steepness(slope, sight.direction);
-        let [a, b] = edges(place, sight, steep, pixel);
+        let [a, b] = edges(place, sight, pixel);
         // more parts along the longer edge
         let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
         let [few, many] = self.parts(few);
@@ -322,7 +323,7 @@ impl Quality {
         Footprint {
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
-            ways: Ways::new(ground, sight, steep, reach),
+            ways: Ways::new(ground, sight, place.steep, reach),
             deviations,
             sides,
             first,

@@ -70,7 +70,7 @@ impl<'a> Ground<'a> {
     /// So far to both sides.
     #[inline(always)]
     pub(super) fn side(&self, half: i32) -> Side {
-        let half = self.part(half).clamp(1, WHOLE / 2 - 1);
+        let half = self.part(half).clamp(0, WHOLE / 2 - 1) | 1;
         let width = NonZeroU32::new(half.unsigned_abs() << 3).unwrap_or(NonZeroU32::MIN);
         let (last, quarter) = (WHOLE - 1 - (half << 1), half >> 1);
         Side { half, last, allowed: (last + 1 + (quarter << 1)) as u32, width: self.sums.width_of(width) }

@@ -20,7 +20,7 @@
 
 use core::num::NonZeroU32;
 
-use super::footprint::{Place, Sight, Ways, cut, edges, on_mean, sides, steepness};
+use super::footprint::{Place, Sight, Ways, cut, edges, on_mean, sides};
 use super::ground::Ground;
 use super::slopes::{Slope, Slopes, Spread};
 use crate::fif::Sum;
@@ -114,14 +114,10 @@ pub(super) fn spread(
     (reach, columns): (i32, i32),
 ) -> Option<Spread> {
     let [x, y] = ground;
-    let laid = |place: &Place| {
-        let steep = steepness(place.slope, sight.direction);
-        (steep, edges(place, sight, steep, pixel))
-    };
     // a pixel that is seen at a flat angle is longer than what the plane has been taken above
-    let place = on_mean(ground, sight, place, &sides(ground, laid(&place).1).1, reach)?;
-    let (steep, [a, b]) = laid(&place);
-    let ways = Ways::new(ground, sight, steep, reach);
+    let place = on_mean(ground, sight, place, &sides(ground, edges(&place, sight, pixel)).1, reach)?;
+    let [a, b] = edges(&place, sight, pixel);
+    let ways = Ways::new(ground, sight, place.steep, reach);
     let rise = |[u, v]: [i32; 2]| ((product(place.slope[0], u) + product(place.slope[1], v)) >> 24) as i32;
     let step = |v: [i32; 2]| ([x.part(v[0]), y.part(v[1])], rise(v));
     let [_, _, z] = sight.at(place.t);
