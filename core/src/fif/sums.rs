@@ -20,7 +20,7 @@ use super::value::FRACTION_Q55;
 use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
 use crate::num::{
-    Real, Wide, high, high_u, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
+    Real, Wide, high, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
     reciprocal_of, sqrt,
 };
 
@@ -102,7 +102,7 @@ pub struct Sums<'a> {
     /// Left ends of the maps' intervals, 31 fractional bits.
     starts: &'a [u32],
     depth: u32,
-    /// How many cells and how wide, as [`Sums::place`] says it, if they are of one width.
+    /// How many cells and how wide, as a [`Place`] says it, if they are of one width.
     even: Option<(u32, i32)>,
     x0: i64,
     width: u64,
@@ -120,9 +120,18 @@ pub(crate) struct Width {
     squares: (u32, i32),
 }
 
-/// The width of a cell, 31 fractional bits, with 20 and `extra`.
-fn broad(width: u32, extra: u32) -> i32 {
-    ((width >> 11) << (extra & 15)) as i32
+/// Where a place lies: the sums at both ends of a cell, how far between them, 32 fractional bits, and minus
+/// the cell's width, 31.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place<'a> {
+    ends: &'a [Sum; 2],
+    part: u32,
+    less: i32,
+}
+
+/// Minus a width of 31 fractional bits, at most the whole.
+fn less(width: u32) -> i32 {
+    (width as i32).wrapping_neg()
 }
 
 /// Shifted up by so much, or the factor down.
@@ -189,7 +198,8 @@ impl<'a> Sums<'a> {
             let slope = quotient(last.saturating_sub(first), 48, length.max(1));
             let squares = mul_high(slope, slope).saturating_add(cell.slope.variance);
             if level == 0 {
-                let most = fif.range.0.unsigned_abs().max(fif.range.1.unsigned_abs());
+                let (low, high) = fif.range;
+                let most = low.unsigned_abs().max(high.unsigned_abs()).max(high.abs_diff(low));
                 extra = [room(most as i64, FRACTION_Q55), room(squares, FRACTION_OF_SQUARES)];
             }
             // means of what stays below 2^31 stay there
@@ -222,8 +232,7 @@ impl<'a> Sums<'a> {
             (exact as u32).abs_diff(*start) <= 1
         };
         let count = (needed - 1).clamp(1, u32::MAX as usize) as u32;
-        let even =
-            (0..).zip(&fif.starts).all(even).then_some((count, broad((1_u32 << 31) / count, extra[0])));
+        let even = (0..).zip(&fif.starts).all(even).then_some((count, less((1_u32 << 31) / count)));
         let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
         let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
         let (x0, width) = (fif.x0, fif.width);
@@ -249,7 +258,8 @@ impl<'a> Sums<'a> {
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
-        let course = self.between(&self.at(from)?, &self.at(to)?, &width);
+        let [from, to] = self.both(from, to)?;
+        let course = self.between(&self.at(&from), &self.at(&to), &width);
         let [slope, value] = [course.slope, course.value].map(Real::from_bits);
         let [variance, covariance] = course.spread().map(Real::from_bits);
         Some(Trend { slope, value, variance, covariance })
@@ -286,50 +296,61 @@ impl<'a> Sums<'a> {
         Width { slope: shifted(up(8).wrapping_add(more as i32), per_length), area, squares }
     }
 
-    /// The two places around another, 32 fractional bits, how far it lies between them, and the cell's width,
-    /// 20 and those that areas have more.
+    /// In which cell a place lies, 32 fractional bits: there is one for each.
     #[inline(always)]
-    fn place(&self, u: u32) -> Option<(&'a [Sum; 2], u32, i32)> {
-        let (node, part, width) = match self.even {
-            Some((count, width)) => {
-                let place = product_u(u, count);
-                ((place >> 32) as usize, place as u32, width)
-            }
-            None => self.uneven(u >> 1),
-        };
-        Some((self.places.get(node..)?.first_chunk()?, part, width))
+    pub(crate) fn place(&self, u: u32) -> Option<Place<'a>> {
+        match self.even {
+            Some(even) => self.place_among(u, even),
+            None => self.place_uneven(u),
+        }
+    }
+
+    /// In which cells two places lie.
+    #[inline(always)]
+    pub(crate) fn both(&self, from: u32, to: u32) -> Option<[Place<'a>; 2]> {
+        match self.even {
+            Some(even) => Some([self.place_among(from, even)?, self.place_among(to, even)?]),
+            None => Some([self.place_uneven(from)?, self.place_uneven(to)?]),
+        }
+    }
+
+    #[inline(always)]
+    fn place_among(&self, u: u32, (count, less): (u32, i32)) -> Option<Place<'a>> {
+        let place = product_u(u, count);
+        let ends = self.places.get((place >> 32) as usize..)?.first_chunk()?;
+        Some(Place { ends, part: place as u32, less })
     }
 
     #[cold]
     #[inline(never)]
-    fn uneven(&self, u: u32) -> (usize, u32, i32) {
+    fn place_uneven(&self, u: u32) -> Option<Place<'a>> {
+        let u = u >> 1;
         let cell = (0..self.depth).fold(Ended::WHOLE, |cell, _| cell.holding(self.starts, u, true));
         let (into, width) = (u.saturating_sub(cell.start), cell.end.saturating_sub(cell.start));
         let part = (u64::from(into) << 32).checked_div(width.into()).unwrap_or(0);
-        (cell.index, part.min(u64::from(u32::MAX)) as u32, broad(width, self.extra[0]))
+        let ends = self.places.get(cell.index..)?.first_chunk()?;
+        Some(Place { ends, part: part.min(u32::MAX.into()) as u32, less: less(width) })
     }
 
-    /// What the function has come to at a place, 32 fractional bits: there is one for each.
+    /// What the function has come to at a place.
     #[inline(always)]
-    pub(crate) fn at(&self, u: u32) -> Option<Sum> {
-        let ([a, b], part, width) = self.place(u)?;
+    pub(crate) fn at(&self, Place { ends: [a, b], part, less }: &Place<'_>) -> Sum {
         let half = (part >> 1) as i32;
-        let rise = |a: i32, b: i32| b.wrapping_sub(a) << 1;
-        let value = rise(a.value, b.value);
-        // t (1 - t) / 2 of a cell with 31 fractional bits
-        let bent = (high_u(part, part.wrapping_neg()) >> 2) as i32;
-        let short = (product(high(value, bent), width) >> 20) as i32;
-        Some(Sum {
-            value: a.value.wrapping_add(high(value, half)),
-            area: a.area.wrapping_add(high(rise(a.area, b.area), half)).wrapping_sub(short),
-            squares: a.squares.wrapping_add(high(rise(a.squares, b.squares), half)),
-        })
+        let gained = |a: i32, b: i32| high(b.wrapping_sub(a) << 1, half);
+        let risen = gained(a.value, b.value);
+        // half of what has risen times the rest of the way: a rise leaves room for the bits that areas have more
+        let short = high(high(risen << ((self.extra[0] + 1) & 31), half ^ i32::MAX), *less);
+        Sum {
+            value: a.value.wrapping_add(risen),
+            area: a.area.wrapping_add(gained(a.area, b.area)).wrapping_add(short),
+            squares: a.squares.wrapping_add(gained(a.squares, b.squares)),
+        }
     }
 
     /// The value at a place.
     #[inline(always)]
     pub(crate) fn value_at(&self, u: u32) -> i32 {
-        let Some(([a, b], part, _)) = self.place(u) else { return 0 };
+        let Some(Place { ends: [a, b], part, .. }) = self.place(u) else { return 0 };
         a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
     }
 

@@ -108,7 +108,7 @@ pub(crate) use random_function::mixed;
 pub use random_function::{Parameter, RandomFunction};
 pub use rgb::Rgb;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
-pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of};
+pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of, reciprocal_sqrt_of_long};
 pub(crate) use root::{root_and_reciprocal, rough_sqrt, sqrt_short};
 pub(crate) use roughness::{checked_offset, decay, offsets};
 pub use trig::{Angle, sin_cos};

@@ -12,7 +12,7 @@ use core::num::NonZeroU32;
 
 use super::formats::{Q31, UQ30, UQ31};
 use super::product::{high, high_of_square_u, high_u, high_u_below, product_u, square_u};
-use super::zeros::shifted_up_evenly;
+use super::zeros::{evenly, shifted_up_evenly};
 
 /// Seeds of `1/m` for `m = 1 + (i + 1/2) / 128`, 16 fractional bits.
 pub(super) static SEEDS: [u16; 128] = {
@@ -87,6 +87,14 @@ pub fn reciprocal_sqrt(v: u64) -> (u32, u32) {
 pub(crate) fn reciprocal_sqrt_of(v: u64) -> (Q31, u32) {
     let (m, half) = normal(v);
     (newton(m) as i32, half)
+}
+
+/// The same for a `v` of at least `2^32`: nothing to choose.
+#[inline(always)]
+pub(crate) fn reciprocal_sqrt_of_long(v: u64) -> (Q31, u32) {
+    let (high, even) = evenly((v >> 32) as u32);
+    let m = high | ((v as u32) >> 1) >> (even ^ 31);
+    (newton(m) as i32, (even >> 1) ^ 31)
 }
 
 /// `floor(sqrt(v))`. Exact. Cost: 9 multiplications.

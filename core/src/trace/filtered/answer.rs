@@ -17,7 +17,9 @@ use core::num::NonZeroU32;
 use super::footprint::Footprint;
 use super::ground::Ground;
 use super::slopes::{Slope, Spread, times};
-use crate::num::{Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of, rounded_down};
+use crate::num::{
+    Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of_long, rounded_down, scaled,
+};
 use crate::trace::environment::{Around, Checkerboard, Environment};
 use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
@@ -39,11 +41,9 @@ pub(super) struct View<'a> {
 /// A normal: its length's reciprocal, and how it stands to eye and light.
 #[derive(Debug, Clone, Copy)]
 struct Facing {
-    /// `-n . d`, 22 fractional bits.
+    /// `-n . d` and `n . l`, 22 fractional bits.
     area: i32,
-    /// `-n^ . d` and `n^ . l`.
-    eye: i32,
-    lit: i32,
+    light: i32,
     root: (i32, u32),
 }
 
@@ -72,10 +72,21 @@ impl Facing {
     fn new(slope: Slope, view: &View<'_>) -> Self {
         let [p, q] = slope;
         // at least 2^48
-        let root = reciprocal_sqrt_of((product(p, p) + product(q, q) + (1 << 48)) as u64);
+        let root = reciprocal_sqrt_of_long((product(p, p) + product(q, q) + (1 << 48)) as u64);
         let area = dot(slope, view.direction).wrapping_neg();
-        let lit = dot(slope, view.light);
-        Self { area, eye: cosine(area, root), lit: cosine(lit, root), root }
+        Self { area, light: dot(slope, view.light), root }
+    }
+
+    /// `-n^ . d`.
+    #[inline(always)]
+    fn eye(&self) -> i32 {
+        cosine(self.area, self.root)
+    }
+
+    /// `n^ . l`.
+    #[inline(always)]
+    fn lit(&self) -> i32 {
+        cosine(self.light, self.root)
     }
 }
 
@@ -85,12 +96,6 @@ impl Facing {
 fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     // a length of at least 1 and below 2^7: half is 24 to 30
     high(v << (31_u32.wrapping_sub(half) & 31), mantissa) << 2
-}
-
-/// A number with 24 fractional bits over the length of a normal, 30 fractional bits.
-#[inline(always)]
-fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
-    (product(v, mantissa) >> ((half + 1) & 63)) as i32
 }
 
 /// The tone of a matt surface.
@@ -116,29 +121,32 @@ impl<'a> View<'a> {
     ///
     /// `c = n^ . l` and `w = -n . d` as functions of the slopes, `S` their covariance, `u` the slopes over
     /// `|n|`: `E(w c) / E(w) = c + w' S c' / w + tr(c'' S) / 2` with `w' = d`, `c' = -(l + c u) / |n|` and
-    /// `tr(c'' S) = (2 l S u + 3 c u S u - c tr S) / |n|^2`.
+    /// `tr(c'' S) = (2 l S u + 3 c u S u - c tr S) / |n|^2`. The length of `d` does not matter.
     #[inline(always)]
     pub(super) fn glance(&self, ambient: Unit, spread: &Spread) -> Option<Unit> {
         let Spread { mean, covariance: [pp, pq, qq] } = *spread;
         let facing = Facing::new(mean, self);
         let ([dx, dy, _], [lx, ly, _]) = (self.direction, self.light);
-        let with = |[a, b]: Slope, x: i32, y: i32| unit_product(a, x).saturating_add(unit_product(b, y));
-        let under = |x: i32, y: i32| [with([pp, pq], x, y), with([pq, qq], x, y)];
-        let (along, to_light) = (under(dx, dy), under(lx, ly));
+        let sum = |[a, b]: [i32; 2], [x, y]: [i32; 2]| rounded_down::<30>(product(a, x) + product(b, y));
+        let under = |v: [i32; 2]| [sum([pp, pq], v), sum([pq, qq], v)];
+        let (eye, c, root) = (facing.eye(), facing.lit(), facing.root);
+        let u = [scaled(mean[0], root), scaled(mean[1], root)];
+        let (along, across) = (under([dx, dy]), under(u));
+        // 1 / |n|^2
+        let short = high(root.0, root.0) >> (root.1.wrapping_mul(2).wrapping_sub(48) & 31);
         // one deviation may not turn away
-        let area = facing.area << 2;
-        if area <= 0 || times(area, area) <= with(along, dx, dy) {
+        if eye <= 0 || product(eye, eye) >> 36 <= product(sum(along, [dx, dy]), short) >> 30 {
             return None;
         }
-        let (c, root) = (facing.lit, facing.root);
-        let [u, v] = mean.map(|s| scaled(s, root));
-        let cross = scaled(with(to_light, dx, dy).saturating_add(unit_product(with(along, u, v), c)), root);
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area.unsigned_abs())?);
-        let cross = (product(cross, mantissa) >> (38_u32.saturating_sub(zeros) & 63)) as i32;
-        let own = with(under(u, v), u, v).saturating_mul(3).saturating_sub(pp).saturating_sub(qq);
-        let bent = (with(to_light, u, v) << 1).saturating_add(unit_product(own, c));
-        let bent = unit_product(scaled(bent, root), scaled(1 << 24, root)) >> 1;
-        let matt = Unit::from_bits(c.saturating_sub(cross).saturating_add(bent).clamp(0, 1 << 30));
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(eye.unsigned_abs())?);
+        let cross = sum(along, [lx, ly]).wrapping_add(unit_product(sum(along, u), c));
+        let cross = product(cross, mantissa);
+        let cross = ((cross >> 32) as i32) << (zeros & 31) | (cross as u32 >> (32_u32.wrapping_sub(zeros) & 31)) as i32;
+        let own = sum(across, u);
+        let own = unit_product(own.wrapping_mul(3).wrapping_sub(pp).wrapping_sub(qq), c) >> 1;
+        let bent = sum(across, [lx, ly]).wrapping_add(own).wrapping_sub(cross);
+        let bent = unit_product(bent, short).clamp(-(1 << 24), 1 << 24) << 6;
+        let matt = Unit::from_bits(c.wrapping_add(bent).clamp(0, 1 << 30));
         Some(matte(ambient, matt))
     }
 
@@ -183,40 +191,63 @@ impl<'a> View<'a> {
     /// show times them, 50; none where one turns away from the eye.
     #[inline(always)]
     pub(super) fn seen(&self, points: &[Slope; 4]) -> Option<(u32, i64, i64)> {
-        let (mut area, mut matt, mut highlight) = (0_u32, 0_i64, 0_i64);
-        let (mut along, mut weights) = ([0; 4], [0; 4]);
-        for ((slope, along), weight) in points.iter().zip(&mut along).zip(&mut weights) {
+        match self.finish {
+            Finish::Diffuse { .. } => {
+                let (area, matt) = self.four(points, |_, facing, _| facing.lit().max(0))?;
+                Some((area, matt, 0))
+            }
+            Finish::Phong { shininess, .. } => {
+                let (mut bases, mut weights) = ([0; 4], [0; 4]);
+                let mut all = bases.iter_mut().zip(&mut weights);
+                let (area, matt) = self.four(points, |_, facing, weight| {
+                    let (eye, lit) = (facing.eye(), facing.lit());
+                    if let Some((base, kept)) = all.next() {
+                        (*base, *kept) = (self.straight.wrapping_add(high(eye, lit) << 3), weight);
+                    }
+                    lit.max(0)
+                })?;
+                let mut highlight = 0;
+                for (shown, weight) in powers(bases, shininess).into_iter().zip(weights) {
+                    highlight += product(shown, weight);
+                }
+                Some((area, matt, highlight))
+            }
+            Finish::TorranceSparrow { roughness, reflectance, .. } => {
+                let model = TorranceSparrow::within(roughness, reflectance);
+                let mut highlight = 0;
+                let (area, matt) = self.four(points, |slope, facing, weight| {
+                    highlight += product(self.sheen(slope, facing, model).to_bits(), weight);
+                    facing.lit().max(0)
+                })?;
+                Some((area, matt, highlight))
+            }
+            Finish::Mirror => {
+                let (area, shown) =
+                    self.four(points, |slope, facing, _| self.reflection(slope, facing).to_bits())?;
+                Some((area, shown, 0))
+            }
+        }
+    }
+
+    /// The sum of four points' areas, and of what `tone` says of each times its area; none where one turns
+    /// away from the eye.
+    #[inline(always)]
+    fn four(
+        &self,
+        points: &[Slope; 4],
+        mut tone: impl FnMut(Slope, &Facing, i32) -> i32,
+    ) -> Option<(u32, i64)> {
+        let (mut area, mut shown, mut turned) = (0_u32, 0_i64, 0);
+        for slope in points {
             let facing = Facing::new(*slope, self);
-            if facing.area <= 0 {
-                return None;
-            }
+            // below 0 where one is at 0 or below
+            turned |= facing.area.wrapping_sub(1);
             // 20 fractional bits: below 2^26
-            *weight = facing.area >> 2;
-            area = area.wrapping_add(weight.unsigned_abs());
-            let lit = facing.lit.max(0);
-            let tone = match self.finish {
-                Finish::Diffuse { .. } => lit,
-                Finish::TorranceSparrow { roughness, reflectance, .. } => {
-                    let model = TorranceSparrow::within(roughness, reflectance);
-                    highlight += product(self.sheen(*slope, &facing, model).to_bits(), *weight);
-                    lit
-                }
-                Finish::Phong { .. } => {
-                    let twice = (product(facing.eye, facing.lit) >> 29) as i32;
-                    *along = self.straight.saturating_add(twice);
-                    lit
-                }
-                Finish::Mirror => self.reflection(*slope, &facing).to_bits(),
-            };
-            matt += product(tone, *weight);
+            let weight = facing.area >> 2;
+            area = area.wrapping_add(weight as u32);
+            shown += product(tone(*slope, &facing, weight), weight);
         }
-        // of all four at once
-        if let Finish::Phong { shininess, .. } = self.finish {
-            for (shown, weight) in powers(along, shininess).into_iter().zip(weights) {
-                highlight += product(shown, weight);
-            }
-        }
-        Some((area, matt, highlight))
+        (turned >= 0).then_some((area, shown))
     }
 
     /// The highlight of tiny mirrors.
@@ -251,7 +282,8 @@ impl<'a> View<'a> {
         let per_area = mantissa >> (13_u32.wrapping_sub(zeros) & 31);
         let seen = |mean: i32, along: i32| mean.saturating_add(rounded_down::<25>(product(along, per_area)));
         let [p, q] = [seen(mean[0], along[0]), seen(mean[1], along[1])];
-        let Facing { eye, root, .. } = Facing::new([p, q], self);
+        let facing = Facing::new([p, q], self);
+        let (eye, root) = (facing.eye(), facing.root);
         let [p, q, up] = [p >> 2, q >> 2, 1 << 22].map(|c| cosine(c, root));
         let turned = sum(p, dy, q.wrapping_neg(), dx);
         let changes = [
@@ -269,7 +301,7 @@ impl<'a> View<'a> {
     /// What the mirrored ray meets.
     #[inline(always)]
     fn reflection(&self, [p, q]: Slope, facing: &Facing) -> Unit {
-        let twice = facing.eye << 1;
+        let twice = facing.eye() << 1;
         let along = |d: i32, n: i32| {
             Unit::from_bits(
                 d.saturating_add(unit_product(twice, scaled(n, facing.root))).clamp(-1 << 30, 1 << 30),

@@ -100,15 +100,15 @@ impl<'a> Ground<'a> {
     fn beginning(&self, from: i32, Side { half, width }: &Side) -> Option<Course> {
         let from = from.max(0).min(WHOLE - 1 - (half << 1));
         let to = from + (half << 1);
-        let [from, to] = [self.sums.at((from as u32) << 2)?, self.sums.at((to as u32) << 2)?];
-        Some(self.sums.between(&from, &to, width))
+        let [from, to] = self.sums.both((from as u32) << 2, (to as u32) << 2)?;
+        Some(self.sums.between(&self.sums.at(&from), &self.sums.at(&to), width))
     }
 
     /// The sums up to a place; beyond an end the profile goes on straight.
     #[inline(always)]
     pub(super) fn at(&self, place: i32) -> Option<Sum> {
         let inside = place.clamp(0, WHOLE - 1);
-        let sum = self.sums.at((inside as u32) << 2)?;
+        let sum = self.sums.at(&self.sums.place((inside as u32) << 2)?);
         Some(if inside == place { sum } else { self.sums.beyond(&sum, place.wrapping_sub(inside)) })
     }
 
