@@ -24,18 +24,18 @@ pub(super) fn power(base: Unit, exponent: u16) -> Unit {
     result
 }
 
-/// `base^exponent` of four bases at once, 30 fractional bits; what is not in `[0, 1]` counts as the nearer
+/// `base^exponent` of many bases at once, 30 fractional bits; what is not in `[0, 1]` counts as the nearer
 /// end.
 ///
 /// Inside 32 fractional bits, each product rounded down: short of the power by less than `exponent / 2^30`.
 #[inline]
-pub(super) fn powers(bases: [i32; 4], exponent: u16) -> [i32; 4] {
-    let squares = |square: [u32; 4]| square.map(|s| high_u(s, s));
+pub(super) fn powers<const N: usize>(bases: [i32; N], exponent: u16) -> [i32; N] {
+    let squares = |square: [u32; N]| square.map(|s| high_u(s, s));
     let mut square = bases.map(|base| (base.clamp(0, (1 << 30) - 1) as u32) << 2);
     let twos = exponent.trailing_zeros();
     let mut rest = u32::from(exponent) >> twos;
     if rest == 0 {
-        return [1 << 30; 4];
+        return [1 << 30; N];
     }
     for _ in 0..twos {
         square = squares(square);

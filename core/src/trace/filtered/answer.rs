@@ -25,6 +25,9 @@ use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
 use crate::trace::power::{powers, times as part_of};
 
+/// The exponent of a highlight up to which three points of a box do.
+const GENTLE: u16 = 16;
+
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
@@ -155,7 +158,7 @@ impl<'a> View<'a> {
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
         let mut shown = Shown::default();
         if let (Finish::Mirror, Some(checkerboard)) = (self.finish, self.checkerboard) {
-            footprint.each(ground, |slopes| {
+            footprint.each(ground, |slopes, _| {
                 let mirrored = self.mirrored(&Spread::of(slopes, footprint.half()))?;
                 shown.boxes += 1;
                 shown.matt += i64::from(checkerboard.over(&mirrored).to_bits());
@@ -163,8 +166,17 @@ impl<'a> View<'a> {
             })?;
             return Some(self.finished(&shown));
         }
-        footprint.each(ground, |slopes| self.add(&slopes.points(), &mut shown))?;
+        if self.is_gentle() {
+            footprint.each(ground, |slopes, odd| self.add(&slopes.three(odd), &mut shown))?;
+        } else {
+            footprint.each(ground, |slopes, _| self.add(&slopes.points(), &mut shown))?;
+        }
         Some(self.finished(&shown))
+    }
+
+    /// Whether three points of a box do for what it shows.
+    const fn is_gentle(&self) -> bool {
+        matches!(self.finish, Finish::Phong { shininess: ..=GENTLE, .. })
     }
 
     /// What four points show that stand for all of a pixel; none where one turns away from the eye.
@@ -177,7 +189,7 @@ impl<'a> View<'a> {
 
     /// Adds what four points show; none where one turns away from the eye.
     #[inline(always)]
-    fn add(&self, points: &[Slope; 4], shown: &mut Shown) -> Option<()> {
+    fn add<const N: usize>(&self, points: &[Slope; N], shown: &mut Shown) -> Option<()> {
         shown.boxes += 1;
         let (area, matt, highlight) = self.seen(points)?;
         let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
@@ -190,16 +202,16 @@ impl<'a> View<'a> {
     /// What four points show, each on its area: the sum of the areas, 20 fractional bits, and of what they
     /// show times them, 50; none where one turns away from the eye.
     #[inline(always)]
-    pub(super) fn seen(&self, points: &[Slope; 4]) -> Option<(u32, i64, i64)> {
+    pub(super) fn seen<const N: usize>(&self, points: &[Slope; N]) -> Option<(u32, i64, i64)> {
         match self.finish {
             Finish::Diffuse { .. } => {
-                let (area, matt) = self.four(points, |_, facing, _| facing.lit().max(0))?;
+                let (area, matt) = self.all(points, |_, facing, _| facing.lit().max(0))?;
                 Some((area, matt, 0))
             }
             Finish::Phong { shininess, .. } => {
-                let (mut bases, mut weights) = ([0; 4], [0; 4]);
+                let (mut bases, mut weights) = ([0; N], [0; N]);
                 let mut all = bases.iter_mut().zip(&mut weights);
-                let (area, matt) = self.four(points, |_, facing, weight| {
+                let (area, matt) = self.all(points, |_, facing, weight| {
                     let (eye, lit) = (facing.eye(), facing.lit());
                     if let Some((base, kept)) = all.next() {
                         (*base, *kept) = (self.straight.wrapping_add(high(eye, lit) << 3), weight);
@@ -215,7 +227,7 @@ impl<'a> View<'a> {
             Finish::TorranceSparrow { roughness, reflectance, .. } => {
                 let model = TorranceSparrow::within(roughness, reflectance);
                 let mut highlight = 0;
-                let (area, matt) = self.four(points, |slope, facing, weight| {
+                let (area, matt) = self.all(points, |slope, facing, weight| {
                     highlight += product(self.sheen(slope, facing, model).to_bits(), weight);
                     facing.lit().max(0)
                 })?;
@@ -223,7 +235,7 @@ impl<'a> View<'a> {
             }
             Finish::Mirror => {
                 let (area, shown) =
-                    self.four(points, |slope, facing, _| self.reflection(slope, facing).to_bits())?;
+                    self.all(points, |slope, facing, _| self.reflection(slope, facing).to_bits())?;
                 Some((area, shown, 0))
             }
         }
@@ -232,9 +244,9 @@ impl<'a> View<'a> {
     /// The sum of four points' areas, and of what `tone` says of each times its area; none where one turns
     /// away from the eye.
     #[inline(always)]
-    fn four(
+    fn all<const N: usize>(
         &self,
-        points: &[Slope; 4],
+        points: &[Slope; N],
         mut tone: impl FnMut(Slope, &Facing, i32) -> i32,
     ) -> Option<(u32, i64)> {
         let (mut area, mut shown, mut turned) = (0_u32, 0_i64, 0);

@@ -39,7 +39,7 @@ impl Quality {
         match self {
             Self::Coarse => [1, 2],
             Self::Fine if few => [2, 3],
-            Self::Fine => [2, 4],
+            Self::Fine => [2, 5],
             Self::Finest => [2, 6],
         }
     }
@@ -178,15 +178,15 @@ impl Footprint {
     pub(super) fn each(
         &self,
         ground: &[Ground<'_>; 2],
-        mut then: impl FnMut(&Slopes) -> Option<()>,
+        mut then: impl FnMut(&Slopes, bool) -> Option<()>,
     ) -> Option<()> {
         let [(a, rise_a), (b, rise_b)] = self.steps;
         let [columns, rows] = self.parts;
         let (mut first, mut top) = (self.at, self.height);
-        for _ in 0..columns {
+        for column in 0..columns {
             let (mut at, mut height) = (first, top);
             let mut before = self.line(ground, at, height);
-            for _ in 0..rows {
+            for row in 0..rows {
                 at = [at[0].wrapping_add(b[0]), at[1].wrapping_add(b[1])];
                 height = height.wrapping_add(rise_b);
                 let line = self.line(ground, at, height);
@@ -196,7 +196,7 @@ impl Footprint {
                     x: x.around(middle[0], &self.sides[0])?,
                     y: y.around(middle[1], &self.sides[1])?,
                 };
-                then(&slopes)?;
+                then(&slopes, (column ^ row) & 1 == 1)?;
                 before = line;
             }
             first = [first[0].wrapping_add(a[0]), first[1].wrapping_add(a[1])];

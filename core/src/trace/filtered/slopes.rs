@@ -70,6 +70,41 @@ impl Slopes {
     }
 }
 
+impl Slopes {
+    /// Three points of equal weight with the same mean and covariances: along x 0 and +-sqrt(3/2) deviations,
+    /// along y sqrt 2 and -+1/sqrt 2; upside down where `odd`, so that what is third in two boxes side by side
+    /// cancels.
+    #[inline(always)]
+    pub(super) fn three(&self, odd: bool) -> [Slope; 3] {
+        /// `sqrt(3/2)`, `sqrt 2` and its half, 30 fractional bits.
+        const FACTORS: [i32; 3] = [1_315_059_792, 1_518_500_250, 759_250_125];
+        let [across, up, down] = FACTORS;
+        let ([s, t], [u, v]) = (deviations(&self.x), deviations(&self.y));
+        let sign = if odd { -1 } else { 1 };
+        let [s, t] = [s, t].map(|c| high(c, across) << 2);
+        let [far, near] = [up, down].map(|factor| [u, v].map(|c| (high(c, factor) << 2).wrapping_mul(sign)));
+        let (f, big_f, g, big_g) = (self.x.slope, self.x.value, self.y.slope, self.y.value);
+        let at = |[f, big_f]: [i32; 2], [g, big_g]: [i32; 2]| [times(f, big_g), times(big_f, g)];
+        let far = [g.saturating_add(far[0]), big_g.saturating_add(far[1])];
+        let near = [g.saturating_sub(near[0]), big_g.saturating_sub(near[1])];
+        [
+            at([f, big_f], far),
+            at([f.saturating_add(s), big_f.saturating_add(t)], near),
+            at([f.saturating_sub(s), big_f.saturating_sub(t)], near),
+        ]
+    }
+}
+
+/// The deviation of the slope, and what the value deviates with it.
+#[inline(always)]
+fn deviations(course: &Course) -> [i32; 2] {
+    let [variance, covariance] = course.spread();
+    // 1 / s, where v has 24 fractional bits: mantissa / 2^(19 + half)
+    let (mantissa, half) = reciprocal_sqrt_of(variance.max(1).unsigned_abs().into());
+    // by Cauchy and Schwarz no larger than the deviation of the value
+    [variance, covariance].map(|c| (product(c, mantissa) >> ((half + 19) & 63)) as i32)
+}
+
 /// With 28 fractional bits, so that a product's upper word has 24; cut off at 8.
 #[inline(always)]
 fn wide(v: i32) -> i32 {
