@@ -19,6 +19,7 @@ use super::pyramid::Pyramid;
 use super::value::FRACTION_Q55;
 use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
+use crate::num::formats::{Q21, Q22, Q24};
 use crate::num::{
     Real, Wide, high, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
     reciprocal_of, sqrt,
@@ -59,24 +60,46 @@ pub struct Trend {
     pub covariance: Real,
 }
 
-/// The same before what is derived from it: 24 fractional bits.
-#[derive(Debug, Clone, Copy)]
+/// The same before what is derived from it, in the bits that the upper word of a product has.
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Course {
-    /// Mean slope, mean value, mean square of the slope.
-    pub(crate) slope: i32,
-    pub(crate) value: i32,
-    pub(crate) squares: i32,
+    /// Mean slope, 21 fractional bits.
+    pub(crate) slope: Q21,
+    /// Mean value and mean square of the slope, 22.
+    pub(crate) value: Q22,
+    pub(crate) squares: Q22,
     /// The mean of the values at both ends: times the mean slope, the mean of slope times value.
-    pub(crate) middle: i32,
+    pub(crate) middle: Q24,
 }
 
 impl Course {
-    /// The variance of the slope, and the covariance of slope and value.
+    /// The mean slope, in the middle of what the bits cut off may be.
     #[inline(always)]
-    pub(crate) fn spread(&self) -> [i32; 2] {
-        let times = product_within::<7>;
-        let variance = self.squares.wrapping_sub(times(self.slope, self.slope)).max(0);
-        [variance, times(self.slope, self.middle.wrapping_sub(self.value))]
+    pub(crate) const fn slope(&self) -> Q24 {
+        self.slope << 3 | 4
+    }
+
+    /// The mean value, alike.
+    #[inline(always)]
+    pub(crate) const fn value(&self) -> Q24 {
+        self.value << 2 | 2
+    }
+
+    /// The variance of the slope.
+    #[inline(always)]
+    pub(crate) fn variance(&self) -> Q24 {
+        // of factors that differ: of a square the compiler knows the sign, and takes more than an instruction
+        // to saturate it; below 2^7
+        let square = product(self.slope, self.slope());
+        let above = ((square >> 32) as i32).clamp(-1 << 20, (1 << 20) - 1);
+        let square = above << 11 | (square as u32 >> 21) as i32;
+        (self.squares << 2).wrapping_sub(square).max(0)
+    }
+
+    /// The covariance of slope and value.
+    #[inline(always)]
+    pub(crate) fn covariance(&self) -> Q24 {
+        product_within::<7>(self.slope(), self.middle.wrapping_sub(self.value()))
     }
 }
 
@@ -108,16 +131,18 @@ pub struct Sums<'a> {
     width: u64,
     /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits.
     per_domain: (i32, u32),
-    /// Fractional bits of areas and of squares, beyond 24.
+    /// Fractional bits of areas and of squares, beyond 24; and twice what areas have more, as a factor.
     extra: [u32; 2],
+    up: i32,
 }
 
-/// The reciprocals of an interval's width, for [`over`]: how far a difference is shifted up, and a factor.
+/// The reciprocals of an interval's width, for [`over`]: a power of two that a difference is multiplied by, and
+/// a factor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Width {
-    slope: (u32, i32),
-    area: (u32, i32),
-    squares: (u32, i32),
+    slope: (i32, i32),
+    area: (i32, i32),
+    squares: (i32, i32),
 }
 
 /// Where a place lies: the sums at both ends of a cell, how far between them, 32 fractional bits, and minus
@@ -136,16 +161,17 @@ fn less(width: u32) -> i32 {
 
 /// Shifted up by so much, or the factor down.
 #[inline(always)]
-fn shifted(up: i32, factor: i32) -> (u32, i32) {
+fn shifted(up: i32, factor: i32) -> (i32, i32) {
     let down = up.min(0).unsigned_abs().min(31);
-    (up.clamp(0, 31).unsigned_abs(), factor >> down)
+    (1 << up.clamp(0, 31).unsigned_abs(), factor >> down)
 }
 
 /// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the
 /// product.
 #[inline(always)]
-fn over(v: i32, (up, factor): (u32, i32)) -> i32 {
-    high(v << (up & 31), factor)
+fn over(v: i32, (up, factor): (i32, i32)) -> i32 {
+    // a shift by a variable takes one more instruction
+    high(v.wrapping_mul(up), factor)
 }
 
 impl Sums<'static> {
@@ -236,7 +262,8 @@ impl<'a> Sums<'a> {
         let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
         let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
         let (x0, width) = (fif.x0, fif.width);
-        Ok(Self { places, starts: &fif.starts, depth, even, x0, width, per_domain, extra })
+        let up = 2 << extra[0];
+        Ok(Self { places, starts: &fif.starts, depth, even, x0, width, per_domain, extra, up })
     }
 
     /// Whether a pyramid is that of the same function.
@@ -258,10 +285,9 @@ impl<'a> Sums<'a> {
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
-        let [from, to] = self.both(from, to)?;
-        let course = self.between(&self.at(&from), &self.at(&to), &width);
-        let [slope, value] = [course.slope, course.value].map(Real::from_bits);
-        let [variance, covariance] = course.spread().map(Real::from_bits);
+        let course = self.course(from, to, &width)?;
+        let [slope, value] = [course.slope(), course.value()].map(Real::from_bits);
+        let [variance, covariance] = [course.variance(), course.covariance()].map(Real::from_bits);
         Some(Trend { slope, value, variance, covariance })
     }
 
@@ -305,13 +331,19 @@ impl<'a> Sums<'a> {
         }
     }
 
-    /// In which cells two places lie.
+    /// What it does between two places so far apart.
     #[inline(always)]
-    pub(crate) fn both(&self, from: u32, to: u32) -> Option<[Place<'a>; 2]> {
-        match self.even {
-            Some(even) => Some([self.place_among(from, even)?, self.place_among(to, even)?]),
-            None => Some([self.place_uneven(from)?, self.place_uneven(to)?]),
-        }
+    pub(crate) fn course(&self, from: u32, to: u32, width: &Width) -> Option<Course> {
+        let Some(even) = self.even else { return self.course_uneven(from, to, width) };
+        let (from, to) = (self.place_among(from, even)?, self.place_among(to, even)?);
+        Some(self.between(&self.at(&from), &self.at(&to), width))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn course_uneven(&self, from: u32, to: u32, width: &Width) -> Option<Course> {
+        let (from, to) = (self.place_uneven(from)?, self.place_uneven(to)?);
+        Some(self.between(&self.at(&from), &self.at(&to), width))
     }
 
     #[inline(always)]
@@ -339,7 +371,7 @@ impl<'a> Sums<'a> {
         let gained = |a: i32, b: i32| high(b.wrapping_sub(a) << 1, half);
         let risen = gained(a.value, b.value);
         // half of what has risen times the rest of the way: a rise leaves room for the bits that areas have more
-        let short = high(high(risen << ((self.extra[0] + 1) & 31), half ^ i32::MAX), *less);
+        let short = high(high(risen.wrapping_mul(self.up), half ^ i32::MAX), *less);
         Sum {
             value: a.value.wrapping_add(risen),
             area: a.area.wrapping_add(gained(a.area, b.area)).wrapping_add(short),
@@ -387,11 +419,11 @@ impl<'a> Sums<'a> {
     /// What it does between two places of this width.
     #[inline(always)]
     pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Course {
-        // means of what is inside the format, in the middle of what the bits cut off may be
+        // means of what is inside the format
         Course {
-            slope: over(b.value.wrapping_sub(a.value), width.slope) << 3 | 4,
-            value: over(b.area.wrapping_sub(a.area), width.area) << 2 | 2,
-            squares: over(b.squares.wrapping_sub(a.squares), width.squares) << 2,
+            slope: over(b.value.wrapping_sub(a.value), width.slope),
+            value: over(b.area.wrapping_sub(a.area), width.area),
+            squares: over(b.squares.wrapping_sub(a.squares), width.squares),
             middle: (a.value >> 1).wrapping_add(b.value >> 1),
         }
     }

@@ -109,7 +109,7 @@ pub use random_function::{Parameter, RandomFunction};
 pub use rgb::Rgb;
 pub use root::{reciprocal, reciprocal_sqrt, sqrt};
 pub(crate) use root::{reciprocal_of, reciprocal_sqrt_of, reciprocal_sqrt_of_long};
-pub(crate) use root::{root_and_reciprocal, rough_sqrt, sqrt_short};
+pub(crate) use root::{root_and_reciprocal, root_of_word, rough_sqrt, sqrt_short};
 pub(crate) use roughness::{checked_offset, decay, offsets};
 pub use trig::{Angle, sin_cos};
 pub use vector::Vec3;

@@ -97,6 +97,14 @@ pub(crate) fn reciprocal_sqrt_of_long(v: u64) -> (Q31, u32) {
     (newton(m) as i32, (even >> 1) ^ 31)
 }
 
+/// `v` as `m / 4^up` with `m` in `[1, 4)`, 30 fractional bits, and `1/sqrt(m)`, 31 fractional bits, below 1:
+/// `m`, the root and `up`, at most 15. Domain: `v > 0`.
+#[inline(always)]
+pub(crate) fn root_of_word(v: u32) -> (UQ30, UQ31, u32) {
+    let (m, even) = evenly(v);
+    (m, newton(m), even >> 1)
+}
+
 /// `floor(sqrt(v))`. Exact. Cost: 9 multiplications.
 pub fn sqrt(v: u64) -> u32 {
     sqrt_by::<{ cfg!(no_long_product) }>(v)

@@ -16,17 +16,14 @@ use core::num::NonZeroU32;
 
 use super::footprint::Footprint;
 use super::ground::Ground;
-use super::slopes::{Slope, Spread, times};
+use super::slopes::{Slope, Slopes, Spread, times};
 use crate::num::{
-    Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of_long, rounded_down, scaled,
+    Unit, Vec3, high, product, product_u, reciprocal_of, reciprocal_sqrt_of_long, rounded_down, scaled,
 };
 use crate::trace::environment::{Around, Checkerboard, Environment};
 use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
-use crate::trace::power::{powers, times as part_of};
-
-/// The exponent of a highlight up to which three points of a box do.
-const GENTLE: u16 = 16;
+use crate::trace::power::{Exponent, times as part_of};
 
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
@@ -50,12 +47,44 @@ struct Facing {
     root: (i32, u32),
 }
 
-/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes.
+/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes, twelve
+/// at most. 28 fractional bits.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shown {
-    pub(super) boxes: i64,
+    pub(super) boxes: u32,
+    pub(super) matt: u32,
+    pub(super) highlight: u32,
+}
+
+/// What four points show, each on its area: the sum of the areas, 22 fractional bits, and of what they show
+/// times them, 52.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    pub(super) area: NonZeroU32,
     pub(super) matt: i64,
     pub(super) highlight: i64,
+}
+
+impl Shown {
+    /// One more box.
+    #[inline(always)]
+    fn add(&mut self, Seen { area, matt, highlight }: &Seen) {
+        let (mantissa, zeros) = reciprocal_of(*area);
+        let over = |sum: i64| {
+            // below the area; four areas leave a zero
+            let high = ((sum >> 32) as i32) << (zeros & 31);
+            high_part(high | (sum as u32 >> (32_u32.wrapping_sub(zeros) & 31)) as i32, mantissa)
+        };
+        self.boxes += 1;
+        self.matt = self.matt.wrapping_add(over(*matt));
+        self.highlight = self.highlight.wrapping_add(over(*highlight));
+    }
+}
+
+/// The upper word of a product of what is not below 0.
+#[inline(always)]
+fn high_part(a: i32, b: i32) -> u32 {
+    high(a, b) as u32
 }
 
 /// `n . v`, 22 fractional bits.
@@ -154,112 +183,97 @@ impl<'a> View<'a> {
     }
 
     /// What the footprint shows; none where a part of it may turn away from the eye.
-    #[inline(always)]
-    pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
-        let mut shown = Shown::default();
-        if let (Finish::Mirror, Some(checkerboard)) = (self.finish, self.checkerboard) {
-            footprint.each(ground, |slopes, _| {
-                let mirrored = self.mirrored(&Spread::of(slopes, footprint.half()))?;
-                shown.boxes += 1;
-                shown.matt += i64::from(checkerboard.over(&mirrored).to_bits());
-                Some(())
-            })?;
-            return Some(self.finished(&shown));
-        }
-        if self.is_gentle() {
-            footprint.each(ground, |slopes, odd| self.add(&slopes.three(odd), &mut shown))?;
-        } else {
-            footprint.each(ground, |slopes, _| self.add(&slopes.points(), &mut shown))?;
+    #[inline(never)]
+    pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Unit> {
+        let (mut shown, mut slopes) = (Shown::default(), Slopes::default());
+        match (self.finish, self.checkerboard) {
+            (Finish::Mirror, Some(checkerboard)) => {
+                for _ in 0..footprint.count() {
+                    footprint.next(ground, &mut slopes)?;
+                    let mirrored = self.mirrored(&Spread::of(&slopes, footprint.half()))?;
+                    shown.boxes += 1;
+                    shown.matt += checkerboard.over(&mirrored).to_bits() as u32 >> 2;
+                }
+            }
+            (Finish::Phong { shininess, .. }, _) => {
+                let exponent = Exponent::new(shininess);
+                for _ in 0..footprint.count() {
+                    footprint.next(ground, &mut slopes)?;
+                    shown.add(&self.phong(exponent, &mut slopes.points())?);
+                }
+            }
+            _ => {
+                for _ in 0..footprint.count() {
+                    footprint.next(ground, &mut slopes)?;
+                    shown.add(&self.seen(&mut slopes.points())?);
+                }
+            }
         }
         Some(self.finished(&shown))
-    }
-
-    /// Whether three points of a box do for what it shows.
-    const fn is_gentle(&self) -> bool {
-        matches!(self.finish, Finish::Phong { shininess: ..=GENTLE, .. })
     }
 
     /// What four points show that stand for all of a pixel; none where one turns away from the eye.
     #[inline(always)]
-    pub(super) fn shown(&self, points: &[Slope; 4]) -> Option<Unit> {
+    pub(super) fn shown(&self, points: &mut [Slope; 4]) -> Option<Unit> {
         let mut shown = Shown::default();
-        self.add(points, &mut shown)?;
+        shown.add(&self.seen(points)?);
         Some(self.finished(&shown))
     }
 
-    /// Adds what four points show; none where one turns away from the eye.
-    #[inline(always)]
-    fn add<const N: usize>(&self, points: &[Slope; N], shown: &mut Shown) -> Option<()> {
-        shown.boxes += 1;
-        let (area, matt, highlight) = self.seen(points)?;
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
-        let over = |sum: i64| product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30;
-        shown.matt += over(matt);
-        shown.highlight += over(highlight);
-        Some(())
-    }
-
-    /// What four points show, each on its area: the sum of the areas, 20 fractional bits, and of what they
-    /// show times them, 50; none where one turns away from the eye.
-    #[inline(always)]
-    pub(super) fn seen<const N: usize>(&self, points: &[Slope; N]) -> Option<(u32, i64, i64)> {
+    /// What four points show; none where one turns away from the eye. `points` are of no more use.
+    #[inline(never)]
+    pub(super) fn seen(&self, points: &mut [Slope; 4]) -> Option<Seen> {
         match self.finish {
-            Finish::Diffuse { .. } => {
-                let (area, matt) = self.all(points, |_, facing, _| facing.lit().max(0))?;
-                Some((area, matt, 0))
-            }
-            Finish::Phong { shininess, .. } => {
-                let (mut bases, mut weights) = ([0; N], [0; N]);
-                let mut all = bases.iter_mut().zip(&mut weights);
-                let (area, matt) = self.all(points, |_, facing, weight| {
-                    let (eye, lit) = (facing.eye(), facing.lit());
-                    if let Some((base, kept)) = all.next() {
-                        (*base, *kept) = (self.straight.wrapping_add(high(eye, lit) << 3), weight);
-                    }
-                    lit.max(0)
-                })?;
-                let mut highlight = 0;
-                for (shown, weight) in powers(bases, shininess).into_iter().zip(weights) {
-                    highlight += product(shown, weight);
-                }
-                Some((area, matt, highlight))
-            }
+            Finish::Diffuse { .. } => self.four(points, |_, facing| facing.lit().max(0)),
+            Finish::Phong { shininess, .. } => self.phong(Exponent::new(shininess), points),
             Finish::TorranceSparrow { roughness, reflectance, .. } => {
                 let model = TorranceSparrow::within(roughness, reflectance);
                 let mut highlight = 0;
-                let (area, matt) = self.all(points, |slope, facing, weight| {
-                    highlight += product(self.sheen(slope, facing, model).to_bits(), weight);
+                let seen = self.four(points, |slope, facing| {
+                    highlight += product(self.sheen(*slope, facing, model).to_bits(), facing.area);
                     facing.lit().max(0)
                 })?;
-                Some((area, matt, highlight))
+                Some(Seen { highlight, ..seen })
             }
-            Finish::Mirror => {
-                let (area, shown) =
-                    self.all(points, |slope, facing, _| self.reflection(slope, facing).to_bits())?;
-                Some((area, shown, 0))
-            }
+            Finish::Mirror => self.four(points, |slope, facing| self.reflection(*slope, facing).to_bits()),
         }
+    }
+
+    /// Four points with Phong's highlight; no exponent is that of 0.
+    #[inline(always)]
+    fn phong(&self, exponent: Option<Exponent>, points: &mut [Slope; 4]) -> Option<Seen> {
+        let seen = self.four(points, |point, facing| {
+            let (eye, lit) = (facing.eye(), facing.lit());
+            // m . l is at most 1
+            *point = [self.straight.wrapping_add(high(eye, lit) << 3), facing.area];
+            lit.max(0)
+        })?;
+        let [[a, s], [b, t], [c, u], [d, v]] = *points;
+        let Some(exponent) = exponent else { return Some(Seen { highlight: i64::from(seen.area.get()) << 30, ..seen }) };
+        let [a, b, c, d] = exponent.powers([a, b, c, d]);
+        let on = |shown: u32, weight: i32| product_u(shown, weight as u32);
+        let highlight = (on(a, s) + on(b, t) + on(c, u) + on(d, v)) >> 2;
+        Some(Seen { highlight: highlight as i64, ..seen })
     }
 
     /// The sum of four points' areas, and of what `tone` says of each times its area; none where one turns
     /// away from the eye.
     #[inline(always)]
-    fn all<const N: usize>(
+    fn four(
         &self,
-        points: &[Slope; N],
-        mut tone: impl FnMut(Slope, &Facing, i32) -> i32,
-    ) -> Option<(u32, i64)> {
-        let (mut area, mut shown, mut turned) = (0_u32, 0_i64, 0);
+        points: &mut [Slope; 4],
+        mut tone: impl FnMut(&mut Slope, &Facing) -> i32,
+    ) -> Option<Seen> {
+        let (mut area, mut matt, mut turned) = (0_u32, 0_i64, 0);
         for slope in points {
             let facing = Facing::new(*slope, self);
-            // below 0 where one is at 0 or below
-            turned |= facing.area.wrapping_sub(1);
-            // 20 fractional bits: below 2^26
-            let weight = facing.area >> 2;
-            area = area.wrapping_add(weight as u32);
-            shown += product(tone(*slope, &facing, weight), weight);
+            turned |= facing.area;
+            // below 2^29
+            area = area.wrapping_add(facing.area as u32);
+            matt += product(tone(slope, &facing), facing.area);
         }
-        (turned >= 0).then_some((area, shown))
+        let area = NonZeroU32::new(if turned < 0 { 0 } else { area })?;
+        Some(Seen { area, matt, highlight: 0 })
     }
 
     /// The highlight of tiny mirrors.
@@ -331,18 +345,16 @@ impl<'a> View<'a> {
     /// The tone of all boxes together.
     #[inline(always)]
     pub(super) fn finished(&self, shown: &Shown) -> Unit {
-        const PART: [i32; 13] = {
+        const PART: [u32; 13] = {
             let (mut part, mut n) = ([0; 13], 1);
             while n < 13 {
-                part[n] = (1 << 30) / n as i32;
+                part[n] = (1 << 30) / n as u32;
                 n += 1;
             }
             part
         };
         let part = PART.get(shown.boxes as usize).copied().unwrap_or(0);
-        // a sum of at most twelve ones
-        let mean =
-            |sum: i64| Unit::from_bits((((sum >> 4) * i64::from(part)) >> 26).clamp(0, 1 << 30) as i32);
+        let mean = |sum: u32| Unit::from_bits((product_u(sum, part) >> 28).min(1 << 30) as i32);
         let (matt, highlight) = (mean(shown.matt), mean(shown.highlight));
         match self.finish {
             Finish::Diffuse { ambient } => matte(ambient, matt),

@@ -179,11 +179,11 @@ impl<'a> FilteredCaster<'a> {
         }
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());
-            return view().shown(&outline::spread(&self.ground, sight, self.edges, place, size)?.points());
+            return view().shown(&mut outline::spread(&self.ground, sight, self.edges, place, size)?.points());
         }
         let few = matches!(material, Finish::Mirror) && checkerboard.is_some();
-        let footprint = self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few));
-        view().tone(&self.ground, &footprint)
+        let mut footprint = self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few));
+        view().tone(&self.ground, &mut footprint)
     }
 
     /// What surrounds the surface, through a pixel that shows nothing else.

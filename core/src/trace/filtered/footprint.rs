@@ -14,9 +14,9 @@
 
 use core::num::NonZeroU32;
 
-use super::ground::{Ground, Side, moved};
+use super::ground::{Ground, Side};
 use super::slopes::{Slope, Slopes, times};
-use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt};
+use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt, rounded_down};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -122,12 +122,14 @@ impl Sight {
 #[inline(always)]
 pub(super) fn edges(place: &Place, sight: &Sight, steep: i32, edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
     let [dx, dy, _] = sight.direction;
-    edges.map(|r| {
+    let [right, down] = edges;
+    let moved = |r: [i32; 3]| {
+        // n . r / n . d
         let along = over(into(place.slope, r) as i32, steep);
-        // n . r / n . d is along
         let moved = |r: i32, d: i32| times((r >> 4).wrapping_sub(high(d, along)), place.t);
         [moved(r[0], dx), moved(r[1], dy)]
-    })
+    };
+    [moved(right), moved(down)]
 }
 
 /// The sides of the box with the variances of a parallelogram.
@@ -139,21 +141,51 @@ pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2
     (half, [x.side(half[0]), y.side(half[1])])
 }
 
-/// A pixel's footprint and how it is cut.
+/// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ways {
+    /// How far, for a height times `up`, a power of two.
+    farther: [i32; 2],
+    up: i32,
+    /// As far above or below the surface as a line is thought to lie at most.
+    reach: i32,
+}
+
+impl Ways {
+    #[inline(always)]
+    pub(super) fn new([x, y]: &[Ground<'_>; 2], sight: &Sight, steep: i32, reach: i32) -> Self {
+        let [dx, dy, _] = sight.direction;
+        let up = reach.leading_zeros().saturating_sub(1).min(30);
+        let farther = [x.factor(over(dx, steep) >> 2, up), y.factor(over(dy, steep) >> 2, up)];
+        Self { farther, up: 1 << up, reach }
+    }
+
+    /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets that
+    /// at the height which it has at the place.
+    #[inline(always)]
+    pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], height: i32) -> [i32; 2] {
+        let surface = rounded_down::<24>(product(x.value(u), y.value(v)));
+        let above = height.saturating_sub(surface).max(self.reach.wrapping_neg()).min(self.reach);
+        let above = above.wrapping_mul(self.up);
+        [high(above, self.farther[0]), high(above, self.farther[1])]
+    }
+}
+
+/// A pixel's footprint, how it is cut, and the part that comes next.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Footprint {
-    /// The end of the first line, on the plane, and its height.
-    at: [i32; 2],
-    height: i32,
     /// From a column to the next and from a line to the next: on the ground, and how much the plane rises.
     steps: [([i32; 2], i32); 2],
     parts: [i32; 2],
-    /// How far a line moves where it lies 1 above the surface; it is never thought to lie higher than
-    /// `reach`.
-    farther: [(i32, u32); 2],
-    reach: i32,
+    ways: Ways,
     half: [i32; 2],
     sides: [Side; 2],
+    /// The end of a column's first line, on the plane, and its height.
+    first: ([i32; 2], i32),
+    /// The last line, how many come behind it, and where its rays meet the surface.
+    line: ([i32; 2], i32),
+    left: i32,
+    before: [i32; 2],
 }
 
 impl Footprint {
@@ -162,47 +194,37 @@ impl Footprint {
         self.half
     }
 
-    /// Where the rays of a line meet the surface: at its middle.
-    #[inline(always)]
-    fn line(&self, ground: &[Ground<'_>; 2], at: [i32; 2], height: i32) -> [i32; 2] {
-        let [x, y] = ground;
-        let [u, v] = at;
-        let mean = (product(x.value(u), y.value(v)) >> 24) as i32;
-        let above = height.saturating_sub(mean).max(-self.reach).min(self.reach);
-        let [fx, fy] = self.farther;
-        [at[0].wrapping_add(moved(above, fx)), at[1].wrapping_add(moved(above, fy))]
+    /// How many parts.
+    pub(super) const fn count(&self) -> i32 {
+        self.parts[0].wrapping_mul(self.parts[1])
     }
 
-    /// Shows all parts; none where one leaves the domain or `then` gives none.
+    /// Where the rays of the last line meet the surface: at its middle.
     #[inline(always)]
-    pub(super) fn each(
-        &self,
-        ground: &[Ground<'_>; 2],
-        mut then: impl FnMut(&Slopes, bool) -> Option<()>,
-    ) -> Option<()> {
-        let [(a, rise_a), (b, rise_b)] = self.steps;
-        let [columns, rows] = self.parts;
-        let (mut first, mut top) = (self.at, self.height);
-        for column in 0..columns {
-            let (mut at, mut height) = (first, top);
-            let mut before = self.line(ground, at, height);
-            for row in 0..rows {
-                at = [at[0].wrapping_add(b[0]), at[1].wrapping_add(b[1])];
-                height = height.wrapping_add(rise_b);
-                let line = self.line(ground, at, height);
-                let middle = [(before[0] >> 1) + (line[0] >> 1), (before[1] >> 1) + (line[1] >> 1)];
-                let [x, y] = ground;
-                let slopes = Slopes {
-                    x: x.around(middle[0], &self.sides[0])?,
-                    y: y.around(middle[1], &self.sides[1])?,
-                };
-                then(&slopes, (column ^ row) & 1 == 1)?;
-                before = line;
-            }
-            first = [first[0].wrapping_add(a[0]), first[1].wrapping_add(a[1])];
-            top = top.wrapping_add(rise_a);
+    fn met(&self, ground: &[Ground<'_>; 2]) -> [i32; 2] {
+        let ([u, v], height) = self.line;
+        let [x, y] = self.ways.moved(ground, [u, v], height);
+        [u.wrapping_add(x), v.wrapping_add(y)]
+    }
+
+    /// The next part; none where it leaves the domain.
+    #[inline(never)]
+    pub(super) fn next(&mut self, ground: &[Ground<'_>; 2], slopes: &mut Slopes) -> Option<()> {
+        let further = |([x, y], height): ([i32; 2], i32), ([u, v], rise): ([i32; 2], i32)| {
+            ([x.wrapping_add(u), y.wrapping_add(v)], height.wrapping_add(rise))
+        };
+        let [column, row] = self.steps;
+        if self.left == 0 {
+            self.left = self.parts[1];
+            self.line = self.first;
+            self.first = further(self.first, column);
+            self.before = self.met(ground);
         }
-        Some(())
+        self.left = self.left.wrapping_sub(1);
+        self.line = further(self.line, row);
+        let ([u, v], [s, t]) = (self.before, self.met(ground));
+        self.before = [s, t];
+        slopes.around(ground, [(u >> 1) + (s >> 1), (v >> 1) + (t >> 1)], &self.sides)
     }
 }
 
@@ -251,9 +273,10 @@ pub(super) fn whole(
 ) -> Option<(Slopes, [i32; 2])> {
     let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
     let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
-    let [x, y] = ground;
-    let [px, py] = place.at;
-    Some((Slopes { x: x.around(x.place(px), &sides[0])?, y: y.around(y.place(py), &sides[1])? }, half))
+    let ([x, y], [px, py]) = (ground, place.at);
+    let mut slopes = Slopes::default();
+    slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
+    Some((slopes, half))
 }
 
 /// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in,
@@ -295,16 +318,17 @@ impl Quality {
             y.place(place.at[1]).wrapping_sub(back(a[1], b[1])),
         ];
         let [_, _, z] = sight.at(place.t);
-        let [dx, dy, _] = sight.direction;
+        let first = (at, z.wrapping_sub(back(rises[0], rises[1])));
         Footprint {
-            at,
-            height: z.wrapping_sub(back(rises[0], rises[1])),
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
-            farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)],
-            reach,
+            ways: Ways::new(ground, sight, steep, reach),
             half,
             sides,
+            first,
+            line: first,
+            left: 0,
+            before: at,
         }
     }
 }

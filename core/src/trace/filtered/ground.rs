@@ -23,15 +23,10 @@ pub(super) struct Ground<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     half: i32,
+    /// How far to the right it may begin, and on how much of the ground so that at most a quarter is outside.
+    last: i32,
+    allowed: u32,
     width: Width,
-}
-
-/// A length times a factor.
-#[inline(always)]
-pub(super) fn moved(length: i32, (mantissa, shift): (i32, u32)) -> i32 {
-    let product = product(length, mantissa);
-    let (high, low) = ((product >> 32) as i32, product as u32);
-    high << 1 << (31_u32.wrapping_sub(shift) & 31) | (low >> (shift & 31)) as i32
 }
 
 impl<'a> Ground<'a> {
@@ -57,11 +52,13 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// A factor, 26 fractional bits, by which lengths become parts of the whole, for [`moved`].
+    /// A factor, 26 fractional bits, as one by which the upper word of a product with `length << up` is a part of
+    /// the whole.
     #[inline(always)]
-    pub(super) fn factor(&self, times: i32) -> (i32, u32) {
+    pub(super) fn factor(&self, times: i32, up: u32) -> i32 {
         let (mantissa, shift) = self.per_length;
-        ((product(times, mantissa) >> 31) as i32, shift.saturating_sub(5).min(31))
+        let factor = product(times, mantissa) >> ((shift + up).saturating_sub(6) & 63);
+        factor.clamp(i32::MIN.into(), i32::MAX.into()) as i32
     }
 
     /// Where a place lies in the domain.
@@ -75,19 +72,18 @@ impl<'a> Ground<'a> {
     pub(super) fn side(&self, half: i32) -> Side {
         let half = self.part(half).clamp(1, WHOLE / 2 - 1);
         let width = NonZeroU32::new(half.unsigned_abs() << 3).unwrap_or(NonZeroU32::MIN);
-        Side { half, width: self.sums.width_of(width) }
+        let (last, quarter) = (WHOLE - 1 - (half << 1), half >> 1);
+        Side { half, last, allowed: (last + 1 + (quarter << 1)) as u32, width: self.sums.width_of(width) }
     }
 
     /// The profile so far to both sides of a place, moved inside where less than a quarter is outside; none
-    /// where more is.
-    #[inline(always)]
-    pub(super) fn around(&self, middle: i32, side: &Side) -> Option<Course> {
-        let Side { half, .. } = *side;
-        let (from, quarter) = (middle.saturating_sub(half), half >> 1);
-        if from < -quarter || from > WHOLE - (half << 1) + quarter {
-            return None;
-        }
-        self.beginning(from, side)
+    /// where more is. The same along both axes: a function of its own, which writes where its result stays.
+    #[inline(never)]
+    pub(super) fn around(&self, middle: i32, side: &Side, course: &mut Course) -> Option<()> {
+        let from = middle.saturating_sub(side.half);
+        let inside = from.wrapping_add(side.half >> 1) as u32 <= side.allowed;
+        *course = if inside { self.beginning(from, side)? } else { return None };
+        Some(())
     }
 
     /// The same moved inside from anywhere.
@@ -97,11 +93,10 @@ impl<'a> Ground<'a> {
     }
 
     #[inline(always)]
-    fn beginning(&self, from: i32, Side { half, width }: &Side) -> Option<Course> {
-        let from = from.max(0).min(WHOLE - 1 - (half << 1));
+    fn beginning(&self, from: i32, Side { half, last, width, .. }: &Side) -> Option<Course> {
+        let from = from.max(0).min(*last);
         let to = from + (half << 1);
-        let [from, to] = self.sums.both((from as u32) << 2, (to as u32) << 2)?;
-        Some(self.sums.between(&self.sums.at(&from), &self.sums.at(&to), width))
+        self.sums.course((from as u32) << 2, (to as u32) << 2, width)
     }
 
     /// The sums up to a place; beyond an end the profile goes on straight.

@@ -20,8 +20,8 @@
 
 use core::num::NonZeroU32;
 
-use super::footprint::{Place, Sight, cut, edges, on_mean, over, sides, steepness};
-use super::ground::{Ground, moved};
+use super::footprint::{Place, Sight, Ways, cut, edges, on_mean, sides, steepness};
+use super::ground::Ground;
 use super::slopes::{Slope, Slopes, Spread};
 use crate::fif::Sum;
 use crate::num::{product, reciprocal_of};
@@ -53,22 +53,13 @@ impl Start {
     }
 }
 
-/// How far a corner moves where it lies 1 above the surface, and how high it is thought to lie at most.
-struct Ways {
-    farther: [(i32, u32); 2],
-    reach: i32,
-}
-
-impl Ways {
-    #[inline(always)]
-    fn corner(&self, [x, y]: &[Ground<'_>; 2], start: &Start) -> Option<Corner> {
-        let [u, v] = start.at;
-        let surface = (product(x.value(u), y.value(v)) >> 24) as i32;
-        let above = start.height.saturating_sub(surface).max(self.reach.wrapping_neg()).min(self.reach);
-        let [fx, fy] = self.farther;
-        let at = [u.saturating_add(moved(above, fx)), v.saturating_add(moved(above, fy))];
-        Some(Corner { at, sums: [x.at(at[0])?, y.at(at[1])?] })
-    }
+/// The corner of a ray.
+#[inline(always)]
+fn corner(ground: &[Ground<'_>; 2], ways: &Ways, start: &Start) -> Option<Corner> {
+    let ([u, v], [x, y]) = (start.at, ground);
+    let [s, t] = ways.moved(ground, start.at, start.height);
+    let at = [u.saturating_add(s), v.saturating_add(t)];
+    Some(Corner { at, sums: [x.at(at[0])?, y.at(at[1])?] })
 }
 
 /// What an outline has come to: `loop h dy` and `-loop h dx`, 54 fractional bits, and twice the area, 60, in
@@ -130,8 +121,7 @@ pub(super) fn spread(
     // a pixel that is seen at a flat angle is longer than what the plane has been taken above
     let place = on_mean(ground, sight, place, &sides(ground, laid(&place).1).1, reach)?;
     let (steep, [a, b]) = laid(&place);
-    let [dx, dy, _] = sight.direction;
-    let ways = Ways { farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)], reach };
+    let ways = Ways::new(ground, sight, steep, reach);
     let rise = |[u, v]: [i32; 2]| ((product(place.slope[0], u) + product(place.slope[1], v)) >> 24) as i32;
     let step = |v: [i32; 2]| ([x.part(v[0]), y.part(v[1])], rise(v));
     let [_, _, z] = sight.at(place.t);
@@ -141,22 +131,22 @@ pub(super) fn spread(
     let (across, down) = (step(across), step(b));
     // along the upper edge, down, back along the lower one, and up
     let mut start = Start { at: middle, height: z }.minus(step(halves[0])).minus(step(halves[1]));
-    let first = ways.corner(ground, &start)?;
+    let first = corner(ground, &ways, &start)?;
     let (mut last, mut sum) = (first, Loop::default());
     for _ in 0..columns {
         start = start.plus(across);
-        let next = ways.corner(ground, &start)?;
+        let next = corner(ground, &ways, &start)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
     let second = last;
     start = start.plus(down);
-    let third = ways.corner(ground, &start)?;
+    let third = corner(ground, &ways, &start)?;
     sum.add(ground, middle[0], &second, &third);
     last = third;
     for _ in 0..columns {
         start = start.minus(across);
-        let next = ways.corner(ground, &start)?;
+        let next = corner(ground, &ways, &start)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
@@ -174,7 +164,8 @@ pub(super) fn spread(
     let (half, sides) = sides(ground, half);
     let [from, to] = ends;
     let part = [(to[0] - from[0]) >> 2, (to[1] - from[1]) >> 2];
-    let over = |u: i32, v: i32| Some(Slopes { x: x.around(u, &sides[0])?, y: y.around(v, &sides[1])? });
-    let boxes = [over(from[0] + part[0], from[1] + part[1])?, over(to[0] - part[0], to[1] - part[1])?];
+    let mut boxes = [Slopes::default(); 2];
+    boxes[0].around(ground, [from[0] + part[0], from[1] + part[1]], &sides)?;
+    boxes[1].around(ground, [to[0] - part[0], to[1] - part[1]], &sides)?;
     Some(Spread { mean, ..Spread::of_two(&boxes, half) })
 }

@@ -15,7 +15,7 @@
 
 use embedded_graphics_core::geometry::Size;
 
-use super::answer::{Shown, View};
+use super::answer::{Seen, Shown, View};
 use super::caster::Found;
 use super::footprint::{Place, Quality, Sight, edges, into, over, steepness};
 use super::slopes::{Slope, Spread};
@@ -229,7 +229,10 @@ impl<'a> FilteredPatch<'a> {
         if seen.abs_diff(whole) > whole.unsigned_abs() >> 2 {
             return None;
         }
-        let mean = |of: i64| of.min(1 << 56).wrapping_shl(6).checked_div((sum.area >> 14) as i64);
+        let mean = |of: i64| {
+            let mean = of.min(1 << 56).wrapping_shl(4).checked_div((sum.area >> 14) as i64)?;
+            Some(mean.clamp(0, 1 << 28) as u32)
+        };
         let shown = Shown { boxes: 1, matt: mean(sum.matt)?, highlight: mean(sum.highlight)? };
         Some(view.finished(&shown))
     }
@@ -343,9 +346,9 @@ impl<'a> FilteredPatch<'a> {
         let slopes = self.moments.over(&heights.map(Real::from_bits), parts);
         let slopes =
             Spread { mean: slopes.mean.map(Real::to_bits), covariance: slopes.covariance.map(Real::to_bits) };
-        let (area, matt, highlight) = view.seen(&slopes.points())?;
-        sum.area = sum.area.saturating_add(u64::from(area) * u64::from(share));
-        let part = |of: i64| (of >> 20) * i64::from(share);
+        let Seen { area, matt, highlight } = view.seen(&mut slopes.points())?;
+        sum.area = sum.area.saturating_add(u64::from(area.get() >> 2) * u64::from(share));
+        let part = |of: i64| (of >> 22) * i64::from(share);
         sum.matt = sum.matt.saturating_add(part(matt));
         sum.highlight = sum.highlight.saturating_add(part(highlight));
         Some(())

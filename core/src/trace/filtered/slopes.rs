@@ -10,11 +10,12 @@
 //! Four points with all of them: along each axis, `f -+ s` with `F -+ c / s`, `s^2` the variance of the
 //! slope and `c` the covariance: the value goes with the slope. Formats: 24 fractional bits.
 
+use super::ground::{Ground, Side};
 use crate::fif::Course;
-use crate::num::{high, product, product_within, reciprocal_sqrt_of, rough_sqrt};
+use crate::num::{high, high_u, product, product_within, reciprocal_sqrt_of, root_of_word, rough_sqrt};
 
 /// The surface over a box: what is known along x and along y.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Slopes {
     pub(super) x: Course,
     pub(super) y: Course,
@@ -30,35 +31,40 @@ pub(super) fn times(a: i32, b: i32) -> i32 {
 }
 
 impl Slopes {
+    /// The surface so far to both sides of a place; none where too much of that is outside.
     #[inline(always)]
-    fn bits(&self) -> [i32; 4] {
-        [self.x.slope, self.x.value, self.y.slope, self.y.value]
+    pub(super) fn around(&mut self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], sides: &[Side; 2]) -> Option<()> {
+        x.around(u, &sides[0], &mut self.x)?;
+        y.around(v, &sides[1], &mut self.y)
     }
 
-    /// The mean slopes.
+    /// The mean slopes, saturated at ±64.
     #[inline(always)]
     pub(super) fn mean(&self) -> Slope {
-        let [f, big_f, g, big_g] = self.bits();
-        [times(f, big_g), times(big_f, g)]
+        let times = |slope: i32, value: i32| {
+            let product = product(slope, value);
+            let high = ((product >> 32) as i32).clamp(-(1 << 17), (1 << 17) - 1);
+            high << 13 | (product as u32 >> 19) as i32
+        };
+        [times(self.x.slope, self.y.value), times(self.y.slope, self.x.value)]
     }
 
     /// The mean height.
     #[inline(always)]
     pub(super) fn height(&self) -> i32 {
-        let [_, big_f, _, big_g] = self.bits();
-        times(big_f, big_g)
+        times(self.x.value(), self.y.value())
     }
 
     /// Four points of equal weight.
     #[inline(always)]
     pub(super) fn points(&self) -> [Slope; 4] {
-        let pair = |s: &Course| {
-            let (Course { slope, value, .. }, [variance, covariance]) = (*s, s.spread());
-            // 1 / s, where v has 24 fractional bits: mantissa / 2^(19 + half)
-            let (mantissa, half) = reciprocal_sqrt_of(variance.max(1).unsigned_abs().into());
-            let over = |c: i32| (product(c, mantissa) >> ((half + 19) & 63)) as i32;
-            // by Cauchy and Schwarz no larger than the deviation of the value
-            let (s, t) = (over(variance), over(covariance));
+        let pair = |course: &Course| {
+            let (slope, value) = (course.slope(), course.value());
+            let (m, root, up) = root_of_word(course.variance() as u32 | 1);
+            // the root of m has 29 fractional bits here, s has 24, and c / s is s's part of c / s^2; by Cauchy
+            // and Schwarz it is no larger than the deviation of the value
+            let s = (high_u(m, root) >> (up + 2)) as i32;
+            let t = high(course.covariance() << up, root as i32) >> 2;
             [
                 [slope.saturating_add(s), value.saturating_add(t)],
                 [slope.saturating_sub(s), value.saturating_sub(t)],
@@ -68,41 +74,6 @@ impl Slopes {
         let at = |[f, big_f]: [i32; 2], [g, big_g]: [i32; 2]| [times(f, big_g), times(big_f, g)];
         [at(a, c), at(a, d), at(b, c), at(b, d)]
     }
-}
-
-impl Slopes {
-    /// Three points of equal weight with the same mean and covariances: along x 0 and +-sqrt(3/2) deviations,
-    /// along y sqrt 2 and -+1/sqrt 2; upside down where `odd`, so that what is third in two boxes side by side
-    /// cancels.
-    #[inline(always)]
-    pub(super) fn three(&self, odd: bool) -> [Slope; 3] {
-        /// `sqrt(3/2)`, `sqrt 2` and its half, 30 fractional bits.
-        const FACTORS: [i32; 3] = [1_315_059_792, 1_518_500_250, 759_250_125];
-        let [across, up, down] = FACTORS;
-        let ([s, t], [u, v]) = (deviations(&self.x), deviations(&self.y));
-        let sign = if odd { -1 } else { 1 };
-        let [s, t] = [s, t].map(|c| high(c, across) << 2);
-        let [far, near] = [up, down].map(|factor| [u, v].map(|c| (high(c, factor) << 2).wrapping_mul(sign)));
-        let (f, big_f, g, big_g) = (self.x.slope, self.x.value, self.y.slope, self.y.value);
-        let at = |[f, big_f]: [i32; 2], [g, big_g]: [i32; 2]| [times(f, big_g), times(big_f, g)];
-        let far = [g.saturating_add(far[0]), big_g.saturating_add(far[1])];
-        let near = [g.saturating_sub(near[0]), big_g.saturating_sub(near[1])];
-        [
-            at([f, big_f], far),
-            at([f.saturating_add(s), big_f.saturating_add(t)], near),
-            at([f.saturating_sub(s), big_f.saturating_sub(t)], near),
-        ]
-    }
-}
-
-/// The deviation of the slope, and what the value deviates with it.
-#[inline(always)]
-fn deviations(course: &Course) -> [i32; 2] {
-    let [variance, covariance] = course.spread();
-    // 1 / s, where v has 24 fractional bits: mantissa / 2^(19 + half)
-    let (mantissa, half) = reciprocal_sqrt_of(variance.max(1).unsigned_abs().into());
-    // by Cauchy and Schwarz no larger than the deviation of the value
-    [variance, covariance].map(|c| (product(c, mantissa) >> ((half + 19) & 63)) as i32)
 }
 
 /// With 28 fractional bits, so that a product's upper word has 24; cut off at 8.
@@ -122,7 +93,9 @@ impl Moments {
     /// Of a box with `h^2 / 3`, 31 fractional bits, along both axes.
     #[inline(always)]
     fn new(Slopes { x, y }: &Slopes, [third_x, third_y]: [i32; 2]) -> Self {
-        let (f, big_f, g, big_g) = (wide(x.slope), wide(x.value), wide(y.slope), wide(y.value));
+        let steep = |slope: i32| slope.clamp(-(1 << 24), (1 << 24) - 1) << 7;
+        let high_up = |value: i32| value.clamp(-(1 << 25), (1 << 25) - 1) << 6;
+        let (f, big_f, g, big_g) = (steep(x.slope), high_up(x.value), steep(y.slope), high_up(y.value));
         // that of the value, as of a straight line: h^2 / 3 is below 1/3 of what is shown
         let square = |v: i32, slope: i32, third: i32| {
             wide(high(v, v).wrapping_add(high(high(slope, slope), third) << 1))
@@ -131,9 +104,9 @@ impl Moments {
         Self {
             mean: [high(f, big_g), high(big_f, g)],
             squares: [
-                high(x.squares, square(big_g, g, third_y)),
+                high(x.squares << 2, square(big_g, g, third_y)),
                 high(wide(with_f), wide(with_g)) >> 4,
-                high(y.squares, square(big_f, f, third_x)),
+                high(y.squares << 2, square(big_f, f, third_x)),
             ],
         }
     }
