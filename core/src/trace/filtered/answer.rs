@@ -25,6 +25,9 @@ use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
 use crate::trace::power::{Exponent, times as part_of};
 
+/// The exponent of a highlight up to which three points of a box do.
+const GENTLE: u16 = 16;
+
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
@@ -195,6 +198,13 @@ impl<'a> View<'a> {
                     shown.matt += checkerboard.over(&mirrored).to_bits() as u32 >> 2;
                 }
             }
+            (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) => {
+                let (exponent, [columns, rows]) = (Exponent::new(shininess), footprint.parts());
+                for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
+                    footprint.next(ground, &mut slopes)?;
+                    shown.add(&self.phong(exponent, &mut slopes.three((column ^ row) & 1 == 1))?);
+                }
+            }
             (Finish::Phong { shininess, .. }, _) => {
                 let exponent = Exponent::new(shininess);
                 for _ in 0..footprint.count() {
@@ -224,44 +234,45 @@ impl<'a> View<'a> {
     #[inline(never)]
     pub(super) fn seen(&self, points: &mut [Slope; 4]) -> Option<Seen> {
         match self.finish {
-            Finish::Diffuse { .. } => self.four(points, |_, facing| facing.lit().max(0)),
+            Finish::Diffuse { .. } => self.all(points, |_, facing| facing.lit().max(0)),
             Finish::Phong { shininess, .. } => self.phong(Exponent::new(shininess), points),
             Finish::TorranceSparrow { roughness, reflectance, .. } => {
                 let model = TorranceSparrow::within(roughness, reflectance);
                 let mut highlight = 0;
-                let seen = self.four(points, |slope, facing| {
+                let seen = self.all(points, |slope, facing| {
                     highlight += product(self.sheen(*slope, facing, model).to_bits(), facing.area);
                     facing.lit().max(0)
                 })?;
                 Some(Seen { highlight, ..seen })
             }
-            Finish::Mirror => self.four(points, |slope, facing| self.reflection(*slope, facing).to_bits()),
+            Finish::Mirror => self.all(points, |slope, facing| self.reflection(*slope, facing).to_bits()),
         }
     }
 
-    /// Four points with Phong's highlight; no exponent is that of 0.
+    /// Points with Phong's highlight; no exponent is that of 0.
     #[inline(always)]
-    fn phong(&self, exponent: Option<Exponent>, points: &mut [Slope; 4]) -> Option<Seen> {
-        let seen = self.four(points, |point, facing| {
+    fn phong<const N: usize>(&self, exponent: Option<Exponent>, points: &mut [Slope; N]) -> Option<Seen> {
+        let seen = self.all(points, |point, facing| {
             let (eye, lit) = (facing.eye(), facing.lit());
             // m . l is at most 1
             *point = [self.straight.wrapping_add(high(eye, lit) << 3), facing.area];
             lit.max(0)
         })?;
-        let [[a, s], [b, t], [c, u], [d, v]] = *points;
-        let Some(exponent) = exponent else { return Some(Seen { highlight: i64::from(seen.area.get()) << 30, ..seen }) };
-        let [a, b, c, d] = exponent.powers([a, b, c, d]);
+        let Some(exponent) = exponent else {
+            return Some(Seen { highlight: i64::from(seen.area.get()) << 30, ..seen });
+        };
+        let powers = exponent.powers(points.map(|[base, _]| base));
         let on = |shown: u32, weight: i32| product_u(shown, weight as u32);
-        let highlight = (on(a, s) + on(b, t) + on(c, u) + on(d, v)) >> 2;
-        Some(Seen { highlight: highlight as i64, ..seen })
+        let highlight = powers.iter().zip(points).fold(0, |sum, (shown, [_, weight])| sum + on(*shown, *weight));
+        Some(Seen { highlight: (highlight >> 2) as i64, ..seen })
     }
 
-    /// The sum of four points' areas, and of what `tone` says of each times its area; none where one turns
+    /// The sum of the points' areas, and of what `tone` says of each times its area; none where one turns
     /// away from the eye.
     #[inline(always)]
-    fn four(
+    fn all<const N: usize>(
         &self,
-        points: &mut [Slope; 4],
+        points: &mut [Slope; N],
         mut tone: impl FnMut(&mut Slope, &Facing) -> i32,
     ) -> Option<Seen> {
         let (mut area, mut matt, mut turned) = (0_u32, 0_i64, 0);

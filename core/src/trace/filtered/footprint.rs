@@ -194,6 +194,11 @@ impl Footprint {
         self.half
     }
 
+    /// Columns and rows.
+    pub(super) const fn parts(&self) -> [i32; 2] {
+        self.parts
+    }
+
     /// How many parts.
     pub(super) const fn count(&self) -> i32 {
         self.parts[0].wrapping_mul(self.parts[1])

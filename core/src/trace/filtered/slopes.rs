@@ -59,21 +59,51 @@ impl Slopes {
     #[inline(always)]
     pub(super) fn points(&self) -> [Slope; 4] {
         let pair = |course: &Course| {
-            let (slope, value) = (course.slope(), course.value());
-            let (m, root, up) = root_of_word(course.variance() as u32 | 1);
-            // the root of m has 29 fractional bits here, s has 24, and c / s is s's part of c / s^2; by Cauchy
-            // and Schwarz it is no larger than the deviation of the value
-            let s = (high_u(m, root) >> (up + 2)) as i32;
-            let t = high(course.covariance() << up, root as i32) >> 2;
+            let ([slope, value], [s, t]) = ([course.slope(), course.value()], deviations(course));
             [
                 [slope.saturating_add(s), value.saturating_add(t)],
                 [slope.saturating_sub(s), value.saturating_sub(t)],
             ]
         };
         let ([a, b], [c, d]) = (pair(&self.x), pair(&self.y));
-        let at = |[f, big_f]: [i32; 2], [g, big_g]: [i32; 2]| [times(f, big_g), times(big_f, g)];
         [at(a, c), at(a, d), at(b, c), at(b, d)]
     }
+
+    /// Three points of equal weight with the same means and covariances: 0 and -+sqrt(3/2) deviations along x
+    /// with sqrt 2 and -1/sqrt 2 along y, the other way round where `odd`, so that what is of third order in
+    /// two boxes side by side cancels.
+    #[inline(always)]
+    pub(super) fn three(&self, odd: bool) -> [Slope; 3] {
+        /// `sqrt(3/2)` and `sqrt 2`, 30 fractional bits.
+        const ACROSS: i32 = 1_315_059_792;
+        const FAR: i32 = 1_518_500_250;
+        let ([s, t], [u, v]) = (deviations(&self.x), deviations(&self.y));
+        let (across, far) = (ACROSS, if odd { -FAR } else { FAR });
+        let [s, t, u, v] = [high(s, across) << 2, high(t, across) << 2, high(u, far) << 2, high(v, far) << 2];
+        let ([f, big_f], [g, big_g]) = ([self.x.slope(), self.x.value()], [self.y.slope(), self.y.value()]);
+        let near = [g.saturating_sub(u >> 1), big_g.saturating_sub(v >> 1)];
+        [
+            at([f, big_f], [g.saturating_add(u), big_g.saturating_add(v)]),
+            at([f.saturating_add(s), big_f.saturating_add(t)], near),
+            at([f.saturating_sub(s), big_f.saturating_sub(t)], near),
+        ]
+    }
+}
+
+/// The slopes where slope and value are these along x and along y.
+#[inline(always)]
+fn at([f, big_f]: [i32; 2], [g, big_g]: [i32; 2]) -> Slope {
+    [times(f, big_g), times(big_f, g)]
+}
+
+/// The deviation of the slope, and what the value deviates with it.
+#[inline(always)]
+fn deviations(course: &Course) -> [i32; 2] {
+    let (m, root, up) = root_of_word(course.variance() as u32 | 1);
+    // the root of m has 29 fractional bits here, s has 24, and c / s is s's part of c / s^2; by Cauchy and
+    // Schwarz it is no larger than the deviation of the value
+    let s = (high_u(m, root) >> (up + 2)) as i32;
+    [s, high(course.covariance() << up, root as i32) >> 2]
 }
 
 /// With 28 fractional bits, so that a product's upper word has 24; cut off at 8.
