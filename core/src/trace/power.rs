@@ -46,11 +46,9 @@ impl Exponent {
     ///
     /// Each product is rounded down: short of the power by less than `exponent / 2^30`.
     #[inline(always)]
-    pub(super) fn powers(self, bases: [i32; 4]) -> [u32; 4] {
-        let squares = |[a, b, c, d]: [u32; 4]| [high_u(a, a), high_u(b, b), high_u(c, c), high_u(d, d)];
-        let cut_off = |base: i32| (base.clamp(0, (1 << 30) - 1) as u32) << 2;
-        let [a, b, c, d] = bases;
-        let mut square = [cut_off(a), cut_off(b), cut_off(c), cut_off(d)];
+    pub(super) fn powers<const N: usize>(self, bases: [i32; N]) -> [u32; N] {
+        let squares = |square: [u32; N]| square.map(|s| high_u(s, s));
+        let mut square = bases.map(|base| (base.clamp(0, (1 << 30) - 1) as u32) << 2);
         for _ in 0..self.twos {
             square = squares(square);
         }

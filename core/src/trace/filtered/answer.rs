@@ -25,6 +25,9 @@ use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
 use crate::trace::power::{Exponent, times as part_of};
 
+/// The exponent of a highlight up to which three points of a box do.
+const GENTLE: u16 = 16;
+
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
@@ -130,14 +133,14 @@ fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     high(v << (31_u32.wrapping_sub(half) & 31), mantissa) << 2
 }
 
-/// The sum of four areas, each below 2^29; none where one is below 0.
+/// The sum of the areas that points have as their second numbers, each below 2^29; none where one is below 0.
 #[inline(always)]
-fn area([a, b, c, d]: [i32; 4]) -> Option<NonZeroU32> {
-    if a | b | c | d < 0 {
-        return None;
-    }
+fn area<const N: usize>(points: &[Slope; N]) -> Option<NonZeroU32> {
+    let (sum, turned) = points.iter().fold((0, 0), |(sum, turned): (i32, i32), [_, area]| {
+        (sum.wrapping_add(*area), turned | area)
+    });
     // what no unit of area shows does not count
-    Some(NonZeroU32::MIN | a.wrapping_add(b).wrapping_add(c).wrapping_add(d) as u32)
+    (turned >= 0).then_some(NonZeroU32::MIN | sum as u32)
 }
 
 /// The tone of a matt surface.
@@ -197,6 +200,7 @@ impl<'a> View<'a> {
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Unit> {
         let shown = match (self.finish, self.checkerboard) {
             (Finish::Mirror, Some(checkerboard)) => self.reflected(checkerboard, ground, footprint)?,
+            (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) => self.gleaming(shininess, ground, footprint)?,
             (Finish::Phong { shininess, .. }, _) => self.shining(shininess, ground, footprint)?,
             _ => self.pointed(ground, footprint)?,
         };
@@ -214,9 +218,21 @@ impl<'a> View<'a> {
         let (mut shown, mut slopes) = (Shown::default(), Slopes::default());
         for _ in 0..footprint.count() {
             footprint.next(ground, &mut slopes)?;
-            let mirrored = self.mirrored(&Spread::of(&slopes, footprint.deviations()))?;
+            let mirrored = self.mirrored(&Spread::of(&slopes, footprint.spans()))?;
             shown.boxes += 1;
             shown.matt = shown.matt.wrapping_add(checkerboard.over(&mirrored).to_bits() as u32 >> 2);
+        }
+        Some(shown)
+    }
+
+    /// What it shows with a gentle highlight.
+    #[inline(never)]
+    fn gleaming(&self, shininess: u16, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
+        let (mut shown, mut slopes, exponent) = (Shown::default(), Slopes::default(), Exponent::new(shininess));
+        let [columns, rows] = footprint.parts();
+        for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
+            footprint.next(ground, &mut slopes)?;
+            shown.add(&self.phong(exponent, &mut slopes.three((column ^ row) & 1 == 1))?);
         }
         Some(shown)
     }
@@ -255,53 +271,61 @@ impl<'a> View<'a> {
     #[inline(never)]
     pub(super) fn seen(&self, points: &mut [Slope; 4]) -> Option<Seen> {
         match self.finish {
-            Finish::Diffuse { .. } => self.four(points, |_, facing| facing.lit().max(0)),
+            Finish::Diffuse { .. } => self.plain(points, |_, facing| facing.lit().max(0)),
             Finish::Phong { shininess, .. } => self.phong(Exponent::new(shininess), points),
             Finish::TorranceSparrow { roughness, reflectance, .. } => {
                 let model = TorranceSparrow::within(roughness, reflectance);
                 let mut highlight = 0;
-                let seen = self.four(points, |slope, facing| {
+                let seen = self.plain(points, |slope, facing| {
                     highlight += product(self.sheen(*slope, facing, model).to_bits(), facing.area);
                     facing.lit().max(0)
                 })?;
                 Some(Seen { highlight, ..seen })
             }
-            Finish::Mirror => self.four(points, |slope, facing| self.reflection(*slope, facing).to_bits()),
+            Finish::Mirror => self.plain(points, |slope, facing| self.reflection(*slope, facing).to_bits()),
         }
     }
 
-    /// Four points with Phong's highlight; no exponent is that of 0.
+    /// Points with Phong's highlight; no exponent is that of 0.
     #[inline(always)]
-    fn phong(&self, exponent: Option<Exponent>, points: &mut [Slope; 4]) -> Option<Seen> {
+    fn phong<const N: usize>(&self, exponent: Option<Exponent>, points: &mut [Slope; N]) -> Option<Seen> {
         let matt = self.all(points, |slope, facing| {
             let (eye, lit) = (facing.eye(), facing.lit());
             // m . l is at most 1
             slope[0] = self.straight.wrapping_add(high(eye, lit) << 3);
             lit.max(0)
         });
-        let [[a, s], [b, t], [c, u], [d, v]] = *points;
-        let area = area([s, t, u, v])?;
+        let area = area(points)?;
         let Some(exponent) = exponent else {
             return Some(Seen { area, matt, highlight: i64::from(area.get()) << 30 });
         };
-        let [a, b, c, d] = exponent.powers([a, b, c, d]);
-        let on = |shown: u32, weight: i32| product_u(shown, weight as u32);
-        let highlight = on(a, s).wrapping_add(on(b, t)).wrapping_add(on(c, u)).wrapping_add(on(d, v)) >> 2;
-        Some(Seen { area, matt, highlight: highlight as i64 })
+        let powers = exponent.powers(points.map(|[base, _]| base));
+        let on = |sum: u64, (shown, [_, weight]): (&u32, &Slope)| {
+            sum.wrapping_add(product_u(*shown, *weight as u32))
+        };
+        let highlight = powers.iter().zip(&*points).fold(0, on);
+        Some(Seen { area, matt, highlight: (highlight >> 2) as i64 })
     }
 
-    /// Four points without one; none where one turns away from the eye.
+    /// Points without one; none where one turns away from the eye.
     #[inline(always)]
-    fn four(&self, points: &mut [Slope; 4], tone: impl FnMut(&mut Slope, &Facing) -> i32) -> Option<Seen> {
+    fn plain<const N: usize>(
+        &self,
+        points: &mut [Slope; N],
+        tone: impl FnMut(&mut Slope, &Facing) -> i32,
+    ) -> Option<Seen> {
         let matt = self.all(points, tone);
-        let [[_, s], [_, t], [_, u], [_, v]] = *points;
-        Some(Seen { area: area([s, t, u, v])?, matt, highlight: 0 })
+        Some(Seen { area: area(points)?, matt, highlight: 0 })
     }
 
-    /// The sum of what `tone` says of four points, each times its area, 52 fractional bits. Leaves the areas as
-    /// the points' second numbers.
+    /// The sum of what `tone` says of points, each times its area, 52 fractional bits. Leaves the areas as the
+    /// points' second numbers.
     #[inline(always)]
-    fn all(&self, points: &mut [Slope; 4], mut tone: impl FnMut(&mut Slope, &Facing) -> i32) -> i64 {
+    fn all<const N: usize>(
+        &self,
+        points: &mut [Slope; N],
+        mut tone: impl FnMut(&mut Slope, &Facing) -> i32,
+    ) -> i64 {
         let mut matt = 0_i64;
         for slope in points {
             let facing = Facing::new(*slope, self);

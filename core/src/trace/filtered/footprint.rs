@@ -15,7 +15,7 @@
 use core::num::NonZeroU32;
 
 use super::ground::{Ground, Side};
-use super::slopes::{Slope, Slopes, deviations, times};
+use super::slopes::{Slope, Slopes, spans, times};
 use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt, rounded_down};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
@@ -39,7 +39,7 @@ impl Quality {
         match self {
             Self::Coarse => [1, 2],
             Self::Fine if few => [2, 3],
-            Self::Fine => [2, 4],
+            Self::Fine => [2, 5],
             Self::Finest => [2, 6],
         }
     }
@@ -140,7 +140,7 @@ pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
     let half = [half(a[0], b[0]), half(a[1], b[1])];
     let [x, y] = ground;
-    (deviations(half), [x.side(half[0]), y.side(half[1])])
+    (spans(half), [x.side(half[0]), y.side(half[1])])
 }
 
 /// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
@@ -180,7 +180,7 @@ pub(super) struct Footprint {
     steps: [([i32; 2], i32); 2],
     parts: [i32; 2],
     ways: Ways,
-    deviations: [i32; 2],
+    spans: [i32; 2],
     sides: [Side; 2],
     /// The end of a column's first line, on the plane, and its height.
     first: ([i32; 2], i32),
@@ -192,8 +192,13 @@ pub(super) struct Footprint {
 
 impl Footprint {
     /// How far the places of a box deviate from its middle.
-    pub(super) const fn deviations(&self) -> [i32; 2] {
-        self.deviations
+    pub(super) const fn spans(&self) -> [i32; 2] {
+        self.spans
+    }
+
+    /// Columns and rows.
+    pub(super) const fn parts(&self) -> [i32; 2] {
+        self.parts
     }
 
     /// How many parts.
@@ -274,11 +279,11 @@ pub(super) fn whole(
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
     let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
-    let (deviations, sides) = sides(ground, edges(&place, sight, pixel));
+    let (spans, sides) = sides(ground, edges(&place, sight, pixel));
     let ([x, y], [px, py]) = (ground, place.at);
     let mut slopes = Slopes::default();
     slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
-    Some((slopes, deviations))
+    Some((slopes, spans))
 }
 
 /// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in,
@@ -307,7 +312,7 @@ impl Quality {
         let [few, many] = self.parts(few);
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
-        let (deviations, sides) = sides(ground, [a, b]);
+        let (spans, sides) = sides(ground, [a, b]);
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
         let rises = [a, b].map(rise);
         let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
@@ -324,7 +329,7 @@ impl Quality {
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
             ways: Ways::new(ground, sight, place.steep, reach),
-            deviations,
+            spans,
             sides,
             first,
             line: first,

@@ -157,11 +157,11 @@ pub(super) fn spread(
     } else {
         ([between(first.at, second.at), between(last.at, third.at)], [a, halves[1]])
     };
-    let (deviations, sides) = sides(ground, half);
+    let (spans, sides) = sides(ground, half);
     let [from, to] = ends;
     let part = [(to[0] - from[0]) >> 2, (to[1] - from[1]) >> 2];
     let mut boxes = [Slopes::default(); 2];
     boxes[0].around(ground, [from[0] + part[0], from[1] + part[1]], &sides)?;
     boxes[1].around(ground, [to[0] - part[0], to[1] - part[1]], &sides)?;
-    Some(Spread { mean, ..Spread::of_two(&boxes, deviations) })
+    Some(Spread { mean, ..Spread::of_two(&boxes, spans) })
 }

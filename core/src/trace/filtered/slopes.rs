@@ -59,21 +59,51 @@ impl Slopes {
     #[inline(always)]
     pub(super) fn points(&self) -> [Slope; 4] {
         let pair = |course: &Course| {
-            let (slope, value) = (course.slope(), course.value());
-            let (m, root, up) = root_of_word(course.variance() as u32 | 1);
-            // the root of m has 29 fractional bits here, s has 24, and c / s is s's part of c / s^2; by Cauchy
-            // and Schwarz it is no larger than the deviation of the value
-            let s = (high_u(m, root) >> (up + 2)) as i32;
-            let t = high(course.covariance() << up, root as i32) >> 2;
+            let ([slope, value], [s, t]) = ([course.slope(), course.value()], deviations(course));
             [
                 [slope.saturating_add(s), value.saturating_add(t)],
                 [slope.saturating_sub(s), value.saturating_sub(t)],
             ]
         };
         let ([a, b], [c, d]) = (pair(&self.x), pair(&self.y));
-        let at = |[f, big_f]: [i32; 2], [g, big_g]: [i32; 2]| [times(f, big_g), times(big_f, g)];
         [at(a, c), at(a, d), at(b, c), at(b, d)]
     }
+
+    /// Three points of equal weight with the same means and covariances: 0 and -+sqrt(3/2) deviations along x
+    /// with sqrt 2 and -1/sqrt 2 along y, the other way round where `odd`, so that what is of third order in
+    /// two boxes side by side cancels.
+    #[inline(always)]
+    pub(super) fn three(&self, odd: bool) -> [Slope; 3] {
+        /// `sqrt(3/2)` and `sqrt 2`, 30 fractional bits.
+        const ACROSS: i32 = 1_315_059_792;
+        const FAR: i32 = 1_518_500_250;
+        let ([s, t], [u, v]) = (deviations(&self.x), deviations(&self.y));
+        let (across, far) = (ACROSS, if odd { -FAR } else { FAR });
+        let [s, t, u, v] = [high(s, across) << 2, high(t, across) << 2, high(u, far) << 2, high(v, far) << 2];
+        let ([f, big_f], [g, big_g]) = ([self.x.slope(), self.x.value()], [self.y.slope(), self.y.value()]);
+        let near = [g.saturating_sub(u >> 1), big_g.saturating_sub(v >> 1)];
+        [
+            at([f, big_f], [g.saturating_add(u), big_g.saturating_add(v)]),
+            at([f.saturating_add(s), big_f.saturating_add(t)], near),
+            at([f.saturating_sub(s), big_f.saturating_sub(t)], near),
+        ]
+    }
+}
+
+/// The slopes where slope and value are these along x and along y.
+#[inline(always)]
+fn at([f, big_f]: [i32; 2], [g, big_g]: [i32; 2]) -> Slope {
+    [times(f, big_g), times(big_f, g)]
+}
+
+/// The deviation of the slope, and what the value deviates with it.
+#[inline(always)]
+fn deviations(course: &Course) -> [i32; 2] {
+    let (m, root, up) = root_of_word(course.variance() as u32 | 1);
+    // the root of m has 29 fractional bits here, s has 24, and c / s is s's part of c / s^2; by Cauchy and
+    // Schwarz it is no larger than the deviation of the value
+    let s = (high_u(m, root) >> (up + 2)) as i32;
+    [s, high(course.covariance() << up, root as i32) >> 2]
 }
 
 /// With 28 fractional bits, so that a product's upper word has 24; cut off at 8.
@@ -90,7 +120,7 @@ struct Moments {
 }
 
 impl Moments {
-    /// Of a box with so large [`deviations`].
+    /// Of a box with so large [`spans`].
     #[inline(always)]
     fn new(Slopes { x, y }: &Slopes, [along_x, along_y]: [i32; 2]) -> Self {
         let steep = |slope: i32| slope.clamp(-(1 << 24), (1 << 24) - 1) << 7;
@@ -151,10 +181,10 @@ impl Spread {
         [at(s, more), at(s, less), at(-s, more.saturating_neg()), at(-s, less.saturating_neg())]
     }
 
-    /// Of two boxes with the same [`deviations`] that count alike.
+    /// Of two boxes with the same [`spans`] that count alike.
     #[inline(always)]
-    pub(super) fn of_two(boxes: &[Slopes; 2], deviations: [i32; 2]) -> Self {
-        let [a, b] = [Moments::new(&boxes[0], deviations), Moments::new(&boxes[1], deviations)];
+    pub(super) fn of_two(boxes: &[Slopes; 2], spans: [i32; 2]) -> Self {
+        let [a, b] = [Moments::new(&boxes[0], spans), Moments::new(&boxes[1], spans)];
         let middle = |a: i32, b: i32| (a >> 1).wrapping_add(b >> 1);
         let [[p, q], [r, s]] = [a.mean, b.mean];
         let [[pp, pq, qq], [rr, rs, ss]] = [a.squares, b.squares];
@@ -163,8 +193,8 @@ impl Spread {
 
     /// Of one box.
     #[inline(always)]
-    pub(super) fn of(slopes: &Slopes, deviations: [i32; 2]) -> Self {
-        let Moments { mean, squares } = Moments::new(slopes, deviations);
+    pub(super) fn of(slopes: &Slopes, spans: [i32; 2]) -> Self {
+        let Moments { mean, squares } = Moments::new(slopes, spans);
         Self::new(mean, squares)
     }
 }
@@ -172,7 +202,7 @@ impl Spread {
 /// How far a box's places deviate from its middle, `h / sqrt(3)` for half of it, 31 fractional bits. A half
 /// beyond 1 counts as 1: that is far beyond what a pixel shows.
 #[inline(always)]
-pub(super) fn deviations([x, y]: [i32; 2]) -> [i32; 2] {
+pub(super) fn spans([x, y]: [i32; 2]) -> [i32; 2] {
     let deviation = |half: i32| high(half.min((1 << 24) - 1) << 7, 0x49e6_9d16) << 1;
     [deviation(x), deviation(y)]
 }
