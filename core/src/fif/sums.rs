@@ -126,7 +126,7 @@ pub struct Sums<'a> {
     starts: &'a [u32],
     depth: u32,
     /// How many cells and how wide, as a [`Place`] says it, if they are of one width.
-    even: Option<(u32, i32)>,
+    even: Option<(NonZeroU32, i32)>,
     x0: i64,
     width: u64,
     /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits.
@@ -257,8 +257,9 @@ impl<'a> Sums<'a> {
             let exact = (j << 31).checked_div(fif.maps.len() as u64).unwrap_or(0);
             (exact as u32).abs_diff(*start) <= 1
         };
-        let count = (needed - 1).clamp(1, u32::MAX as usize) as u32;
-        let even = (0..).zip(&fif.starts).all(even).then_some((count, less((1_u32 << 31) / count)));
+        let count = NonZeroU32::new((needed - 1).min(u32::MAX as usize) as u32);
+        let even = count.filter(|_| (0..).zip(&fif.starts).all(even));
+        let even = even.map(|count| (count, less((1_u32 << 31) / count)));
         let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
         let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
         let (x0, width) = (fif.x0, fif.width);
@@ -285,7 +286,8 @@ impl<'a> Sums<'a> {
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
-        let course = self.course(from, to, &width)?;
+        let mut course = Course::default();
+        self.course(from, to, &width, &mut course)?;
         let [slope, value] = [course.slope(), course.value()].map(Real::from_bits);
         let [variance, covariance] = [course.variance(), course.covariance()].map(Real::from_bits);
         Some(Trend { slope, value, variance, covariance })
@@ -331,24 +333,26 @@ impl<'a> Sums<'a> {
         }
     }
 
-    /// What it does between two places so far apart.
+    /// What it does between two places so far apart, written to where it stays; none where there are none.
     #[inline(always)]
-    pub(crate) fn course(&self, from: u32, to: u32, width: &Width) -> Option<Course> {
-        let Some(even) = self.even else { return self.course_uneven(from, to, width) };
+    pub(crate) fn course(&self, from: u32, to: u32, width: &Width, course: &mut Course) -> Option<()> {
+        let Some(even) = self.even else { return self.course_uneven(from, to, width, course) };
         let (from, to) = (self.place_among(from, even)?, self.place_among(to, even)?);
-        Some(self.between(&self.at(&from), &self.at(&to), width))
+        *course = self.between(&self.at(&from), &self.at(&to), width);
+        Some(())
     }
 
     #[cold]
     #[inline(never)]
-    fn course_uneven(&self, from: u32, to: u32, width: &Width) -> Option<Course> {
+    fn course_uneven(&self, from: u32, to: u32, width: &Width, course: &mut Course) -> Option<()> {
         let (from, to) = (self.place_uneven(from)?, self.place_uneven(to)?);
-        Some(self.between(&self.at(&from), &self.at(&to), width))
+        *course = self.between(&self.at(&from), &self.at(&to), width);
+        Some(())
     }
 
     #[inline(always)]
-    fn place_among(&self, u: u32, (count, less): (u32, i32)) -> Option<Place<'a>> {
-        let place = product_u(u, count);
+    fn place_among(&self, u: u32, (count, less): (NonZeroU32, i32)) -> Option<Place<'a>> {
+        let place = product_u(u, count.get());
         let ends = self.places.get((place >> 32) as usize..)?.first_chunk()?;
         Some(Place { ends, part: place as u32, less })
     }

@@ -16,7 +16,7 @@ use core::num::NonZeroU32;
 
 use super::footprint::Footprint;
 use super::ground::Ground;
-use super::slopes::{Slope, Slopes, Spread, times};
+use super::slopes::{FAR, Slope, Slopes, Spread, times};
 use crate::num::{
     Unit, Vec3, high, product, product_u, reciprocal_of, reciprocal_sqrt_of_long, rounded_down, scaled,
 };
@@ -136,9 +136,9 @@ fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
 /// The sum of the areas that points have as their second numbers, each below 2^29; none where one is below 0.
 #[inline(always)]
 fn area<const N: usize>(points: &[Slope; N]) -> Option<NonZeroU32> {
-    let (sum, turned) = points.iter().fold((0, 0), |(sum, turned): (i32, i32), [_, area]| {
-        (sum.wrapping_add(*area), turned | area)
-    });
+    let (sum, turned) = points
+        .iter()
+        .fold((0, 0), |(sum, turned): (i32, i32), [_, area]| (sum.wrapping_add(*area), turned | area));
     // what no unit of area shows does not count
     (turned >= 0).then_some(NonZeroU32::MIN | sum as u32)
 }
@@ -186,7 +186,8 @@ impl<'a> View<'a> {
         let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(eye.unsigned_abs())?);
         let cross = sum(along, [lx, ly]).wrapping_add(unit_product(sum(along, u), c));
         let cross = product(cross, mantissa);
-        let cross = ((cross >> 32) as i32) << (zeros & 31) | (cross as u32 >> (32_u32.wrapping_sub(zeros) & 31)) as i32;
+        let cross = ((cross >> 32) as i32) << (zeros & 31)
+            | (cross as u32 >> (32_u32.wrapping_sub(zeros) & 31)) as i32;
         let own = sum(across, u);
         let own = unit_product(own.wrapping_mul(3).wrapping_sub(pp).wrapping_sub(qq), c) >> 1;
         let bent = sum(across, [lx, ly]).wrapping_add(own).wrapping_sub(cross);
@@ -200,7 +201,9 @@ impl<'a> View<'a> {
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Unit> {
         let shown = match (self.finish, self.checkerboard) {
             (Finish::Mirror, Some(checkerboard)) => self.reflected(checkerboard, ground, footprint)?,
-            (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) => self.gleaming(shininess, ground, footprint)?,
+            (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) => {
+                self.gleaming(shininess, ground, footprint)?
+            }
             (Finish::Phong { shininess, .. }, _) => self.shining(shininess, ground, footprint)?,
             _ => self.pointed(ground, footprint)?,
         };
@@ -228,11 +231,17 @@ impl<'a> View<'a> {
     /// What it shows with a gentle highlight.
     #[inline(never)]
     fn gleaming(&self, shininess: u16, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
-        let (mut shown, mut slopes, exponent) = (Shown::default(), Slopes::default(), Exponent::new(shininess));
-        let [columns, rows] = footprint.parts();
-        for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
-            footprint.next(ground, &mut slopes)?;
-            shown.add(&self.phong(exponent, &mut slopes.three((column ^ row) & 1 == 1))?);
+        let (mut shown, mut slopes, exponent) =
+            (Shown::default(), Slopes::default(), Exponent::new(shininess));
+        let ([columns, rows], mut first) = (footprint.parts(), FAR);
+        for _ in 0..columns {
+            let mut far = first;
+            for _ in 0..rows {
+                footprint.next(ground, &mut slopes)?;
+                shown.add(&self.phong(exponent, &mut slopes.three(far))?);
+                far = far.wrapping_neg();
+            }
+            first = first.wrapping_neg();
         }
         Some(shown)
     }
@@ -240,7 +249,8 @@ impl<'a> View<'a> {
     /// What it shows with Phong's highlight.
     #[inline(never)]
     fn shining(&self, shininess: u16, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
-        let (mut shown, mut slopes, exponent) = (Shown::default(), Slopes::default(), Exponent::new(shininess));
+        let (mut shown, mut slopes, exponent) =
+            (Shown::default(), Slopes::default(), Exponent::new(shininess));
         for _ in 0..footprint.count() {
             footprint.next(ground, &mut slopes)?;
             shown.add(&self.phong(exponent, &mut slopes.points())?);

@@ -179,7 +179,8 @@ impl<'a> FilteredCaster<'a> {
         }
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());
-            return view().shown(&mut outline::spread(&self.ground, sight, self.edges, place, size)?.points());
+            return view()
+                .shown(&mut outline::spread(&self.ground, sight, self.edges, place, size)?.points());
         }
         let few = matches!(material, Finish::Mirror) && checkerboard.is_some();
         let mut footprint = self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few));

@@ -149,8 +149,8 @@ pub(super) struct Ways {
     /// How far, for a height times `up`, a power of two.
     farther: [i32; 2],
     up: i32,
-    /// As far above or below the surface as a line is thought to lie at most.
-    reach: i32,
+    /// What is left of a word beyond as far above or below the surface as a line is thought to lie at most.
+    rest: i32,
 }
 
 impl Ways {
@@ -159,7 +159,7 @@ impl Ways {
         let [dx, dy, _] = sight.direction;
         let up = reach.leading_zeros().saturating_sub(1).min(30);
         let farther = [x.factor(over(dx, steep) >> 2, up), y.factor(over(dy, steep) >> 2, up)];
-        Self { farther, up: 1 << up, reach }
+        Self { farther, up: 1 << up, rest: i32::MAX - reach }
     }
 
     /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets that
@@ -167,7 +167,9 @@ impl Ways {
     #[inline(always)]
     pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], height: i32) -> [i32; 2] {
         let surface = rounded_down::<24>(product(x.value(u), y.value(v)));
-        let above = height.saturating_sub(surface).max(self.reach.wrapping_neg()).min(self.reach);
+        // cut off at both ends of the word
+        let above = height.saturating_sub(surface).saturating_add(self.rest).saturating_sub(self.rest);
+        let above = above.saturating_sub(self.rest).saturating_add(self.rest);
         let above = above.wrapping_mul(self.up);
         [high(above, self.farther[0]), high(above, self.farther[1])]
     }

@@ -82,21 +82,22 @@ impl<'a> Ground<'a> {
     pub(super) fn around(&self, middle: i32, side: &Side, course: &mut Course) -> Option<()> {
         let from = middle.saturating_sub(side.half);
         let inside = from.wrapping_add(side.half >> 1) as u32 <= side.allowed;
-        *course = if inside { self.beginning(from, side)? } else { return None };
-        Some(())
+        if inside { self.beginning(from, side, course) } else { None }
     }
 
     /// The same moved inside from anywhere.
     #[inline(always)]
     pub(super) fn nearest(&self, middle: i32, side: &Side) -> Option<Course> {
-        self.beginning(middle.saturating_sub(side.half), side)
+        let mut course = Course::default();
+        self.beginning(middle.saturating_sub(side.half), side, &mut course)?;
+        Some(course)
     }
 
     #[inline(always)]
-    fn beginning(&self, from: i32, Side { half, last, width, .. }: &Side) -> Option<Course> {
+    fn beginning(&self, from: i32, Side { half, last, width, .. }: &Side, course: &mut Course) -> Option<()> {
         let from = from.max(0).min(*last);
         let to = from + (half << 1);
-        self.sums.course((from as u32) << 2, (to as u32) << 2, width)
+        self.sums.course((from as u32) << 2, (to as u32) << 2, width, course)
     }
 
     /// The sums up to a place; beyond an end the profile goes on straight.

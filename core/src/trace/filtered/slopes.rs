@@ -14,6 +14,9 @@ use super::ground::{Ground, Side};
 use crate::fif::Course;
 use crate::num::{high, high_u, product, product_within, reciprocal_sqrt_of, root_of_word, rough_sqrt};
 
+/// `sqrt 2`, 30 fractional bits.
+pub(super) const FAR: i32 = 1_518_500_250;
+
 /// The surface over a box: what is known along x and along y.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Slopes {
@@ -33,7 +36,12 @@ pub(super) fn times(a: i32, b: i32) -> i32 {
 impl Slopes {
     /// The surface so far to both sides of a place; none where too much of that is outside.
     #[inline(always)]
-    pub(super) fn around(&mut self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], sides: &[Side; 2]) -> Option<()> {
+    pub(super) fn around(
+        &mut self,
+        [x, y]: &[Ground<'_>; 2],
+        [u, v]: [i32; 2],
+        sides: &[Side; 2],
+    ) -> Option<()> {
         x.around(u, &sides[0], &mut self.x)?;
         y.around(v, &sides[1], &mut self.y)
     }
@@ -70,16 +78,14 @@ impl Slopes {
     }
 
     /// Three points of equal weight with the same means and covariances: 0 and -+sqrt(3/2) deviations along x
-    /// with sqrt 2 and -1/sqrt 2 along y, the other way round where `odd`, so that what is of third order in
-    /// two boxes side by side cancels.
+    /// with sqrt 2 and -1/sqrt 2 along y for `FAR`, and the other way round for `-FAR`: so that what is of third
+    /// order in two boxes side by side cancels.
     #[inline(always)]
-    pub(super) fn three(&self, odd: bool) -> [Slope; 3] {
-        /// `sqrt(3/2)` and `sqrt 2`, 30 fractional bits.
+    pub(super) fn three(&self, far: i32) -> [Slope; 3] {
+        /// `sqrt(3/2)`, 30 fractional bits.
         const ACROSS: i32 = 1_315_059_792;
-        const FAR: i32 = 1_518_500_250;
         let ([s, t], [u, v]) = (deviations(&self.x), deviations(&self.y));
-        let (across, far) = (ACROSS, if odd { -FAR } else { FAR });
-        let [s, t, u, v] = [high(s, across) << 2, high(t, across) << 2, high(u, far) << 2, high(v, far) << 2];
+        let [s, t, u, v] = [high(s, ACROSS) << 2, high(t, ACROSS) << 2, high(u, far) << 2, high(v, far) << 2];
         let ([f, big_f], [g, big_g]) = ([self.x.slope(), self.x.value()], [self.y.slope(), self.y.value()]);
         let near = [g.saturating_sub(u >> 1), big_g.saturating_sub(v >> 1)];
         [
