@@ -136,11 +136,11 @@ pub(super) fn edges(place: &Place, sight: &Sight, edges: [[i32; 3]; 2]) -> [[i32
 
 /// The sides of the box with the variances of a parallelogram, and how far its places deviate.
 #[inline(always)]
-pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
+pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2], firm: u32) -> ([i32; 2], [Side; 2]) {
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
     let half = [half(a[0], b[0]), half(a[1], b[1])];
     let [x, y] = ground;
-    (spans(half), [x.side(half[0]), y.side(half[1])])
+    (spans(half), [x.side(half[0], firm), y.side(half[1], firm)])
 }
 
 /// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
@@ -251,7 +251,7 @@ pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
 #[inline(always)]
 fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
     let half = (reach >> 4) + (reach >> 5);
-    [x.side(half), y.side(half)]
+    [x.side(half, 0), y.side(half, 0)]
 }
 
 /// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
@@ -281,7 +281,7 @@ pub(super) fn whole(
     reach: i32,
 ) -> Option<(Slopes, [i32; 2])> {
     let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
-    let (spans, sides) = sides(ground, edges(&place, sight, pixel));
+    let (spans, sides) = sides(ground, edges(&place, sight, pixel), 3);
     let ([x, y], [px, py]) = (ground, place.at);
     let mut slopes = Slopes::default();
     slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
@@ -314,7 +314,7 @@ impl Quality {
         let [few, many] = self.parts(few);
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
-        let (spans, sides) = sides(ground, [a, b]);
+        let (spans, sides) = sides(ground, [a, b], if few.wrapping_mul(many) > 2 { 1 } else { 2 });
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
         let rises = [a, b].map(rise);
         let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
