@@ -134,7 +134,8 @@ pub(super) fn edges(place: &Place, sight: &Sight, edges: [[i32; 3]; 2]) -> [[i32
     [moved(right), moved(down)]
 }
 
-/// The sides of the box with the variances of a parallelogram, and how far its places deviate.
+/// The sides of the box with the variances of a parallelogram, and how far its places deviate; one half in
+/// `2^firm` of a side may lie outside.
 #[inline(always)]
 pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2], firm: u32) -> ([i32; 2], [Side; 2]) {
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
@@ -270,26 +271,24 @@ pub(super) fn on_mean(
     Some(sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach))
 }
 
-/// The surface over the box of a pixel, and how far its places deviate: none where it leaves the domain. The mean plane
-/// is that above a box around where the ray comes in, three quarters of a pixel to both sides.
+/// The surface over the box of a pixel around where its ray meets the mean plane, and how far its places
+/// deviate: none where too much of it leaves the domain.
 #[inline(always)]
 pub(super) fn whole(
     ground: &[Ground<'_>; 2],
     sight: &Sight,
     pixel: [[i32; 3]; 2],
-    first: Place,
-    reach: i32,
+    place: &Place,
 ) -> Option<(Slopes, [i32; 2])> {
-    let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
-    let (spans, sides) = sides(ground, edges(&place, sight, pixel), 3);
+    let (spans, sides) = sides(ground, edges(place, sight, pixel), 3);
     let ([x, y], [px, py]) = (ground, place.at);
     let mut slopes = Slopes::default();
     slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
     Some((slopes, spans))
 }
 
-/// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in,
-/// which may lie far off.
+/// Where a pixel's ray meets the mean plane above a box around where it meets that of the leaf, which may lie
+/// far off: three quarters of a pixel to both sides.
 #[inline(always)]
 pub(super) fn settled(ground: &[Ground<'_>; 2], sight: &Sight, first: Place, reach: i32) -> Option<Place> {
     on_mean(ground, sight, first, &near(ground, reach), reach)
