@@ -169,13 +169,14 @@ impl<'a> FilteredCaster<'a> {
         let RayCaster { material, light, environment, .. } = &self.caster;
         let checkerboard = self.checkerboard.as_ref();
         let view = |d: [i32; 3]| View::new(d, light.towards, material, environment, checkerboard);
-        if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
-            let (slopes, spans) = whole(&self.ground, sight, self.edges, first, reach)?;
-            return view(sight.direction).glance(ambient, &Spread::of(&slopes, spans));
-        }
         let place = settled(&self.ground, sight, first, reach)?;
+        // a ridge, and something else behind it
         if !are_near(t, place.t, reach) {
             return None;
+        }
+        if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
+            let (slopes, spans) = whole(&self.ground, sight, self.edges, &place)?;
+            return view(sight.direction).glance(ambient, &Spread::of(&slopes, spans));
         }
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());

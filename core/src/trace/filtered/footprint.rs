@@ -133,13 +133,14 @@ pub(super) fn edges(place: &Place, sight: &Sight, edges: [[i32; 3]; 2]) -> [[i32
     [moved(right), moved(down)]
 }
 
-/// The sides of the box with the variances of a parallelogram, and how far its places deviate.
+/// The sides of the box with the variances of a parallelogram, and how far its places deviate; one half in
+/// `2^firm` of a side may lie outside.
 #[inline(always)]
-pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
+pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2], firm: u32) -> ([i32; 2], [Side; 2]) {
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
     let half = [half(a[0], b[0]), half(a[1], b[1])];
     let [x, y] = ground;
-    (spans(half), [x.side(half[0]), y.side(half[1])])
+    (spans(half), [x.side(half[0], firm), y.side(half[1], firm)])
 }
 
 /// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
@@ -250,7 +251,7 @@ pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
 #[inline(always)]
 fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
     let half = (reach >> 4) + (reach >> 5);
-    [x.side(half), y.side(half)]
+    [x.side(half, 0), y.side(half, 0)]
 }
 
 /// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
@@ -269,26 +270,24 @@ pub(super) fn on_mean(
     Some(sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach))
 }
 
-/// The surface over the box of a pixel, and how far its places deviate: none where it leaves the domain. The mean plane
-/// is that above a box around where the ray comes in, three quarters of a pixel to both sides.
+/// The surface over the box of a pixel around where its ray meets the mean plane, and how far its places
+/// deviate: none where too much of it leaves the domain.
 #[inline(always)]
 pub(super) fn whole(
     ground: &[Ground<'_>; 2],
     sight: &Sight,
     pixel: [[i32; 3]; 2],
-    first: Place,
-    reach: i32,
+    place: &Place,
 ) -> Option<(Slopes, [i32; 2])> {
-    let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
-    let (spans, sides) = sides(ground, edges(&place, sight, pixel));
+    let (spans, sides) = sides(ground, edges(place, sight, pixel), 3);
     let ([x, y], [px, py]) = (ground, place.at);
     let mut slopes = Slopes::default();
     slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
     Some((slopes, spans))
 }
 
-/// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in,
-/// which may lie far off.
+/// Where a pixel's ray meets the mean plane above a box around where it meets that of the leaf, which may lie
+/// far off: three quarters of a pixel to both sides.
 #[inline(always)]
 pub(super) fn settled(ground: &[Ground<'_>; 2], sight: &Sight, first: Place, reach: i32) -> Option<Place> {
     on_mean(ground, sight, first, &near(ground, reach), reach)
@@ -313,7 +312,7 @@ impl Quality {
         let [few, many] = self.parts(few);
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
-        let (spans, sides) = sides(ground, [a, b]);
+        let (spans, sides) = sides(ground, [a, b], if few.wrapping_mul(many) > 2 { 1 } else { 2 });
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
         let rises = [rise(a), rise(b)];
         let part = |v: [i32; 2]| [x.part(v[0]), y.part(v[1])];

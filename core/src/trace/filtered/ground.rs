@@ -23,8 +23,10 @@ pub(super) struct Ground<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     half: i32,
-    /// How far to the right it may begin, and on how much of the ground so that at most a quarter is outside.
+    /// How far to the right it may begin, how much of it may lie outside, and on how much of the ground it may
+    /// begin for that.
     last: i32,
+    spare: i32,
     allowed: u32,
     width: Width,
 }
@@ -67,21 +69,27 @@ impl<'a> Ground<'a> {
         self.part(x.saturating_sub(self.origin))
     }
 
-    /// So far to both sides.
+    /// So far to both sides. One half in `2^firm` of that may lie outside where it stands for all of it.
     #[inline(always)]
-    pub(super) fn side(&self, half: i32) -> Side {
+    pub(super) fn side(&self, half: i32, firm: u32) -> Side {
         let half = self.part(half).clamp(0, WHOLE / 2 - 1) | 1;
         let width = NonZeroU32::new(half.unsigned_abs() << 3).unwrap_or(NonZeroU32::MIN);
-        let (last, quarter) = (WHOLE - 1 - (half << 1), half >> 1);
-        Side { half, last, allowed: (last + 1 + (quarter << 1)) as u32, width: self.sums.width_of(width) }
+        let (last, spare) = (WHOLE - 1 - (half << 1), half >> (firm & 31));
+        Side {
+            half,
+            last,
+            spare,
+            allowed: (last + 1 + (spare << 1)) as u32,
+            width: self.sums.width_of(width),
+        }
     }
 
-    /// The profile so far to both sides of a place, moved inside where less than a quarter is outside; none
-    /// where more is. The same along both axes: a function of its own, which writes where its result stays.
+    /// The profile so far to both sides of a place, moved inside where it is outside by no more than it may;
+    /// none where by more. The same along both axes: a function of its own, which writes where its result stays.
     #[inline(never)]
     pub(super) fn around(&self, middle: i32, side: &Side, course: &mut Course) -> Option<()> {
         let from = middle.saturating_sub(side.half);
-        let inside = from.wrapping_add(side.half >> 1) as u32 <= side.allowed;
+        let inside = from.wrapping_add(side.spare) as u32 <= side.allowed;
         if inside { self.beginning(from, side, course) } else { None }
     }
 
@@ -100,12 +108,17 @@ impl<'a> Ground<'a> {
         self.sums.course((from as u32) << 2, (to as u32) << 2, width, course)
     }
 
-    /// The sums up to a place; beyond an end the profile goes on straight.
+    /// The sums up to a place; beyond an end the profile goes on straight, and how far is added to `beyond`.
     #[inline(always)]
-    pub(super) fn at(&self, place: i32) -> Option<Sum> {
+    pub(super) fn at(&self, place: i32, beyond: &mut u32) -> Option<Sum> {
         let inside = place.clamp(0, WHOLE - 1);
         let sum = self.sums.at(&self.sums.place((inside as u32) << 2)?);
-        Some(if inside == place { sum } else { self.sums.beyond(&sum, place.wrapping_sub(inside)) })
+        if inside == place {
+            return Some(sum);
+        }
+        let by = place.wrapping_sub(inside);
+        *beyond = beyond.saturating_add(by.unsigned_abs());
+        Some(self.sums.beyond(&sum, by))
     }
 
     /// The mean value between two places, so far from the first to the second.

@@ -55,11 +55,11 @@ impl Start {
 
 /// The corner of a ray.
 #[inline(always)]
-fn corner(ground: &[Ground<'_>; 2], ways: &Ways, start: &Start) -> Option<Corner> {
+fn corner(ground: &[Ground<'_>; 2], ways: &Ways, start: &Start, beyond: &mut u32) -> Option<Corner> {
     let ([u, v], [x, y]) = (start.at, ground);
     let [s, t] = ways.moved(ground, start.at, start.height);
     let at = [u.saturating_add(s), v.saturating_add(t)];
-    Some(Corner { at, sums: [x.at(at[0])?, y.at(at[1])?] })
+    Some(Corner { at, sums: [x.at(at[0], beyond)?, y.at(at[1], beyond)?] })
 }
 
 /// What an outline has come to: `loop h dy` and `-loop h dx`, 54 fractional bits, and twice the area, 60, in
@@ -103,6 +103,14 @@ impl Loop {
     }
 }
 
+/// Whether corners so far beyond the domain, of `columns + 1` to the upper and to the lower edge, leave too
+/// much of a pixel there: an eighth of its width to one side, a sixteenth behind or before it.
+#[cold]
+fn is_cut(edges: [[i32; 2]; 2], columns: i32, beyond: u32) -> bool {
+    let around = edges.iter().flatten().fold(0_i64, |sum, c| sum + i64::from(c.unsigned_abs()));
+    i64::from(beyond) << 5 > around * i64::from(columns.saturating_add(1))
+}
+
 /// Mean and covariance of the slopes over a pixel around where its ray meets the mean plane, `columns` to its
 /// upper and lower edge; none where it leaves the domain.
 #[inline(always)]
@@ -115,7 +123,7 @@ pub(super) fn spread(
 ) -> Option<Spread> {
     let [x, y] = ground;
     // a pixel that is seen at a flat angle is longer than what the plane has been taken above
-    let place = on_mean(ground, sight, place, &sides(ground, edges(&place, sight, pixel)).1, reach)?;
+    let place = on_mean(ground, sight, place, &sides(ground, edges(&place, sight, pixel), 0).1, reach)?;
     let [a, b] = edges(&place, sight, pixel);
     let ways = Ways::new(ground, sight, place.steep, reach);
     let rise = |[u, v]: [i32; 2]| ((product(place.slope[0], u) + product(place.slope[1], v)) >> 24) as i32;
@@ -125,28 +133,32 @@ pub(super) fn spread(
     let across = cut(a, columns);
     let halves = [[a[0] >> 1, a[1] >> 1], [b[0] >> 1, b[1] >> 1]];
     let (across, down) = (step(across), step(b));
+    let mut beyond = 0;
     // along the upper edge, down, back along the lower one, and up
     let mut start = Start { at: middle, height: z }.minus(step(halves[0])).minus(step(halves[1]));
-    let first = corner(ground, &ways, &start)?;
+    let first = corner(ground, &ways, &start, &mut beyond)?;
     let (mut last, mut sum) = (first, Loop::default());
     for _ in 0..columns {
         start = start.plus(across);
-        let next = corner(ground, &ways, &start)?;
+        let next = corner(ground, &ways, &start, &mut beyond)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
     let second = last;
     start = start.plus(down);
-    let third = corner(ground, &ways, &start)?;
+    let third = corner(ground, &ways, &start, &mut beyond)?;
     sum.add(ground, middle[0], &second, &third);
     last = third;
     for _ in 0..columns {
         start = start.minus(across);
-        let next = corner(ground, &ways, &start)?;
+        let next = corner(ground, &ways, &start, &mut beyond)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
     sum.add(ground, middle[0], &last, &first);
+    if beyond > 0 && is_cut([across.0.map(|c| c.wrapping_mul(columns)), down.0], columns, beyond) {
+        return None;
+    }
     let mean = sum.mean(ground)?;
     // two boxes, one behind the other along the longer edge
     let between = |v: [i32; 2], w: [i32; 2]| [(v[0] >> 1) + (w[0] >> 1), (v[1] >> 1) + (w[1] >> 1)];
@@ -157,7 +169,7 @@ pub(super) fn spread(
     } else {
         ([between(first.at, second.at), between(last.at, third.at)], [a, halves[1]])
     };
-    let (spans, sides) = sides(ground, half);
+    let (spans, sides) = sides(ground, half, 2);
     let [from, to] = ends;
     let part = [(to[0] - from[0]) >> 2, (to[1] - from[1]) >> 2];
     let mut boxes = [Slopes::default(); 2];
