@@ -41,8 +41,8 @@ impl Exponent {
         }
     }
 
-    /// `base^exponent` of four bases at once, 30 fractional bits, in 32; what is not in `[0, 1]` counts as the
-    /// nearer end.
+    /// `base^exponent` of four bases at once, 30 fractional bits, in 32; what is not in `[0, 1]` counts as
+    /// the nearer end.
     ///
     /// Each product is rounded down: short of the power by less than `exponent / 2^30`.
     #[inline(always)]

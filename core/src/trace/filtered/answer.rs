@@ -50,8 +50,8 @@ struct Facing {
     root: (i32, u32),
 }
 
-/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes, twelve
-/// at most. 28 fractional bits.
+/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes,
+/// twelve at most. 28 fractional bits.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shown {
     pub(super) boxes: u32,
@@ -333,8 +333,8 @@ impl<'a> View<'a> {
         Some(Seen { area: area(points)?, matt, highlight: 0 })
     }
 
-    /// The sum of what `tone` says of points, each times its area, 52 fractional bits. Leaves the areas as the
-    /// points' second numbers.
+    /// The sum of what `tone` says of points, each times its area, 52 fractional bits. Leaves the areas as
+    /// the points' second numbers.
     #[inline(always)]
     fn all<const N: usize>(
         &self,

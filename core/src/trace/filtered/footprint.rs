@@ -162,8 +162,8 @@ impl Ways {
         Self { farther, up: 1 << up, rest: i32::MAX - reach }
     }
 
-    /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets that
-    /// at the height which it has at the place.
+    /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets
+    /// that at the height which it has at the place.
     #[inline(always)]
     pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], height: i32) -> [i32; 2] {
         let surface = rounded_down::<24>(product(x.value(u), y.value(v)));

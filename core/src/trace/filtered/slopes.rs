@@ -78,8 +78,8 @@ impl Slopes {
     }
 
     /// Three points of equal weight with the same means and covariances: 0 and -+sqrt(3/2) deviations along x
-    /// with sqrt 2 and -1/sqrt 2 along y for `FAR`, and the other way round for `-FAR`: so that what is of third
-    /// order in two boxes side by side cancels.
+    /// with sqrt 2 and -1/sqrt 2 along y for `FAR`, and the other way round for `-FAR`: so that what is of
+    /// third order in two boxes side by side cancels.
     #[inline(always)]
     pub(super) fn three(&self, far: i32) -> [Slope; 3] {
         /// `sqrt(3/2)`, 30 fractional bits.
