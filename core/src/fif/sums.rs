@@ -19,8 +19,9 @@ use super::pyramid::Pyramid;
 use super::value::FRACTION_Q55;
 use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
+use crate::num::formats::{Q21, Q22, Q24};
 use crate::num::{
-    Real, Wide, high, high_u, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
+    Real, Wide, high, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
     reciprocal_of, sqrt,
 };
 
@@ -59,24 +60,46 @@ pub struct Trend {
     pub covariance: Real,
 }
 
-/// The same before what is derived from it: 24 fractional bits.
-#[derive(Debug, Clone, Copy)]
+/// The same before what is derived from it, in the bits that the upper word of a product has.
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Course {
-    /// Mean slope, mean value, mean square of the slope.
-    pub(crate) slope: i32,
-    pub(crate) value: i32,
-    pub(crate) squares: i32,
+    /// Mean slope, 21 fractional bits.
+    pub(crate) slope: Q21,
+    /// Mean value and mean square of the slope, 22.
+    pub(crate) value: Q22,
+    pub(crate) squares: Q22,
     /// The mean of the values at both ends: times the mean slope, the mean of slope times value.
-    pub(crate) middle: i32,
+    pub(crate) middle: Q24,
 }
 
 impl Course {
-    /// The variance of the slope, and the covariance of slope and value.
+    /// The mean slope, in the middle of what the bits cut off may be.
     #[inline(always)]
-    pub(crate) fn spread(&self) -> [i32; 2] {
-        let times = product_within::<7>;
-        let variance = self.squares.wrapping_sub(times(self.slope, self.slope)).max(0);
-        [variance, times(self.slope, self.middle.wrapping_sub(self.value))]
+    pub(crate) const fn slope(&self) -> Q24 {
+        self.slope << 3 | 4
+    }
+
+    /// The mean value, alike.
+    #[inline(always)]
+    pub(crate) const fn value(&self) -> Q24 {
+        self.value << 2 | 2
+    }
+
+    /// The variance of the slope.
+    #[inline(always)]
+    pub(crate) fn variance(&self) -> Q24 {
+        // of factors that differ: of a square the compiler knows the sign, and takes more than an instruction
+        // to saturate it; below 2^7
+        let square = product(self.slope, self.slope());
+        let above = ((square >> 32) as i32).clamp(-1 << 20, (1 << 20) - 1);
+        let square = above << 11 | (square as u32 >> 21) as i32;
+        (self.squares << 2).wrapping_sub(square).max(0)
+    }
+
+    /// The covariance of slope and value.
+    #[inline(always)]
+    pub(crate) fn covariance(&self) -> Q24 {
+        product_within::<7>(self.slope(), self.middle.wrapping_sub(self.value()))
     }
 }
 
@@ -102,41 +125,53 @@ pub struct Sums<'a> {
     /// Left ends of the maps' intervals, 31 fractional bits.
     starts: &'a [u32],
     depth: u32,
-    /// How many cells and how wide, as [`Sums::place`] says it, if they are of one width.
-    even: Option<(u32, i32)>,
+    /// How many cells and how wide, as a [`Place`] says it, if they are of one width.
+    even: Option<(NonZeroU32, i32)>,
     x0: i64,
     width: u64,
     /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits.
     per_domain: (i32, u32),
-    /// Fractional bits of areas and of squares, beyond 24.
+    /// Fractional bits of areas and of squares, beyond 24; and twice what areas have more, as a factor.
     extra: [u32; 2],
+    up: i32,
 }
 
-/// The reciprocals of an interval's width, for [`over`]: how far a difference is shifted up, and a factor.
+/// The reciprocals of an interval's width, for [`over`]: a power of two that a difference is multiplied by,
+/// and a factor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Width {
-    slope: (u32, i32),
-    area: (u32, i32),
-    squares: (u32, i32),
+    slope: (i32, i32),
+    area: (i32, i32),
+    squares: (i32, i32),
 }
 
-/// The width of a cell, 31 fractional bits, with 20 and `extra`.
-fn broad(width: u32, extra: u32) -> i32 {
-    ((width >> 11) << (extra & 15)) as i32
+/// Where a place lies: the sums at both ends of a cell, how far between them, 32 fractional bits, and minus
+/// the cell's width, 31.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place<'a> {
+    ends: &'a [Sum; 2],
+    part: u32,
+    less: i32,
+}
+
+/// Minus a width of 31 fractional bits, at most the whole.
+fn less(width: u32) -> i32 {
+    (width as i32).wrapping_neg()
 }
 
 /// Shifted up by so much, or the factor down.
 #[inline(always)]
-fn shifted(up: i32, factor: i32) -> (u32, i32) {
-    let down = up.min(0).unsigned_abs().min(31);
-    (up.clamp(0, 31).unsigned_abs(), factor >> down)
+fn shifted(up: i32, factor: i32) -> (i32, i32) {
+    let down = up.wrapping_neg().clamp(0, 31);
+    (1 << up.clamp(0, 31), factor >> down)
 }
 
 /// A difference over a width, but for a factor of 4 or 8: its upper word is all that is needed of the
 /// product.
 #[inline(always)]
-fn over(v: i32, (up, factor): (u32, i32)) -> i32 {
-    high(v << (up & 31), factor)
+fn over(v: i32, (up, factor): (i32, i32)) -> i32 {
+    // a shift by a variable takes one more instruction
+    high(v.wrapping_mul(up), factor)
 }
 
 impl Sums<'static> {
@@ -189,7 +224,8 @@ impl<'a> Sums<'a> {
             let slope = quotient(last.saturating_sub(first), 48, length.max(1));
             let squares = mul_high(slope, slope).saturating_add(cell.slope.variance);
             if level == 0 {
-                let most = fif.range.0.unsigned_abs().max(fif.range.1.unsigned_abs());
+                let (low, high) = fif.range;
+                let most = low.unsigned_abs().max(high.unsigned_abs()).max(high.abs_diff(low));
                 extra = [room(most as i64, FRACTION_Q55), room(squares, FRACTION_OF_SQUARES)];
             }
             // means of what stays below 2^31 stay there
@@ -221,13 +257,14 @@ impl<'a> Sums<'a> {
             let exact = (j << 31).checked_div(fif.maps.len() as u64).unwrap_or(0);
             (exact as u32).abs_diff(*start) <= 1
         };
-        let count = (needed - 1).clamp(1, u32::MAX as usize) as u32;
-        let even =
-            (0..).zip(&fif.starts).all(even).then_some((count, broad((1_u32 << 31) / count, extra[0])));
+        let count = NonZeroU32::new((needed - 1).min(u32::MAX as usize) as u32);
+        let even = count.filter(|_| (0..).zip(&fif.starts).all(even));
+        let even = even.map(|count| (count, less((1_u32 << 31) / count)));
         let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
         let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
         let (x0, width) = (fif.x0, fif.width);
-        Ok(Self { places, starts: &fif.starts, depth, even, x0, width, per_domain, extra })
+        let up = 2 << extra[0];
+        Ok(Self { places, starts: &fif.starts, depth, even, x0, width, per_domain, extra, up })
     }
 
     /// Whether a pyramid is that of the same function.
@@ -249,9 +286,10 @@ impl<'a> Sums<'a> {
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
-        let course = self.between(&self.at(from)?, &self.at(to)?, &width);
-        let [slope, value] = [course.slope, course.value].map(Real::from_bits);
-        let [variance, covariance] = course.spread().map(Real::from_bits);
+        let mut course = Course::default();
+        self.course(from, to, &width, &mut course)?;
+        let [slope, value] = [course.slope(), course.value()].map(Real::from_bits);
+        let [variance, covariance] = [course.variance(), course.covariance()].map(Real::from_bits);
         Some(Trend { slope, value, variance, covariance })
     }
 
@@ -286,50 +324,70 @@ impl<'a> Sums<'a> {
         Width { slope: shifted(up(8).wrapping_add(more as i32), per_length), area, squares }
     }
 
-    /// The two places around another, 32 fractional bits, how far it lies between them, and the cell's width,
-    /// 20 and those that areas have more.
+    /// In which cell a place lies, 32 fractional bits: there is one for each.
     #[inline(always)]
-    fn place(&self, u: u32) -> Option<(&'a [Sum; 2], u32, i32)> {
-        let (node, part, width) = match self.even {
-            Some((count, width)) => {
-                let place = product_u(u, count);
-                ((place >> 32) as usize, place as u32, width)
-            }
-            None => self.uneven(u >> 1),
-        };
-        Some((self.places.get(node..)?.first_chunk()?, part, width))
+    pub(crate) fn place(&self, u: u32) -> Option<Place<'a>> {
+        match self.even {
+            Some(even) => self.place_among(u, even),
+            None => self.place_uneven(u),
+        }
+    }
+
+    /// What it does between two places so far apart, written to where it stays; none where there are none.
+    #[inline(always)]
+    pub(crate) fn course(&self, from: u32, to: u32, width: &Width, course: &mut Course) -> Option<()> {
+        let Some(even) = self.even else { return self.course_uneven(from, to, width, course) };
+        let (from, to) = (self.place_among(from, even)?, self.place_among(to, even)?);
+        *course = self.between(&self.at(&from), &self.at(&to), width);
+        Some(())
     }
 
     #[cold]
     #[inline(never)]
-    fn uneven(&self, u: u32) -> (usize, u32, i32) {
+    fn course_uneven(&self, from: u32, to: u32, width: &Width, course: &mut Course) -> Option<()> {
+        let (from, to) = (self.place_uneven(from)?, self.place_uneven(to)?);
+        *course = self.between(&self.at(&from), &self.at(&to), width);
+        Some(())
+    }
+
+    #[inline(always)]
+    fn place_among(&self, u: u32, (count, less): (NonZeroU32, i32)) -> Option<Place<'a>> {
+        let place = product_u(u, count.get());
+        let ends = self.places.get((place >> 32) as usize..)?.first_chunk()?;
+        Some(Place { ends, part: place as u32, less })
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn place_uneven(&self, u: u32) -> Option<Place<'a>> {
+        let u = u >> 1;
         let cell = (0..self.depth).fold(Ended::WHOLE, |cell, _| cell.holding(self.starts, u, true));
         let (into, width) = (u.saturating_sub(cell.start), cell.end.saturating_sub(cell.start));
         let part = (u64::from(into) << 32).checked_div(width.into()).unwrap_or(0);
-        (cell.index, part.min(u64::from(u32::MAX)) as u32, broad(width, self.extra[0]))
+        let ends = self.places.get(cell.index..)?.first_chunk()?;
+        Some(Place { ends, part: part.min(u32::MAX.into()) as u32, less: less(width) })
     }
 
-    /// What the function has come to at a place, 32 fractional bits: there is one for each.
+    /// What the function has come to at a place.
     #[inline(always)]
-    pub(crate) fn at(&self, u: u32) -> Option<Sum> {
-        let ([a, b], part, width) = self.place(u)?;
+    pub(crate) fn at(&self, Place { ends: [a, b], part, less }: &Place<'_>) -> Sum {
         let half = (part >> 1) as i32;
-        let rise = |a: i32, b: i32| b.wrapping_sub(a) << 1;
-        let value = rise(a.value, b.value);
-        // t (1 - t) / 2 of a cell with 31 fractional bits
-        let bent = (high_u(part, part.wrapping_neg()) >> 2) as i32;
-        let short = (product(high(value, bent), width) >> 20) as i32;
-        Some(Sum {
-            value: a.value.wrapping_add(high(value, half)),
-            area: a.area.wrapping_add(high(rise(a.area, b.area), half)).wrapping_sub(short),
-            squares: a.squares.wrapping_add(high(rise(a.squares, b.squares), half)),
-        })
+        let gained = |a: i32, b: i32| high(b.wrapping_sub(a) << 1, half);
+        let risen = gained(a.value, b.value);
+        // half of what has risen times the rest of the way: a rise leaves room for the bits that areas have
+        // more
+        let short = high(high(risen.wrapping_mul(self.up), half ^ i32::MAX), *less);
+        Sum {
+            value: a.value.wrapping_add(risen),
+            area: a.area.wrapping_add(gained(a.area, b.area)).wrapping_add(short),
+            squares: a.squares.wrapping_add(gained(a.squares, b.squares)),
+        }
     }
 
     /// The value at a place.
     #[inline(always)]
     pub(crate) fn value_at(&self, u: u32) -> i32 {
-        let Some(([a, b], part, _)) = self.place(u) else { return 0 };
+        let Some(Place { ends: [a, b], part, .. }) = self.place(u) else { return 0 };
         a.value.wrapping_add(high(b.value.wrapping_sub(a.value) << 1, (part >> 1) as i32))
     }
 
@@ -366,11 +424,11 @@ impl<'a> Sums<'a> {
     /// What it does between two places of this width.
     #[inline(always)]
     pub(crate) fn between(&self, a: &Sum, b: &Sum, width: &Width) -> Course {
-        // means of what is inside the format, in the middle of what the bits cut off may be
+        // means of what is inside the format
         Course {
-            slope: over(b.value.wrapping_sub(a.value), width.slope) << 3 | 4,
-            value: over(b.area.wrapping_sub(a.area), width.area) << 2 | 2,
-            squares: over(b.squares.wrapping_sub(a.squares), width.squares) << 2,
+            slope: over(b.value.wrapping_sub(a.value), width.slope),
+            value: over(b.area.wrapping_sub(a.area), width.area),
+            squares: over(b.squares.wrapping_sub(a.squares), width.squares),
             middle: (a.value >> 1).wrapping_add(b.value >> 1),
         }
     }

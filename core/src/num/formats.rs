@@ -31,6 +31,7 @@ pub(crate) type Q14 = i32;
 pub(crate) type Q16 = i32;
 pub(crate) type Q17 = i32;
 pub(crate) type Q18 = i32;
+pub(crate) type Q21 = i32;
 pub(crate) type Q22 = i32;
 pub(crate) type Q24 = i32;
 pub(crate) type Q25 = i32;

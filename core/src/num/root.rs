@@ -12,7 +12,7 @@ use core::num::NonZeroU32;
 
 use super::formats::{Q31, UQ30, UQ31};
 use super::product::{high, high_of_square_u, high_u, high_u_below, product_u, square_u};
-use super::zeros::shifted_up_evenly;
+use super::zeros::{evenly, shifted_up_evenly};
 
 /// Seeds of `1/m` for `m = 1 + (i + 1/2) / 128`, 16 fractional bits.
 pub(super) static SEEDS: [u16; 128] = {
@@ -87,6 +87,22 @@ pub fn reciprocal_sqrt(v: u64) -> (u32, u32) {
 pub(crate) fn reciprocal_sqrt_of(v: u64) -> (Q31, u32) {
     let (m, half) = normal(v);
     (newton(m) as i32, half)
+}
+
+/// The same for a `v` of at least `2^32`: there is nothing to choose.
+#[inline(always)]
+pub(crate) fn reciprocal_sqrt_of_long(v: u64) -> (Q31, u32) {
+    let (high, even) = evenly((v >> 32) as u32);
+    let m = high | ((v as u32) >> 1) >> (even ^ 31);
+    (newton(m) as i32, (even >> 1) ^ 31)
+}
+
+/// `v` as `m / 4^up` with `m` in `[1, 4)`, 30 fractional bits, and `1/sqrt(m)`, 31 fractional bits, below 1:
+/// `m`, the root and `up`, at most 15. Domain: `v > 0`.
+#[inline(always)]
+pub(crate) fn root_of_word(v: u32) -> (UQ30, UQ31, u32) {
+    let (m, even) = evenly(v);
+    (m, newton(m), even >> 1)
 }
 
 /// `floor(sqrt(v))`. Exact. Cost: 9 multiplications.
@@ -244,6 +260,19 @@ mod tests {
             worst = worst.max((f64::from(m) / (s as f64).exp2() * (v as f64).sqrt() - 1.0).abs());
         }
         assert!(worst > (-31.0_f64).exp2() && worst < (-29.0_f64).exp2(), "{worst:e}");
+    }
+
+    /// Of large numbers and of words alike: the same mantissas, and numbers as they are taken apart.
+    #[test]
+    fn a_reciprocal_root_is_the_same_where_less_is_to_be_chosen() {
+        for v in inputs().filter(|v| *v > 0) {
+            let long = v | 1 << (32 + v % 31);
+            assert_eq!(reciprocal_sqrt_of_long(long), reciprocal_sqrt_of(long), "{long}");
+            let word = (v >> (v % 33)) as u32 | 1;
+            let (m, root, up) = root_of_word(word);
+            assert_eq!((m >> (2 * up), (m >> 30 > 0)), (word, true), "{word}");
+            assert_eq!(reciprocal_sqrt_of(word.into()), (root as i32, 15 - up), "{word}");
+        }
     }
 
     #[test]

@@ -10,11 +10,17 @@ use core::num::NonZeroU32;
 /// Exact.
 #[inline(always)]
 pub(crate) fn shifted_up_evenly(v: NonZeroU32) -> (u32, u32) {
+    evenly(v.get())
+}
+
+/// The same of a number that its type does not know not to be 0.
+#[inline(always)]
+pub(crate) fn evenly(v: u32) -> (u32, u32) {
     if cfg!(no_long_product) {
-        by_halving(v.get())
+        by_halving(v)
     } else {
         let places = v.leading_zeros() & 30;
-        (v.get() << places, places)
+        (v << places, places)
     }
 }
 

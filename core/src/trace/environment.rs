@@ -4,7 +4,7 @@ use core::num::NonZeroU32;
 
 use crate::Error;
 use crate::num::{
-    Real, Unit, Vec3, Wide, high, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of,
+    Real, Unit, Vec3, Wide, high, high_u, product, product_u, reciprocal, reciprocal_of, reciprocal_sqrt_of,
     rough_sqrt, rounded_down, scaled, square,
 };
 
@@ -128,8 +128,10 @@ pub(super) struct Checkerboard {
     /// The scale, and times the root of 3, which makes half of an interval of a deviation.
     scale: i32,
     wide: i32,
-    /// Mantissa and shift.
-    per_fade: (u32, u32),
+    /// Where the fading starts, a power of two that brings what is below to 32 bits, and the reciprocal.
+    fade: u32,
+    up: u32,
+    per_fade: u32,
 }
 
 /// Directions around a unit vector `e`, that change by two vectors, each times a number of mean 0.
@@ -149,9 +151,11 @@ impl Checkerboard {
         };
         let [bright, dark] = [bright, dark].map(|tone| tone.to_bits() >> 1);
         let (middle, half) = (bright.wrapping_add(dark), bright.wrapping_sub(dark));
-        let (scale, per_fade) = (scale.to_bits(), reciprocal(fade.to_bits().unsigned_abs()));
+        let (scale, fade) = (scale.to_bits(), NonZeroU32::new(fade.to_bits().unsigned_abs())?);
+        let (per_fade, zeros) = reciprocal_of(fade);
         let wide = (product(scale, 1_859_775_393) >> 30) as i32;
-        Some(Self { horizon, middle, half, scale, wide, per_fade })
+        let up = 1 << zeros;
+        Some(Self { horizon, middle, half, scale, wide, fade: fade.get(), up, per_fade: per_fade as u32 })
     }
 
     /// The mean tone.
@@ -178,9 +182,11 @@ impl Checkerboard {
             let both = rounded_down::<30>(both);
             tone = tone.wrapping_add((product(self.half, both) >> 30) as i32);
         }
-        let (mantissa, shift) = self.per_fade;
-        let part = (product_u(elevation, mantissa) >> (shift.wrapping_sub(30) & 63)).min(1 << 30) as i32;
-        mix(self.horizon, Unit::from_bits(tone), part).clamp(Unit::ZERO, Unit::ONE)
+        let part = high_u(elevation.min(self.fade).wrapping_mul(self.up), self.per_fade) as i32;
+        let horizon = self.horizon.to_bits();
+        // 28 bits of it count
+        let faded = high(tone.wrapping_sub(horizon), part) << 2;
+        Unit::from_bits(horizon.wrapping_add(faded).max(0))
     }
 }
 
@@ -204,12 +210,14 @@ fn mean(at: i32, variance: u64, per_deviation: u32) -> i32 {
         let odd = at & ((1 << 25) - 1);
         odd.min((1 << 25) - odd)
     };
-    // a half of 16 squares at most: the whole has two zeros at least
-    let half = (product_u(rough_sqrt(variance), per_deviation) >> 14).clamp(1 << 10, 1 << 28) as i32;
-    let gained = integral(at.wrapping_add(half)).wrapping_sub(integral(at.wrapping_sub(half)));
-    let (mantissa, zeros) =
-        reciprocal_of(NonZeroU32::new(half.unsigned_abs() << 1).unwrap_or(NonZeroU32::MIN));
-    high(gained << (zeros.wrapping_sub(2) & 31), mantissa) << 2
+    let half = product_u(rough_sqrt(variance), per_deviation);
+    // a half of little more than 16 squares at most: it has two zeros at least
+    let half = ((half >> 32) as u32).min(1 << 10) << 18 | (half as u32 >> 14) | 1;
+    let from = |half: i32| integral(at.wrapping_add(half));
+    let gained = from(half as i32).wrapping_sub(from((half as i32).wrapping_neg()));
+    let (mantissa, zeros) = reciprocal_of(NonZeroU32::MIN | half);
+    // over twice the half
+    high(gained << (zeros.wrapping_sub(2) & 31), mantissa) << 1
 }
 
 /// Whether the square in a direction is an even one; any where its tone does not count.

@@ -24,33 +24,46 @@ pub(super) fn power(base: Unit, exponent: u16) -> Unit {
     result
 }
 
-/// `base^exponent` of four bases at once, 30 fractional bits; what is not in `[0, 1]` counts as the nearer
-/// end.
-///
-/// Inside 32 fractional bits, each product rounded down: short of the power by less than `exponent / 2^30`.
-#[inline]
-pub(super) fn powers(bases: [i32; 4], exponent: u16) -> [i32; 4] {
-    let squares = |square: [u32; 4]| square.map(|s| high_u(s, s));
-    let mut square = bases.map(|base| (base.clamp(0, (1 << 30) - 1) as u32) << 2);
-    let twos = exponent.trailing_zeros();
-    let mut rest = u32::from(exponent) >> twos;
-    if rest == 0 {
-        return [1 << 30; 4];
-    }
-    for _ in 0..twos {
-        square = squares(square);
-    }
-    let mut result = square;
-    while rest > 1 {
-        square = squares(square);
-        rest >>= 1;
-        if rest & 1 == 1 {
-            for (r, s) in result.iter_mut().zip(square) {
-                *r = high_u(*r, s);
-            }
+/// An exponent above 0, as an odd number times so many twos.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Exponent {
+    odd: u32,
+    twos: u32,
+}
+
+impl Exponent {
+    /// None of 0.
+    pub(super) const fn new(exponent: u16) -> Option<Self> {
+        let twos = exponent.trailing_zeros();
+        match exponent.checked_shr(twos) {
+            None => None,
+            Some(odd) => Some(Self { odd: odd as u32, twos }),
         }
     }
-    result.map(|r| (r >> 2) as i32)
+
+    /// `base^exponent` of four bases at once, 30 fractional bits, in 32; what is not in `[0, 1]` counts as
+    /// the nearer end.
+    ///
+    /// Each product is rounded down: short of the power by less than `exponent / 2^30`.
+    #[inline(always)]
+    pub(super) fn powers<const N: usize>(self, bases: [i32; N]) -> [u32; N] {
+        let squares = |square: [u32; N]| square.map(|s| high_u(s, s));
+        let mut square = bases.map(|base| (base.clamp(0, (1 << 30) - 1) as u32) << 2);
+        for _ in 0..self.twos {
+            square = squares(square);
+        }
+        let (mut result, mut rest) = (square, self.odd);
+        while rest > 1 {
+            square = squares(square);
+            rest >>= 1;
+            if rest & 1 == 1 {
+                for (r, s) in result.iter_mut().zip(square) {
+                    *r = high_u(*r, s);
+                }
+            }
+        }
+        result
+    }
 }
 
 #[cfg(test)]
@@ -64,7 +77,8 @@ mod tests {
         for exponent in (0..=70).chain([128, 1000, 4097, u16::MAX]) {
             for i in 0..200_i32 {
                 let bases = [i, 2 * i, 3 * i, 5 * i].map(|i| (1 << 30) - i * i * 20);
-                for (base, got) in bases.into_iter().zip(powers(bases, exponent)) {
+                let powers = Exponent::new(exponent).map_or([u32::MAX; 4], |exponent| exponent.powers(bases));
+                for (base, got) in bases.into_iter().zip(powers.map(|power| (power >> 2) as i32)) {
                     let exact = (f64::from(base) / 2_f64.powi(30)).powi(exponent.into()) * 2_f64.powi(30);
                     let short = (exact - f64::from(got)) / f64::from(exponent.max(1));
                     assert!((-1e-3..1.0 + 1e-3).contains(&short), "{base} {exponent}: {short}");
@@ -75,7 +89,8 @@ mod tests {
             }
         }
         assert!(worst > 0.5, "{worst}");
-        assert_eq!(powers([i32::MIN, -1, 0, i32::MAX], 3), [0, 0, 0, (1 << 30) - 3]);
-        assert_eq!(powers([-1, 0, 1, 2], 0), [1 << 30; 4]);
+        let cubes = Exponent::new(3).map(|three| three.powers([i32::MIN, -1, 0, i32::MAX]));
+        assert_eq!(cubes.map(|cubes| cubes.map(|cube| cube >> 2)), Some([0, 0, 0, (1 << 30) - 3]));
+        assert!(Exponent::new(0).is_none());
     }
 }

@@ -22,8 +22,9 @@ const COUNT: usize = 12;
 /// Pixels of a row at a time.
 const RUN: u32 = 12;
 
-const HIGHLIGHT: Finish =
-    Finish::Phong { ambient: Unit::ZERO, diffuse: Unit::ZERO, specular: Unit::ONE, shininess: 32 };
+const fn highlight(shininess: u16) -> Finish {
+    Finish::Phong { ambient: Unit::ZERO, diffuse: Unit::ZERO, specular: Unit::ONE, shininess }
+}
 
 /// The pixels with this finish, plain where there is no quality.
 #[inline(always)]
@@ -82,17 +83,27 @@ pub(super) fn diffuse_fine(watch: &mut Watch<'_>) -> Tally {
 
 #[inline(never)]
 pub(super) fn plain_highlight(watch: &mut Watch<'_>) -> Tally {
-    pixels(watch, HIGHLIGHT, figure_6_gg_phong::ENVIRONMENT, None)
+    pixels(watch, highlight(32), figure_6_gg_phong::ENVIRONMENT, None)
 }
 
 #[inline(never)]
 pub(super) fn highlight_fine(watch: &mut Watch<'_>) -> Tally {
-    pixels(watch, HIGHLIGHT, figure_6_gg_phong::ENVIRONMENT, Some(Quality::Fine))
+    pixels(watch, highlight(32), figure_6_gg_phong::ENVIRONMENT, Some(Quality::Fine))
 }
 
 #[inline(never)]
 pub(super) fn highlight_finest(watch: &mut Watch<'_>) -> Tally {
-    pixels(watch, HIGHLIGHT, figure_6_gg_phong::ENVIRONMENT, Some(Quality::Finest))
+    pixels(watch, highlight(32), figure_6_gg_phong::ENVIRONMENT, Some(Quality::Finest))
+}
+
+#[inline(never)]
+pub(super) fn plain_highlight_8(watch: &mut Watch<'_>) -> Tally {
+    pixels(watch, highlight(8), figure_6_gg_phong::ENVIRONMENT, None)
+}
+
+#[inline(never)]
+pub(super) fn highlight_8_fine(watch: &mut Watch<'_>) -> Tally {
+    pixels(watch, highlight(8), figure_6_gg_phong::ENVIRONMENT, Some(Quality::Fine))
 }
 
 #[inline(never)]

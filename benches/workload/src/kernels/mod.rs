@@ -176,6 +176,8 @@ const TABLE: &[Kernel] = &[
     roomy(alone("plain highlight", "pixel of G x G", filtered::plain_highlight)),
     roomy(alone("filtered highlight, fine", "pixel of G x G", filtered::highlight_fine)),
     roomy(alone("filtered highlight, finest", "pixel of G x G", filtered::highlight_finest)),
+    roomy(alone("plain highlight of exponent 8", "pixel of G x G", filtered::plain_highlight_8)),
+    roomy(alone("filtered highlight of exponent 8, fine", "pixel of G x G", filtered::highlight_8_fine)),
     roomy(alone("plain mirror", "pixel of G x G", filtered::plain_mirror)),
     roomy(alone("filtered mirror, fine", "pixel of G x G", filtered::mirror_fine)),
     roomy(alone("slopes of a lattice", "cell", lattice::slopes)),

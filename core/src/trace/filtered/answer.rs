@@ -16,22 +16,27 @@ use core::num::NonZeroU32;
 
 use super::footprint::Footprint;
 use super::ground::Ground;
-use super::slopes::{Slope, Spread, times};
-use crate::num::{Unit, Vec3, high, product, reciprocal_of, reciprocal_sqrt_of, rounded_down};
+use super::slopes::{FAR, Slope, Slopes, Spread, times};
+use crate::num::{
+    Unit, Vec3, high, product, product_u, reciprocal_of, reciprocal_sqrt_of_long, rounded_down, scaled,
+};
 use crate::trace::environment::{Around, Checkerboard, Environment};
 use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
-use crate::trace::power::{powers, times as part_of};
+use crate::trace::power::{Exponent, times as part_of};
+
+/// The exponent of a highlight up to which three points of a box do.
+const GENTLE: u16 = 16;
 
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
-    /// The direction of the ray, of length 1.
+    /// The direction of the ray, of length 1; its length does not matter where the finish is matt.
     direction: [i32; 3],
     light: [i32; 3],
-    /// `d . l`.
+    /// `d . l`, where there is a highlight of Phong's.
     straight: i32,
-    finish: Finish,
+    finish: &'a Finish,
     environment: &'a Environment,
     checkerboard: Option<&'a Checkerboard>,
 }
@@ -39,20 +44,50 @@ pub(super) struct View<'a> {
 /// A normal: its length's reciprocal, and how it stands to eye and light.
 #[derive(Debug, Clone, Copy)]
 struct Facing {
-    /// `-n . d`, 22 fractional bits.
+    /// `-n . d` and `n . l`, 22 fractional bits.
     area: i32,
-    /// `-n^ . d` and `n^ . l`.
-    eye: i32,
-    lit: i32,
+    light: i32,
     root: (i32, u32),
 }
 
-/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes.
+/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes,
+/// twelve at most. 28 fractional bits.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shown {
-    pub(super) boxes: i64,
+    pub(super) boxes: u32,
+    pub(super) matt: u32,
+    pub(super) highlight: u32,
+}
+
+/// What four points show, each on its area: the sum of the areas, 22 fractional bits, and of what they show
+/// times them, 52.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    pub(super) area: NonZeroU32,
     pub(super) matt: i64,
     pub(super) highlight: i64,
+}
+
+impl Shown {
+    /// One more box.
+    #[inline(always)]
+    fn add(&mut self, Seen { area, matt, highlight }: &Seen) {
+        let (mantissa, zeros) = reciprocal_of(*area);
+        let over = |sum: i64| {
+            // below the area; four areas leave a zero
+            let high = ((sum >> 32) as i32) << (zeros & 31);
+            high_part(high | (sum as u32 >> (32_u32.wrapping_sub(zeros) & 31)) as i32, mantissa)
+        };
+        self.boxes += 1;
+        self.matt = self.matt.wrapping_add(over(*matt));
+        self.highlight = self.highlight.wrapping_add(over(*highlight));
+    }
+}
+
+/// The upper word of a product of what is not below 0.
+#[inline(always)]
+fn high_part(a: i32, b: i32) -> u32 {
+    high(a, b) as u32
 }
 
 /// `n . v`, 22 fractional bits.
@@ -72,10 +107,21 @@ impl Facing {
     fn new(slope: Slope, view: &View<'_>) -> Self {
         let [p, q] = slope;
         // at least 2^48
-        let root = reciprocal_sqrt_of((product(p, p) + product(q, q) + (1 << 48)) as u64);
+        let root = reciprocal_sqrt_of_long((product(p, p) + product(q, q) + (1 << 48)) as u64);
         let area = dot(slope, view.direction).wrapping_neg();
-        let lit = dot(slope, view.light);
-        Self { area, eye: cosine(area, root), lit: cosine(lit, root), root }
+        Self { area, light: dot(slope, view.light), root }
+    }
+
+    /// `-n^ . d`.
+    #[inline(always)]
+    fn eye(&self) -> i32 {
+        cosine(self.area, self.root)
+    }
+
+    /// `n^ . l`.
+    #[inline(always)]
+    fn lit(&self) -> i32 {
+        cosine(self.light, self.root)
     }
 }
 
@@ -87,10 +133,14 @@ fn cosine(v: i32, (mantissa, half): (i32, u32)) -> i32 {
     high(v << (31_u32.wrapping_sub(half) & 31), mantissa) << 2
 }
 
-/// A number with 24 fractional bits over the length of a normal, 30 fractional bits.
+/// The sum of the areas that points have as their second numbers, each below 2^29; none where one is below 0.
 #[inline(always)]
-fn scaled(v: i32, (mantissa, half): (i32, u32)) -> i32 {
-    (product(v, mantissa) >> ((half + 1) & 63)) as i32
+fn area<const N: usize>(points: &[Slope; N]) -> Option<NonZeroU32> {
+    let (sum, turned) = points
+        .iter()
+        .fold((0, 0), |(sum, turned): (i32, i32), [_, area]| (sum.wrapping_add(*area), turned | area));
+    // what no unit of area shows does not count
+    (turned >= 0).then_some(NonZeroU32::MIN | sum as u32)
 }
 
 /// The tone of a matt surface.
@@ -101,122 +151,203 @@ fn matte(ambient: Unit, matt: Unit) -> Unit {
 
 impl<'a> View<'a> {
     pub(super) fn new(
-        direction: Vec3<Unit>,
+        direction: [i32; 3],
         light: Vec3<Unit>,
-        finish: Finish,
+        finish: &'a Finish,
         environment: &'a Environment,
         checkerboard: Option<&'a Checkerboard>,
     ) -> Self {
-        let [direction, towards] = [direction, light].map(|v| [v.x, v.y, v.z].map(Unit::to_bits));
-        let straight = direction.iter().zip(towards).fold(0, |sum, (a, b)| sum + unit_product(*a, b));
-        Self { direction, light: towards, straight, finish, environment, checkerboard }
+        let light = [light.x, light.y, light.z].map(Unit::to_bits);
+        let straight = match finish {
+            Finish::Phong { .. } => {
+                direction.iter().zip(light).fold(0_i32, |sum, (a, b)| sum.wrapping_add(unit_product(*a, b)))
+            }
+            _ => 0,
+        };
+        Self { direction, light, straight, finish, environment, checkerboard }
     }
 
     /// What a box shows in diffuse light, to second order; none where a part of it may turn away.
     ///
     /// `c = n^ . l` and `w = -n . d` as functions of the slopes, `S` their covariance, `u` the slopes over
     /// `|n|`: `E(w c) / E(w) = c + w' S c' / w + tr(c'' S) / 2` with `w' = d`, `c' = -(l + c u) / |n|` and
-    /// `tr(c'' S) = (2 l S u + 3 c u S u - c tr S) / |n|^2`.
+    /// `tr(c'' S) = (2 l S u + 3 c u S u - c tr S) / |n|^2`. The length of `d` does not matter.
     #[inline(always)]
     pub(super) fn glance(&self, ambient: Unit, spread: &Spread) -> Option<Unit> {
         let Spread { mean, covariance: [pp, pq, qq] } = *spread;
         let facing = Facing::new(mean, self);
         let ([dx, dy, _], [lx, ly, _]) = (self.direction, self.light);
-        let with = |[a, b]: Slope, x: i32, y: i32| unit_product(a, x).saturating_add(unit_product(b, y));
-        let under = |x: i32, y: i32| [with([pp, pq], x, y), with([pq, qq], x, y)];
-        let (along, to_light) = (under(dx, dy), under(lx, ly));
+        let sum = |[a, b]: [i32; 2], [x, y]: [i32; 2]| rounded_down::<30>(product(a, x) + product(b, y));
+        let under = |v: [i32; 2]| [sum([pp, pq], v), sum([pq, qq], v)];
+        let (eye, c, root) = (facing.eye(), facing.lit(), facing.root);
+        let u = [scaled(mean[0], root), scaled(mean[1], root)];
+        let (along, across) = (under([dx, dy]), under(u));
+        // 1 / |n|^2
+        let short = high(root.0, root.0) >> (root.1.wrapping_mul(2).wrapping_sub(48) & 31);
         // one deviation may not turn away
-        let area = facing.area << 2;
-        if area <= 0 || times(area, area) <= with(along, dx, dy) {
+        if eye <= 0 || product(eye, eye) >> 36 <= product(sum(along, [dx, dy]), short) >> 30 {
             return None;
         }
-        let (c, root) = (facing.lit, facing.root);
-        let [u, v] = mean.map(|s| scaled(s, root));
-        let cross = scaled(with(to_light, dx, dy).saturating_add(unit_product(with(along, u, v), c)), root);
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area.unsigned_abs())?);
-        let cross = (product(cross, mantissa) >> (38_u32.saturating_sub(zeros) & 63)) as i32;
-        let own = with(under(u, v), u, v).saturating_mul(3).saturating_sub(pp).saturating_sub(qq);
-        let bent = (with(to_light, u, v) << 1).saturating_add(unit_product(own, c));
-        let bent = unit_product(scaled(bent, root), scaled(1 << 24, root)) >> 1;
-        let matt = Unit::from_bits(c.saturating_sub(cross).saturating_add(bent).clamp(0, 1 << 30));
+        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(eye.unsigned_abs())?);
+        let cross = sum(along, [lx, ly]).wrapping_add(unit_product(sum(along, u), c));
+        let cross = product(cross, mantissa);
+        let cross = ((cross >> 32) as i32) << (zeros & 31)
+            | (cross as u32 >> (32_u32.wrapping_sub(zeros) & 31)) as i32;
+        let own = sum(across, u);
+        let own = unit_product(own.wrapping_mul(3).wrapping_sub(pp).wrapping_sub(qq), c) >> 1;
+        let bent = sum(across, [lx, ly]).wrapping_add(own).wrapping_sub(cross);
+        let bent = unit_product(bent, short).clamp(-(1 << 24), 1 << 24) << 6;
+        let matt = Unit::from_bits(c.wrapping_add(bent).clamp(0, 1 << 30));
         Some(matte(ambient, matt))
     }
 
     /// What the footprint shows; none where a part of it may turn away from the eye.
     #[inline(always)]
-    pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &Footprint) -> Option<Unit> {
-        let mut shown = Shown::default();
-        if let (Finish::Mirror, Some(checkerboard)) = (self.finish, self.checkerboard) {
-            footprint.each(ground, |slopes| {
-                let mirrored = self.mirrored(&Spread::of(slopes, footprint.half()))?;
-                shown.boxes += 1;
-                shown.matt += i64::from(checkerboard.over(&mirrored).to_bits());
-                Some(())
-            })?;
-            return Some(self.finished(&shown));
-        }
-        footprint.each(ground, |slopes| self.add(&slopes.points(), &mut shown))?;
+    pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Unit> {
+        let shown = match (*self.finish, self.checkerboard) {
+            (Finish::Mirror, Some(checkerboard)) => self.reflected(checkerboard, ground, footprint)?,
+            (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) => {
+                self.gleaming(shininess, ground, footprint)?
+            }
+            (Finish::Phong { shininess, .. }, _) => self.shining(shininess, ground, footprint)?,
+            _ => self.pointed(ground, footprint)?,
+        };
         Some(self.finished(&shown))
+    }
+
+    /// What it shows of a checkerboard.
+    #[inline(never)]
+    fn reflected(
+        &self,
+        checkerboard: &Checkerboard,
+        ground: &[Ground<'_>; 2],
+        footprint: &mut Footprint,
+    ) -> Option<Shown> {
+        let (mut shown, mut slopes) = (Shown::default(), Slopes::default());
+        for _ in 0..footprint.count() {
+            footprint.next(ground, &mut slopes)?;
+            let mirrored = self.mirrored(&Spread::of(&slopes, footprint.spans()))?;
+            shown.boxes += 1;
+            shown.matt = shown.matt.wrapping_add(checkerboard.over(&mirrored).to_bits() as u32 >> 2);
+        }
+        Some(shown)
+    }
+
+    /// What it shows with a gentle highlight.
+    #[inline(never)]
+    fn gleaming(&self, shininess: u16, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
+        let (mut shown, mut slopes, exponent) =
+            (Shown::default(), Slopes::default(), Exponent::new(shininess));
+        let ([columns, rows], mut first) = (footprint.parts(), FAR);
+        for _ in 0..columns {
+            let mut far = first;
+            for _ in 0..rows {
+                footprint.next(ground, &mut slopes)?;
+                shown.add(&self.phong(exponent, &mut slopes.three(far))?);
+                far = far.wrapping_neg();
+            }
+            first = first.wrapping_neg();
+        }
+        Some(shown)
+    }
+
+    /// What it shows with Phong's highlight.
+    #[inline(never)]
+    fn shining(&self, shininess: u16, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
+        let (mut shown, mut slopes, exponent) =
+            (Shown::default(), Slopes::default(), Exponent::new(shininess));
+        for _ in 0..footprint.count() {
+            footprint.next(ground, &mut slopes)?;
+            shown.add(&self.phong(exponent, &mut slopes.points())?);
+        }
+        Some(shown)
+    }
+
+    /// What it shows of anything by points.
+    #[inline(never)]
+    fn pointed(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Shown> {
+        let (mut shown, mut slopes) = (Shown::default(), Slopes::default());
+        for _ in 0..footprint.count() {
+            footprint.next(ground, &mut slopes)?;
+            shown.add(&self.seen(&mut slopes.points())?);
+        }
+        Some(shown)
     }
 
     /// What four points show that stand for all of a pixel; none where one turns away from the eye.
     #[inline(always)]
-    pub(super) fn shown(&self, points: &[Slope; 4]) -> Option<Unit> {
+    pub(super) fn shown(&self, points: &mut [Slope; 4]) -> Option<Unit> {
         let mut shown = Shown::default();
-        self.add(points, &mut shown)?;
+        shown.add(&self.seen(points)?);
         Some(self.finished(&shown))
     }
 
-    /// Adds what four points show; none where one turns away from the eye.
-    #[inline(always)]
-    fn add(&self, points: &[Slope; 4], shown: &mut Shown) -> Option<()> {
-        shown.boxes += 1;
-        let (area, matt, highlight) = self.seen(points)?;
-        let (mantissa, zeros) = reciprocal_of(NonZeroU32::new(area)?);
-        let over = |sum: i64| product((sum << (zeros & 31) >> 32) as i32, mantissa) >> 30;
-        shown.matt += over(matt);
-        shown.highlight += over(highlight);
-        Some(())
+    /// What four points show; none where one turns away from the eye. `points` are of no more use.
+    #[inline(never)]
+    pub(super) fn seen(&self, points: &mut [Slope; 4]) -> Option<Seen> {
+        match *self.finish {
+            Finish::Diffuse { .. } => self.plain(points, |_, facing| facing.lit().max(0)),
+            Finish::Phong { shininess, .. } => self.phong(Exponent::new(shininess), points),
+            Finish::TorranceSparrow { roughness, reflectance, .. } => {
+                let model = TorranceSparrow::within(roughness, reflectance);
+                let mut highlight = 0;
+                let seen = self.plain(points, |slope, facing| {
+                    highlight += product(self.sheen(*slope, facing, model).to_bits(), facing.area);
+                    facing.lit().max(0)
+                })?;
+                Some(Seen { highlight, ..seen })
+            }
+            Finish::Mirror => self.plain(points, |slope, facing| self.reflection(*slope, facing).to_bits()),
+        }
     }
 
-    /// What four points show, each on its area: the sum of the areas, 20 fractional bits, and of what they
-    /// show times them, 50; none where one turns away from the eye.
+    /// Points with Phong's highlight; no exponent is that of 0.
     #[inline(always)]
-    pub(super) fn seen(&self, points: &[Slope; 4]) -> Option<(u32, i64, i64)> {
-        let (mut area, mut matt, mut highlight) = (0_u32, 0_i64, 0_i64);
-        let (mut along, mut weights) = ([0; 4], [0; 4]);
-        for ((slope, along), weight) in points.iter().zip(&mut along).zip(&mut weights) {
+    fn phong<const N: usize>(&self, exponent: Option<Exponent>, points: &mut [Slope; N]) -> Option<Seen> {
+        let matt = self.all(points, |slope, facing| {
+            let (eye, lit) = (facing.eye(), facing.lit());
+            // m . l is at most 1
+            slope[0] = self.straight.wrapping_add(high(eye, lit) << 3);
+            lit.max(0)
+        });
+        let area = area(points)?;
+        let Some(exponent) = exponent else {
+            return Some(Seen { area, matt, highlight: i64::from(area.get()) << 30 });
+        };
+        let powers = exponent.powers(points.map(|[base, _]| base));
+        let on = |sum: u64, (shown, [_, weight]): (&u32, &Slope)| {
+            sum.wrapping_add(product_u(*shown, *weight as u32))
+        };
+        let highlight = powers.iter().zip(&*points).fold(0, on);
+        Some(Seen { area, matt, highlight: (highlight >> 2) as i64 })
+    }
+
+    /// Points without one; none where one turns away from the eye.
+    #[inline(always)]
+    fn plain<const N: usize>(
+        &self,
+        points: &mut [Slope; N],
+        tone: impl FnMut(&mut Slope, &Facing) -> i32,
+    ) -> Option<Seen> {
+        let matt = self.all(points, tone);
+        Some(Seen { area: area(points)?, matt, highlight: 0 })
+    }
+
+    /// The sum of what `tone` says of points, each times its area, 52 fractional bits. Leaves the areas as
+    /// the points' second numbers.
+    #[inline(always)]
+    fn all<const N: usize>(
+        &self,
+        points: &mut [Slope; N],
+        mut tone: impl FnMut(&mut Slope, &Facing) -> i32,
+    ) -> i64 {
+        let mut matt = 0_i64;
+        for slope in points {
             let facing = Facing::new(*slope, self);
-            if facing.area <= 0 {
-                return None;
-            }
-            // 20 fractional bits: below 2^26
-            *weight = facing.area >> 2;
-            area = area.wrapping_add(weight.unsigned_abs());
-            let lit = facing.lit.max(0);
-            let tone = match self.finish {
-                Finish::Diffuse { .. } => lit,
-                Finish::TorranceSparrow { roughness, reflectance, .. } => {
-                    let model = TorranceSparrow::within(roughness, reflectance);
-                    highlight += product(self.sheen(*slope, &facing, model).to_bits(), *weight);
-                    lit
-                }
-                Finish::Phong { .. } => {
-                    let twice = (product(facing.eye, facing.lit) >> 29) as i32;
-                    *along = self.straight.saturating_add(twice);
-                    lit
-                }
-                Finish::Mirror => self.reflection(*slope, &facing).to_bits(),
-            };
-            matt += product(tone, *weight);
+            matt = matt.wrapping_add(product(tone(slope, &facing), facing.area));
+            slope[1] = facing.area;
         }
-        // of all four at once
-        if let Finish::Phong { shininess, .. } = self.finish {
-            for (shown, weight) in powers(along, shininess).into_iter().zip(weights) {
-                highlight += product(shown, weight);
-            }
-        }
-        Some((area, matt, highlight))
+        matt
     }
 
     /// The highlight of tiny mirrors.
@@ -251,7 +382,8 @@ impl<'a> View<'a> {
         let per_area = mantissa >> (13_u32.wrapping_sub(zeros) & 31);
         let seen = |mean: i32, along: i32| mean.saturating_add(rounded_down::<25>(product(along, per_area)));
         let [p, q] = [seen(mean[0], along[0]), seen(mean[1], along[1])];
-        let Facing { eye, root, .. } = Facing::new([p, q], self);
+        let facing = Facing::new([p, q], self);
+        let (eye, root) = (facing.eye(), facing.root);
         let [p, q, up] = [p >> 2, q >> 2, 1 << 22].map(|c| cosine(c, root));
         let turned = sum(p, dy, q.wrapping_neg(), dx);
         let changes = [
@@ -269,7 +401,7 @@ impl<'a> View<'a> {
     /// What the mirrored ray meets.
     #[inline(always)]
     fn reflection(&self, [p, q]: Slope, facing: &Facing) -> Unit {
-        let twice = facing.eye << 1;
+        let twice = facing.eye() << 1;
         let along = |d: i32, n: i32| {
             Unit::from_bits(
                 d.saturating_add(unit_product(twice, scaled(n, facing.root))).clamp(-1 << 30, 1 << 30),
@@ -287,20 +419,18 @@ impl<'a> View<'a> {
     /// The tone of all boxes together.
     #[inline(always)]
     pub(super) fn finished(&self, shown: &Shown) -> Unit {
-        const PART: [i32; 13] = {
+        const PART: [u32; 13] = {
             let (mut part, mut n) = ([0; 13], 1);
             while n < 13 {
-                part[n] = (1 << 30) / n as i32;
+                part[n] = (1 << 30) / n as u32;
                 n += 1;
             }
             part
         };
         let part = PART.get(shown.boxes as usize).copied().unwrap_or(0);
-        // a sum of at most twelve ones
-        let mean =
-            |sum: i64| Unit::from_bits((((sum >> 4) * i64::from(part)) >> 26).clamp(0, 1 << 30) as i32);
+        let mean = |sum: u32| Unit::from_bits((product_u(sum, part) >> 28).min(1 << 30) as i32);
         let (matt, highlight) = (mean(shown.matt), mean(shown.highlight));
-        match self.finish {
+        match *self.finish {
             Finish::Diffuse { ambient } => matte(ambient, matt),
             Finish::Phong { ambient, diffuse, specular, .. }
             | Finish::TorranceSparrow { ambient, diffuse, specular, .. } => {

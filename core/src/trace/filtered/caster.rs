@@ -5,6 +5,7 @@
 //! surface stays turned to the eye all over the pixel, its normals are integrated; a pixel whose surface may
 //! turn away, or that only its upper edge meets, takes the samples of the ray caster instead.
 
+use core::num::NonZeroU32;
 use core::ops::Range;
 
 use embedded_graphics_core::geometry::Size;
@@ -16,7 +17,7 @@ use super::outline;
 use super::slopes::Spread;
 use crate::Error;
 use crate::fif::Sums;
-use crate::num::{Unit, reciprocal_sqrt_of, scaled, square, unit};
+use crate::num::{Unit, Vec3, reciprocal_sqrt_of, scaled, square, unit};
 use crate::plane::{Field, Tone, along};
 use crate::trace::environment::{Around, Checkerboard};
 use crate::trace::finish::Finish;
@@ -53,6 +54,17 @@ pub enum Found {
     Sampled,
 }
 
+/// Whether two places along a ray are no more than four pixels apart.
+#[inline(always)]
+fn are_near(a: i32, b: i32, reach: i32) -> bool {
+    a.wrapping_sub(b).unsigned_abs() <= reach.unsigned_abs() >> 1
+}
+
+#[inline(always)]
+fn sum([x, y, z]: &[i32; 3], [a, b, c]: [i32; 3]) -> [i32; 3] {
+    [x.wrapping_add(a), y.wrapping_add(b), z.wrapping_add(c)]
+}
+
 impl<'a> FilteredCaster<'a> {
     /// The picture of `caster` with its normals integrated by the running sums along x and y; the samples of
     /// `caster` are those of pixels at edges. Sums of cells a quarter as wide as a pixel do.
@@ -87,58 +99,105 @@ impl<'a> FilteredCaster<'a> {
         self.tone(x, y, self.caster.direction(x, y).map(narrow)).1
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn tone(&self, x: u32, y: u32, direction: [i32; 3]) -> (Unit, Found) {
+        match self.through(&direction, None) {
+            Ok(tone) => (tone, Found::Filtered),
+            Err(met) => self.edge(x, y, &direction, met),
+        }
+    }
+
+    /// A pixel that is not filtered by the ray through its lower edge, which meets the surface so far off or
+    /// not at all.
+    #[cold]
+    #[inline(never)]
+    fn edge(&self, x: u32, y: u32, direction: &[i32; 3], met: Option<NonZeroU32>) -> (Unit, Found) {
+        if met.is_none() {
+            let [_, down] = self.edges;
+            let above = sum(direction, down.map(|c| -(c >> 1)));
+            if self.caster.surface.leaf(&self.pixels, &above, &mut Uncounted).is_none() {
+                return (self.surroundings(x, y, *direction), Found::Beyond);
+            }
+        } else if let Ok(tone) = self.through(direction, met) {
+            // a ridge before something else grazes the pixel's lower edge at most
+            return (tone, Found::Filtered);
+        }
+        (self.caster.samples(x, y), Found::Sampled)
+    }
+
+    /// What the pixel around a ray shows, found by the ray through its lower edge, or by a narrower one a
+    /// quarter of a pixel above it that does not meet what the first has met; otherwise how far off that ray
+    /// meets the surface.
+    #[inline(never)]
+    fn through(&self, direction: &[i32; 3], met: Option<NonZeroU32>) -> Result<Unit, Option<NonZeroU32>> {
         let [_, down] = self.edges;
-        let half = down.map(|c| c >> 1);
-        let moved = |by: fn(i32, i32) -> i32| {
-            let ([x, y, z], [a, b, c]) = (direction, half);
-            [by(x, a), by(y, b), by(z, c)]
-        };
-        let below = moved(i32::wrapping_add);
-        let sampled = || (self.caster.samples(x, y), Found::Sampled);
         let surface = &self.caster.surface;
-        let Some(leaf) = surface.leaf(&self.pixels, &below, &mut Uncounted) else {
-            return match surface.leaf(&self.pixels, &moved(i32::wrapping_sub), &mut Uncounted) {
-                None => (self.surroundings(x, y, direction), Found::Beyond),
-                Some(_) => sampled(),
-            };
+        let (below, narrow);
+        let (pencil, lower) = match met {
+            None => {
+                below = down.map(|c| c >> 1);
+                (&self.pixels, sum(direction, below))
+            }
+            Some(_) => {
+                below = down.map(|c| c >> 2);
+                narrow = surface.pencil(self.pixels.origin, self.caster.footprint.part(4));
+                (&narrow, sum(direction, below))
+            }
         };
-        let [p, q, _] = surface.normal(&leaf).map(i32::wrapping_neg);
+        let leaf = surface.leaf(pencil, &lower, &mut Uncounted).ok_or(None)?;
         let (t_in, t_out) = leaf.span;
         let t = t_in + ((t_out - t_in) >> 1);
+        let reach = self.caster.footprint.width(t).saturating_mul(8);
+        let far = NonZeroU32::new(t.unsigned_abs());
+        if met.is_some_and(|met| are_near(met.get() as i32, t, reach)) {
+            return Err(far);
+        }
         // 24 fractional bits against 28: a leaf that is seen at less than a quarter of it tells little of the
         // plane, for which a level one does
+        let [p, q, _] = surface.normal(&leaf).map(i32::wrapping_neg);
         let size = i64::from(p.unsigned_abs()) + i64::from(q.unsigned_abs()) + (1 << 24);
-        let slope = if into([p, q], below) > size << 2 { [p, q] } else { [0; 2] };
-        let sight = Sight { eye: self.pixels.origin, direction };
+        let slope = if into([p, q], lower) > size << 2 { [p, q] } else { [0; 2] };
+        let sight = Sight { eye: self.pixels.origin, direction: *direction };
         // above the plane through the point of the ray below
-        let above = ((into(slope, half) * i64::from(t)) >> 28) as i32;
-        let reach = self.caster.footprint.width(t).saturating_mul(8);
-        match self.filtered(&sight, sight.meet(t, slope, above, reach), reach) {
-            Some(tone) => (tone, Found::Filtered),
-            None => sampled(),
-        }
+        let above = ((into(slope, below) * i64::from(t)) >> 28) as i32;
+        self.filtered(&sight, (t, sight.meet(t, slope, above, reach)), reach).ok_or(far)
     }
 
     /// None where a part of the pixel may turn away from the eye.
     #[inline(always)]
-    fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
+    fn filtered(&self, sight: &Sight, (t, first): (i32, Place), reach: i32) -> Option<Unit> {
         let RayCaster { material, light, environment, .. } = &self.caster;
         let checkerboard = self.checkerboard.as_ref();
-        let view = || View::new(unit(sight.direction), light.towards, *material, environment, checkerboard);
-        if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
-            let (slopes, half) = whole(&self.ground, sight, self.edges, first, reach)?;
-            return view().glance(ambient, &Spread::of(&slopes, half));
-        }
+        let view = |d: [i32; 3]| View::new(d, light.towards, material, environment, checkerboard);
         let place = settled(&self.ground, sight, first, reach)?;
+        // a ridge, and something else behind it
+        if !are_near(t, place.t, reach) {
+            return None;
+        }
+        if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
+            let (slopes, spans) = whole(&self.ground, sight, self.edges, &place)?;
+            return view(sight.direction).glance(ambient, &Spread::of(&slopes, spans));
+        }
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());
-            return view().shown(&outline::spread(&self.ground, sight, self.edges, place, size)?.points());
+            return view(sight.direction)
+                .shown(&mut outline::spread(&self.ground, sight, self.edges, place, size)?.points());
         }
         let few = matches!(material, Finish::Mirror) && checkerboard.is_some();
-        let footprint = self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few));
-        view().tone(&self.ground, &footprint)
+        let view = self.view(sight);
+        view.tone(
+            &self.ground,
+            &mut self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few)),
+        )
+    }
+
+    /// The light that what shines is seen in.
+    #[inline(never)]
+    fn view(&self, sight: &Sight) -> View<'_> {
+        let RayCaster { material, light, environment, .. } = &self.caster;
+        let Vec3 { x, y, z } = unit(sight.direction);
+        let direction = [x, y, z].map(Unit::to_bits);
+        View::new(direction, light.towards, material, environment, self.checkerboard.as_ref())
     }
 
     /// What surrounds the surface, through a pixel that shows nothing else.

@@ -14,9 +14,9 @@
 
 use core::num::NonZeroU32;
 
-use super::ground::{Ground, Side, moved};
-use super::slopes::{Slope, Slopes, times};
-use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt};
+use super::ground::{Ground, Side};
+use super::slopes::{Slope, Slopes, spans, times};
+use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt, rounded_down};
 
 /// Into how many boxes a pixel's footprint is cut, and so how much a pixel costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl Quality {
         match self {
             Self::Coarse => [1, 2],
             Self::Fine if few => [2, 3],
-            Self::Fine => [2, 4],
+            Self::Fine => [2, 5],
             Self::Finest => [2, 6],
         }
     }
@@ -55,12 +55,13 @@ impl Quality {
     }
 }
 
-/// A plane above the ground that a ray meets: where, and its slopes.
+/// A plane above the ground that a ray meets: where, its slopes, and their [`steepness`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) t: i32,
     pub(super) at: [i32; 2],
     pub(super) slope: Slope,
+    pub(super) steep: i32,
 }
 
 /// A ray from the eye.
@@ -101,118 +102,148 @@ impl Sight {
     /// The place at a parameter.
     #[inline(always)]
     pub(super) fn at(&self, t: i32) -> [i32; 3] {
-        [0, 1, 2].map(|i| {
-            let [o, d] = [self.eye, self.direction].map(|v| v.get(i).copied().unwrap_or(0));
-            o.wrapping_add((product(d, t) >> 28) as i32)
-        })
+        let ([x, y, z], [dx, dy, dz]) = (self.eye, self.direction);
+        let along = |from: i32, by: i32| from.wrapping_add(rounded_down::<28>(product(by, t)));
+        [along(x, dx), along(y, dy), along(z, dz)]
     }
 
     /// Where the ray meets the plane with slopes `slope` through `height` above `at`, no further than `reach`
     /// from `t`.
     #[inline(always)]
     pub(super) fn meet(&self, t: i32, slope: Slope, above: i32, reach: i32) -> Place {
-        let off = over(above, steepness(slope, self.direction));
+        let steep = steepness(slope, self.direction);
+        let off = over(above, steep);
         let t = t.wrapping_add(off.max(reach.wrapping_neg()).min(reach));
         let [x, y, _] = self.at(t);
-        Place { t, at: [x, y], slope }
+        Place { t, at: [x, y], slope, steep }
     }
 }
 
 /// A pixel's edges along the plane that its ray meets, saturated at ±64.
 #[inline(always)]
-pub(super) fn edges(place: &Place, sight: &Sight, steep: i32, edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
+pub(super) fn edges(place: &Place, sight: &Sight, edges: [[i32; 3]; 2]) -> [[i32; 2]; 2] {
     let [dx, dy, _] = sight.direction;
-    edges.map(|r| {
-        let along = over(into(place.slope, r) as i32, steep);
-        // n . r / n . d is along
+    let [right, down] = edges;
+    let moved = |r: [i32; 3]| {
+        // n . r / n . d
+        let along = over(into(place.slope, r) as i32, place.steep);
         let moved = |r: i32, d: i32| times((r >> 4).wrapping_sub(high(d, along)), place.t);
         [moved(r[0], dx), moved(r[1], dy)]
-    })
+    };
+    [moved(right), moved(down)]
 }
 
-/// The sides of the box with the variances of a parallelogram.
+/// The sides of the box with the variances of a parallelogram, and how far its places deviate; one half in
+/// `2^firm` of a side may lie outside.
 #[inline(always)]
-pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2]) -> ([i32; 2], [Side; 2]) {
+pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2], firm: u32) -> ([i32; 2], [Side; 2]) {
     let half = |s: i32, t: i32| (rough_sqrt((product(s, s) + product(t, t)) as u64) >> 1) as i32;
     let half = [half(a[0], b[0]), half(a[1], b[1])];
     let [x, y] = ground;
-    (half, [x.side(half[0]), y.side(half[1])])
+    (spans(half), [x.side(half[0], firm), y.side(half[1], firm)])
 }
 
-/// A pixel's footprint and how it is cut.
+/// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ways {
+    /// How far, for a height times `up`, a power of two.
+    farther: [i32; 2],
+    up: i32,
+    /// What is left of a word beyond as far above or below the surface as a line is thought to lie at most.
+    rest: i32,
+}
+
+impl Ways {
+    #[inline(always)]
+    pub(super) fn new([x, y]: &[Ground<'_>; 2], sight: &Sight, steep: i32, reach: i32) -> Self {
+        let [dx, dy, _] = sight.direction;
+        let up = reach.leading_zeros().saturating_sub(1).min(30);
+        let farther = [x.factor(over(dx, steep) >> 2, up), y.factor(over(dy, steep) >> 2, up)];
+        Self { farther, up: 1 << up, rest: i32::MAX - reach }
+    }
+
+    /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets
+    /// that at the height which it has at the place.
+    #[inline(always)]
+    pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], height: i32) -> [i32; 2] {
+        let surface = rounded_down::<24>(product(x.value(u), y.value(v)));
+        // cut off at both ends of the word
+        let above = height.saturating_sub(surface).saturating_add(self.rest).saturating_sub(self.rest);
+        let above = above.saturating_sub(self.rest).saturating_add(self.rest);
+        let above = above.wrapping_mul(self.up);
+        [high(above, self.farther[0]), high(above, self.farther[1])]
+    }
+}
+
+/// A pixel's footprint, how it is cut, and the part that comes next.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Footprint {
-    /// The end of the first line, on the plane, and its height.
-    at: [i32; 2],
-    height: i32,
     /// From a column to the next and from a line to the next: on the ground, and how much the plane rises.
     steps: [([i32; 2], i32); 2],
     parts: [i32; 2],
-    /// How far a line moves where it lies 1 above the surface; it is never thought to lie higher than
-    /// `reach`.
-    farther: [(i32, u32); 2],
-    reach: i32,
-    half: [i32; 2],
+    ways: Ways,
+    spans: [i32; 2],
     sides: [Side; 2],
+    /// The end of a column's first line, on the plane, and its height.
+    first: ([i32; 2], i32),
+    /// The last line, how many come behind it, and where its rays meet the surface.
+    line: ([i32; 2], i32),
+    left: i32,
+    before: [i32; 2],
 }
 
 impl Footprint {
-    /// Half of a box along both axes.
-    pub(super) const fn half(&self) -> [i32; 2] {
-        self.half
+    /// How far the places of a box deviate from its middle.
+    pub(super) const fn spans(&self) -> [i32; 2] {
+        self.spans
     }
 
-    /// Where the rays of a line meet the surface: at its middle.
-    #[inline(always)]
-    fn line(&self, ground: &[Ground<'_>; 2], at: [i32; 2], height: i32) -> [i32; 2] {
-        let [x, y] = ground;
-        let [u, v] = at;
-        let mean = (product(x.value(u), y.value(v)) >> 24) as i32;
-        let above = height.saturating_sub(mean).max(-self.reach).min(self.reach);
-        let [fx, fy] = self.farther;
-        [at[0].wrapping_add(moved(above, fx)), at[1].wrapping_add(moved(above, fy))]
+    /// Columns and rows.
+    pub(super) const fn parts(&self) -> [i32; 2] {
+        self.parts
     }
 
-    /// Shows all parts; none where one leaves the domain or `then` gives none.
+    /// How many parts.
+    pub(super) const fn count(&self) -> i32 {
+        self.parts[0].wrapping_mul(self.parts[1])
+    }
+
+    /// Where the rays of the last line meet the surface: at its middle.
     #[inline(always)]
-    pub(super) fn each(
-        &self,
-        ground: &[Ground<'_>; 2],
-        mut then: impl FnMut(&Slopes) -> Option<()>,
-    ) -> Option<()> {
-        let [(a, rise_a), (b, rise_b)] = self.steps;
-        let [columns, rows] = self.parts;
-        let (mut first, mut top) = (self.at, self.height);
-        for _ in 0..columns {
-            let (mut at, mut height) = (first, top);
-            let mut before = self.line(ground, at, height);
-            for _ in 0..rows {
-                at = [at[0].wrapping_add(b[0]), at[1].wrapping_add(b[1])];
-                height = height.wrapping_add(rise_b);
-                let line = self.line(ground, at, height);
-                let middle = [(before[0] >> 1) + (line[0] >> 1), (before[1] >> 1) + (line[1] >> 1)];
-                let [x, y] = ground;
-                let slopes = Slopes {
-                    x: x.around(middle[0], &self.sides[0])?,
-                    y: y.around(middle[1], &self.sides[1])?,
-                };
-                then(&slopes)?;
-                before = line;
-            }
-            first = [first[0].wrapping_add(a[0]), first[1].wrapping_add(a[1])];
-            top = top.wrapping_add(rise_a);
+    fn met(&self, ground: &[Ground<'_>; 2]) -> [i32; 2] {
+        let ([u, v], height) = self.line;
+        let [x, y] = self.ways.moved(ground, [u, v], height);
+        [u.wrapping_add(x), v.wrapping_add(y)]
+    }
+
+    /// The next part; none where it leaves the domain.
+    #[inline(never)]
+    pub(super) fn next(&mut self, ground: &[Ground<'_>; 2], slopes: &mut Slopes) -> Option<()> {
+        let further = |([x, y], height): ([i32; 2], i32), ([u, v], rise): ([i32; 2], i32)| {
+            ([x.wrapping_add(u), y.wrapping_add(v)], height.wrapping_add(rise))
+        };
+        let [column, row] = self.steps;
+        if self.left == 0 {
+            self.left = self.parts[1];
+            self.line = self.first;
+            self.first = further(self.first, column);
+            self.before = self.met(ground);
         }
-        Some(())
+        self.left = self.left.wrapping_sub(1);
+        self.line = further(self.line, row);
+        let ([u, v], [s, t]) = (self.before, self.met(ground));
+        self.before = [s, t];
+        slopes.around(ground, [(u >> 1) + (s >> 1), (v >> 1) + (t >> 1)], &self.sides)
     }
 }
 
 /// One of `n` parts, `n` up to 6.
 #[inline(always)]
 pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
-    /// `2^16 / n`.
-    const PART: [i32; 7] = [0, 1 << 16, 1 << 15, 21845, 1 << 14, 13107, 10923];
+    /// `2^31 / n`.
+    const PART: [i32; 7] = [0, i32::MAX, 1 << 30, 0x2aaa_aaab, 1 << 29, 0x1999_999a, 0x1555_5555];
     let part = PART.get(n as usize).copied().unwrap_or(0);
-    v.map(|v| (product(v, part) >> 16) as i32)
+    [high(v[0], part) << 1, high(v[1], part) << 1]
 }
 
 /// Half of the box above which a pixel's mean plane is taken: three quarters of a pixel, of which eight are
@@ -220,7 +251,7 @@ pub(super) fn cut(v: [i32; 2], n: i32) -> [i32; 2] {
 #[inline(always)]
 fn near([x, y]: &[Ground<'_>; 2], reach: i32) -> [Side; 2] {
     let half = (reach >> 4) + (reach >> 5);
-    [x.side(half), y.side(half)]
+    [x.side(half, 0), y.side(half, 0)]
 }
 
 /// Where a ray meets the mean plane above such a box around `from`, or around the place nearest to it in the
@@ -239,25 +270,24 @@ pub(super) fn on_mean(
     Some(sight.meet(from.t, slopes.mean(), z.wrapping_sub(slopes.height()), reach))
 }
 
-/// The surface over the box of a pixel, and half of the box: none where it leaves the domain. The mean plane
-/// is that above a box around where the ray comes in, three quarters of a pixel to both sides.
+/// The surface over the box of a pixel around where its ray meets the mean plane, and how far its places
+/// deviate: none where too much of it leaves the domain.
 #[inline(always)]
 pub(super) fn whole(
     ground: &[Ground<'_>; 2],
     sight: &Sight,
     pixel: [[i32; 3]; 2],
-    first: Place,
-    reach: i32,
+    place: &Place,
 ) -> Option<(Slopes, [i32; 2])> {
-    let place = on_mean(ground, sight, first, &near(ground, reach), reach)?;
-    let (half, sides) = sides(ground, edges(&place, sight, steepness(place.slope, sight.direction), pixel));
-    let [x, y] = ground;
-    let [px, py] = place.at;
-    Some((Slopes { x: x.around(x.place(px), &sides[0])?, y: y.around(y.place(py), &sides[1])? }, half))
+    let (spans, sides) = sides(ground, edges(place, sight, pixel), 3);
+    let ([x, y], [px, py]) = (ground, place.at);
+    let mut slopes = Slopes::default();
+    slopes.around(ground, [x.place(px), y.place(py)], &sides)?;
+    Some((slopes, spans))
 }
 
-/// Where a pixel's ray meets the mean plane, from where it meets that of the leaf where the ray comes in,
-/// which may lie far off.
+/// Where a pixel's ray meets the mean plane above a box around where it meets that of the leaf, which may lie
+/// far off: three quarters of a pixel to both sides.
 #[inline(always)]
 pub(super) fn settled(ground: &[Ground<'_>; 2], sight: &Sight, first: Place, reach: i32) -> Option<Place> {
     on_mean(ground, sight, first, &near(ground, reach), reach)
@@ -276,17 +306,17 @@ impl Quality {
     ) -> Footprint {
         let [x, y] = ground;
         let slope = place.slope;
-        let steep = steepness(slope, sight.direction);
-        let [a, b] = edges(place, sight, steep, pixel);
+        let [a, b] = edges(place, sight, pixel);
         // more parts along the longer edge
         let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
         let [few, many] = self.parts(few);
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
-        let (half, sides) = sides(ground, [a, b]);
+        let (spans, sides) = sides(ground, [a, b], if few.wrapping_mul(many) > 2 { 1 } else { 2 });
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
-        let rises = [a, b].map(rise);
-        let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
+        let rises = [rise(a), rise(b)];
+        let part = |v: [i32; 2]| [x.part(v[0]), y.part(v[1])];
+        let [a, b] = [part(a), part(b)];
         // from the middle to the end of the first line
         let back =
             |a: i32, b: i32| (a.wrapping_mul(parts[0] - 1)).wrapping_add(b.wrapping_mul(parts[1])) >> 1;
@@ -295,16 +325,17 @@ impl Quality {
             y.place(place.at[1]).wrapping_sub(back(a[1], b[1])),
         ];
         let [_, _, z] = sight.at(place.t);
-        let [dx, dy, _] = sight.direction;
+        let first = (at, z.wrapping_sub(back(rises[0], rises[1])));
         Footprint {
-            at,
-            height: z.wrapping_sub(back(rises[0], rises[1])),
             steps: [(a, rises[0]), (b, rises[1])],
             parts,
-            farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)],
-            reach,
-            half,
+            ways: Ways::new(ground, sight, place.steep, reach),
+            spans,
             sides,
+            first,
+            line: first,
+            left: 0,
+            before: at,
         }
     }
 }

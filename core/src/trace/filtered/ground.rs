@@ -23,15 +23,12 @@ pub(super) struct Ground<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     half: i32,
+    /// How far to the right it may begin, how much of it may lie outside, and on how much of the ground it
+    /// may begin for that.
+    last: i32,
+    spare: i32,
+    allowed: u32,
     width: Width,
-}
-
-/// A length times a factor.
-#[inline(always)]
-pub(super) fn moved(length: i32, (mantissa, shift): (i32, u32)) -> i32 {
-    let product = product(length, mantissa);
-    let (high, low) = ((product >> 32) as i32, product as u32);
-    high << 1 << (31_u32.wrapping_sub(shift) & 31) | (low >> (shift & 31)) as i32
 }
 
 impl<'a> Ground<'a> {
@@ -57,11 +54,13 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// A factor, 26 fractional bits, by which lengths become parts of the whole, for [`moved`].
+    /// A factor, 26 fractional bits, as one by which the upper word of a product with `length << up` is a
+    /// part of the whole.
     #[inline(always)]
-    pub(super) fn factor(&self, times: i32) -> (i32, u32) {
+    pub(super) fn factor(&self, times: i32, up: u32) -> i32 {
         let (mantissa, shift) = self.per_length;
-        ((product(times, mantissa) >> 31) as i32, shift.saturating_sub(5).min(31))
+        let factor = product(times, mantissa) >> ((shift + up).saturating_sub(6) & 63);
+        factor.clamp(i32::MIN.into(), i32::MAX.into()) as i32
     }
 
     /// Where a place lies in the domain.
@@ -70,46 +69,57 @@ impl<'a> Ground<'a> {
         self.part(x.saturating_sub(self.origin))
     }
 
-    /// So far to both sides.
+    /// So far to both sides. One half in `2^firm` of that may lie outside where it stands for all of it.
     #[inline(always)]
-    pub(super) fn side(&self, half: i32) -> Side {
-        let half = self.part(half).clamp(1, WHOLE / 2 - 1);
+    pub(super) fn side(&self, half: i32, firm: u32) -> Side {
+        let half = self.part(half).clamp(0, WHOLE / 2 - 1) | 1;
         let width = NonZeroU32::new(half.unsigned_abs() << 3).unwrap_or(NonZeroU32::MIN);
-        Side { half, width: self.sums.width_of(width) }
+        let (last, spare) = (WHOLE - 1 - (half << 1), half >> (firm & 31));
+        Side {
+            half,
+            last,
+            spare,
+            allowed: (last + 1 + (spare << 1)) as u32,
+            width: self.sums.width_of(width),
+        }
     }
 
-    /// The profile so far to both sides of a place, moved inside where less than a quarter is outside; none
-    /// where more is.
-    #[inline(always)]
-    pub(super) fn around(&self, middle: i32, side: &Side) -> Option<Course> {
-        let Side { half, .. } = *side;
-        let (from, quarter) = (middle.saturating_sub(half), half >> 1);
-        if from < -quarter || from > WHOLE - (half << 1) + quarter {
-            return None;
-        }
-        self.beginning(from, side)
+    /// The profile so far to both sides of a place, moved inside where it is outside by no more than it may;
+    /// none where by more. The same along both axes: a function of its own, which writes where its result
+    /// stays.
+    #[inline(never)]
+    pub(super) fn around(&self, middle: i32, side: &Side, course: &mut Course) -> Option<()> {
+        let from = middle.saturating_sub(side.half);
+        let inside = from.wrapping_add(side.spare) as u32 <= side.allowed;
+        if inside { self.beginning(from, side, course) } else { None }
     }
 
     /// The same moved inside from anywhere.
     #[inline(always)]
     pub(super) fn nearest(&self, middle: i32, side: &Side) -> Option<Course> {
-        self.beginning(middle.saturating_sub(side.half), side)
+        let mut course = Course::default();
+        self.beginning(middle.saturating_sub(side.half), side, &mut course)?;
+        Some(course)
     }
 
     #[inline(always)]
-    fn beginning(&self, from: i32, Side { half, width }: &Side) -> Option<Course> {
-        let from = from.max(0).min(WHOLE - 1 - (half << 1));
+    fn beginning(&self, from: i32, Side { half, last, width, .. }: &Side, course: &mut Course) -> Option<()> {
+        let from = from.max(0).min(*last);
         let to = from + (half << 1);
-        let [from, to] = [self.sums.at((from as u32) << 2)?, self.sums.at((to as u32) << 2)?];
-        Some(self.sums.between(&from, &to, width))
+        self.sums.course((from as u32) << 2, (to as u32) << 2, width, course)
     }
 
-    /// The sums up to a place; beyond an end the profile goes on straight.
+    /// The sums up to a place; beyond an end the profile goes on straight, and how far is added to `beyond`.
     #[inline(always)]
-    pub(super) fn at(&self, place: i32) -> Option<Sum> {
+    pub(super) fn at(&self, place: i32, beyond: &mut u32) -> Option<Sum> {
         let inside = place.clamp(0, WHOLE - 1);
-        let sum = self.sums.at((inside as u32) << 2)?;
-        Some(if inside == place { sum } else { self.sums.beyond(&sum, place.wrapping_sub(inside)) })
+        let sum = self.sums.at(&self.sums.place((inside as u32) << 2)?);
+        if inside == place {
+            return Some(sum);
+        }
+        let by = place.wrapping_sub(inside);
+        *beyond = beyond.saturating_add(by.unsigned_abs());
+        Some(self.sums.beyond(&sum, by))
     }
 
     /// The mean value between two places, so far from the first to the second.

@@ -20,8 +20,8 @@
 
 use core::num::NonZeroU32;
 
-use super::footprint::{Place, Sight, cut, edges, on_mean, over, sides, steepness};
-use super::ground::{Ground, moved};
+use super::footprint::{Place, Sight, Ways, cut, edges, on_mean, sides};
+use super::ground::Ground;
 use super::slopes::{Slope, Slopes, Spread};
 use crate::fif::Sum;
 use crate::num::{product, reciprocal_of};
@@ -53,22 +53,13 @@ impl Start {
     }
 }
 
-/// How far a corner moves where it lies 1 above the surface, and how high it is thought to lie at most.
-struct Ways {
-    farther: [(i32, u32); 2],
-    reach: i32,
-}
-
-impl Ways {
-    #[inline(always)]
-    fn corner(&self, [x, y]: &[Ground<'_>; 2], start: &Start) -> Option<Corner> {
-        let [u, v] = start.at;
-        let surface = (product(x.value(u), y.value(v)) >> 24) as i32;
-        let above = start.height.saturating_sub(surface).max(self.reach.wrapping_neg()).min(self.reach);
-        let [fx, fy] = self.farther;
-        let at = [u.saturating_add(moved(above, fx)), v.saturating_add(moved(above, fy))];
-        Some(Corner { at, sums: [x.at(at[0])?, y.at(at[1])?] })
-    }
+/// The corner of a ray.
+#[inline(always)]
+fn corner(ground: &[Ground<'_>; 2], ways: &Ways, start: &Start, beyond: &mut u32) -> Option<Corner> {
+    let ([u, v], [x, y]) = (start.at, ground);
+    let [s, t] = ways.moved(ground, start.at, start.height);
+    let at = [u.saturating_add(s), v.saturating_add(t)];
+    Some(Corner { at, sums: [x.at(at[0], beyond)?, y.at(at[1], beyond)?] })
 }
 
 /// What an outline has come to: `loop h dy` and `-loop h dx`, 54 fractional bits, and twice the area, 60, in
@@ -112,6 +103,14 @@ impl Loop {
     }
 }
 
+/// Whether corners so far beyond the domain, of `columns + 1` to the upper and to the lower edge, leave too
+/// much of a pixel there: an eighth of its width to one side, a sixteenth behind or before it.
+#[cold]
+fn is_cut(edges: [[i32; 2]; 2], columns: i32, beyond: u32) -> bool {
+    let around = edges.iter().flatten().fold(0_i64, |sum, c| sum + i64::from(c.unsigned_abs()));
+    i64::from(beyond) << 5 > around * i64::from(columns.saturating_add(1))
+}
+
 /// Mean and covariance of the slopes over a pixel around where its ray meets the mean plane, `columns` to its
 /// upper and lower edge; none where it leaves the domain.
 #[inline(always)]
@@ -123,44 +122,43 @@ pub(super) fn spread(
     (reach, columns): (i32, i32),
 ) -> Option<Spread> {
     let [x, y] = ground;
-    let laid = |place: &Place| {
-        let steep = steepness(place.slope, sight.direction);
-        (steep, edges(place, sight, steep, pixel))
-    };
     // a pixel that is seen at a flat angle is longer than what the plane has been taken above
-    let place = on_mean(ground, sight, place, &sides(ground, laid(&place).1).1, reach)?;
-    let (steep, [a, b]) = laid(&place);
-    let [dx, dy, _] = sight.direction;
-    let ways = Ways { farther: [x.factor(over(dx, steep) >> 2), y.factor(over(dy, steep) >> 2)], reach };
+    let place = on_mean(ground, sight, place, &sides(ground, edges(&place, sight, pixel), 0).1, reach)?;
+    let [a, b] = edges(&place, sight, pixel);
+    let ways = Ways::new(ground, sight, place.steep, reach);
     let rise = |[u, v]: [i32; 2]| ((product(place.slope[0], u) + product(place.slope[1], v)) >> 24) as i32;
     let step = |v: [i32; 2]| ([x.part(v[0]), y.part(v[1])], rise(v));
     let [_, _, z] = sight.at(place.t);
     let middle = [x.place(place.at[0]), y.place(place.at[1])];
     let across = cut(a, columns);
-    let halves = [a, b].map(|v| v.map(|c| c >> 1));
+    let halves = [[a[0] >> 1, a[1] >> 1], [b[0] >> 1, b[1] >> 1]];
     let (across, down) = (step(across), step(b));
+    let mut beyond = 0;
     // along the upper edge, down, back along the lower one, and up
     let mut start = Start { at: middle, height: z }.minus(step(halves[0])).minus(step(halves[1]));
-    let first = ways.corner(ground, &start)?;
+    let first = corner(ground, &ways, &start, &mut beyond)?;
     let (mut last, mut sum) = (first, Loop::default());
     for _ in 0..columns {
         start = start.plus(across);
-        let next = ways.corner(ground, &start)?;
+        let next = corner(ground, &ways, &start, &mut beyond)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
     let second = last;
     start = start.plus(down);
-    let third = ways.corner(ground, &start)?;
+    let third = corner(ground, &ways, &start, &mut beyond)?;
     sum.add(ground, middle[0], &second, &third);
     last = third;
     for _ in 0..columns {
         start = start.minus(across);
-        let next = ways.corner(ground, &start)?;
+        let next = corner(ground, &ways, &start, &mut beyond)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
     sum.add(ground, middle[0], &last, &first);
+    if beyond > 0 && is_cut([across.0.map(|c| c.wrapping_mul(columns)), down.0], columns, beyond) {
+        return None;
+    }
     let mean = sum.mean(ground)?;
     // two boxes, one behind the other along the longer edge
     let between = |v: [i32; 2], w: [i32; 2]| [(v[0] >> 1) + (w[0] >> 1), (v[1] >> 1) + (w[1] >> 1)];
@@ -171,10 +169,11 @@ pub(super) fn spread(
     } else {
         ([between(first.at, second.at), between(last.at, third.at)], [a, halves[1]])
     };
-    let (half, sides) = sides(ground, half);
+    let (spans, sides) = sides(ground, half, 2);
     let [from, to] = ends;
     let part = [(to[0] - from[0]) >> 2, (to[1] - from[1]) >> 2];
-    let over = |u: i32, v: i32| Some(Slopes { x: x.around(u, &sides[0])?, y: y.around(v, &sides[1])? });
-    let boxes = [over(from[0] + part[0], from[1] + part[1])?, over(to[0] - part[0], to[1] - part[1])?];
-    Some(Spread { mean, ..Spread::of_two(&boxes, half) })
+    let mut boxes = [Slopes::default(); 2];
+    boxes[0].around(ground, [from[0] + part[0], from[1] + part[1]], &sides)?;
+    boxes[1].around(ground, [to[0] - part[0], to[1] - part[1]], &sides)?;
+    Some(Spread { mean, ..Spread::of_two(&boxes, spans) })
 }

@@ -15,9 +15,9 @@
 
 use embedded_graphics_core::geometry::Size;
 
-use super::answer::{Shown, View};
+use super::answer::{Seen, Shown, View};
 use super::caster::Found;
-use super::footprint::{Place, Quality, Sight, edges, into, over, steepness};
+use super::footprint::{Place, Quality, Sight, edges, into, over};
 use super::slopes::{Slope, Spread};
 use crate::num::formats::{Q24, Q28};
 use crate::num::{Real, Unit, product, rough_sqrt, unit};
@@ -71,15 +71,14 @@ fn coefficient(v: i32, det: i64) -> i32 {
 impl Pixel {
     /// None where the plane is seen edge on.
     fn new(place: &Place, z: Q24, sight: &Sight, pixel: [[Q28; 3]; 2], reach: i32) -> Option<Self> {
-        let steepness = steepness(place.slope, sight.direction);
-        let [a, b] = edges(place, sight, steepness, pixel);
+        let [a, b] = edges(place, sight, pixel);
         let det = product(a[0], b[1]) - product(a[1], b[0]);
         if det == 0 {
             return None;
         }
         let ([dx, dy, _], [p, q]) = (sight.direction, place.slope);
         // 22 fractional bits
-        let moved = [dx, dy].map(|d| over(d, steepness) >> 6);
+        let moved = [dx, dy].map(|d| over(d, place.steep) >> 6);
         let linear = |x: i32, y: i32| {
             let z = ((product(moved[0], x) + product(moved[1], y)) >> 22).clamp(-(1 << 30), 1 << 30) as i32;
             let less = |c: i32, slope: i32| {
@@ -90,7 +89,7 @@ impl Pixel {
         let of = |v: i32| coefficient(v, det);
         let across = [linear(of(b[1]), of(b[0].wrapping_neg())), linear(of(a[1].wrapping_neg()), of(a[0]))];
         // 1 / (-n . d), 22 fractional bits
-        let t = over(1 << 28, steepness) >> 6;
+        let t = over(1 << 28, place.steep) >> 6;
         let along = [p, q].map(|slope| (product(slope, t) >> 24).clamp(-(1 << 30), 1 << 30) as i32);
         let along = [along[0].wrapping_neg(), along[1].wrapping_neg(), t];
         let d = unit(sight.direction);
@@ -208,17 +207,16 @@ impl<'a> FilteredPatch<'a> {
     /// None where a part of the pixel may turn away from the eye, or is not above the square.
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let PatchCaster { material, light, environment, .. } = &self.caster;
-        let view = View::new(unit(sight.direction), light.towards, *material, environment, None);
+        let d = unit(sight.direction);
+        let view = View::new([d.x, d.y, d.z].map(Unit::to_bits), light.towards, material, environment, None);
         // the mean plane of the cell as large as the footprint on that of the leaf
-        let steep = steepness(first.slope, sight.direction);
-        let wide = width(edges(&first, sight, steep, self.pixel), 1);
+        let wide = width(edges(&first, sight, self.pixel), 1);
         let (slope, above) = self.plane(first.at, self.level(wide))?;
         let [_, _, z] = sight.at(first.t);
         let place = sight.meet(first.t, slope, z.saturating_sub(above), reach);
         let [_, _, z] = sight.at(place.t);
-        let steep = steepness(place.slope, sight.direction);
         let [few, many] = self.quality.parts(false);
-        let wide = width(edges(&place, sight, steep, self.pixel), few.wrapping_mul(many));
+        let wide = width(edges(&place, sight, self.pixel), few.wrapping_mul(many));
         let pixel = Pixel::new(&place, z, sight, self.pixel, reach)?;
         let sum = self.sum(&pixel, &view, self.level(wide))?;
         // the areas of cells against the pixel's: 4 points with 20 fractional bits, shares of 12, cells of
@@ -229,7 +227,10 @@ impl<'a> FilteredPatch<'a> {
         if seen.abs_diff(whole) > whole.unsigned_abs() >> 2 {
             return None;
         }
-        let mean = |of: i64| of.min(1 << 56).wrapping_shl(6).checked_div((sum.area >> 14) as i64);
+        let mean = |of: i64| {
+            let mean = of.min(1 << 56).wrapping_shl(4).checked_div((sum.area >> 14) as i64)?;
+            Some(mean.clamp(0, 1 << 28) as u32)
+        };
         let shown = Shown { boxes: 1, matt: mean(sum.matt)?, highlight: mean(sum.highlight)? };
         Some(view.finished(&shown))
     }
@@ -343,9 +344,9 @@ impl<'a> FilteredPatch<'a> {
         let slopes = self.moments.over(&heights.map(Real::from_bits), parts);
         let slopes =
             Spread { mean: slopes.mean.map(Real::to_bits), covariance: slopes.covariance.map(Real::to_bits) };
-        let (area, matt, highlight) = view.seen(&slopes.points())?;
-        sum.area = sum.area.saturating_add(u64::from(area) * u64::from(share));
-        let part = |of: i64| (of >> 20) * i64::from(share);
+        let Seen { area, matt, highlight } = view.seen(&mut slopes.points())?;
+        sum.area = sum.area.saturating_add(u64::from(area.get() >> 2) * u64::from(share));
+        let part = |of: i64| (of >> 22) * i64::from(share);
         sum.matt = sum.matt.saturating_add(part(matt));
         sum.highlight = sum.highlight.saturating_add(part(highlight));
         Some(())

@@ -10,11 +10,15 @@
 //! Four points with all of them: along each axis, `f -+ s` with `F -+ c / s`, `s^2` the variance of the
 //! slope and `c` the covariance: the value goes with the slope. Formats: 24 fractional bits.
 
+use super::ground::{Ground, Side};
 use crate::fif::Course;
-use crate::num::{high, product, product_within, reciprocal_sqrt_of, rough_sqrt};
+use crate::num::{high, high_u, product, product_within, reciprocal_sqrt_of, root_of_word, rough_sqrt};
+
+/// `sqrt 2`, 30 fractional bits.
+pub(super) const FAR: i32 = 1_518_500_250;
 
 /// The surface over a box: what is known along x and along y.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Slopes {
     pub(super) x: Course,
     pub(super) y: Course,
@@ -30,44 +34,90 @@ pub(super) fn times(a: i32, b: i32) -> i32 {
 }
 
 impl Slopes {
+    /// The surface so far to both sides of a place; none where too much of that is outside.
     #[inline(always)]
-    fn bits(&self) -> [i32; 4] {
-        [self.x.slope, self.x.value, self.y.slope, self.y.value]
+    pub(super) fn around(
+        &mut self,
+        [x, y]: &[Ground<'_>; 2],
+        [u, v]: [i32; 2],
+        sides: &[Side; 2],
+    ) -> Option<()> {
+        x.around(u, &sides[0], &mut self.x)?;
+        y.around(v, &sides[1], &mut self.y)
     }
 
-    /// The mean slopes.
+    /// The mean slopes, saturated at ±64.
     #[inline(always)]
     pub(super) fn mean(&self) -> Slope {
-        let [f, big_f, g, big_g] = self.bits();
-        [times(f, big_g), times(big_f, g)]
+        let times = |slope: i32, value: i32| {
+            let product = product(slope, value);
+            let high = ((product >> 32) as i32).clamp(-(1 << 17), (1 << 17) - 1);
+            high << 13 | (product as u32 >> 19) as i32
+        };
+        [times(self.x.slope, self.y.value), times(self.y.slope, self.x.value)]
     }
 
     /// The mean height.
     #[inline(always)]
     pub(super) fn height(&self) -> i32 {
-        let [_, big_f, _, big_g] = self.bits();
-        times(big_f, big_g)
+        times(self.x.value(), self.y.value())
     }
 
     /// Four points of equal weight.
     #[inline(always)]
     pub(super) fn points(&self) -> [Slope; 4] {
-        let pair = |s: &Course| {
-            let (Course { slope, value, .. }, [variance, covariance]) = (*s, s.spread());
-            // 1 / s, where v has 24 fractional bits: mantissa / 2^(19 + half)
-            let (mantissa, half) = reciprocal_sqrt_of(variance.max(1).unsigned_abs().into());
-            let over = |c: i32| (product(c, mantissa) >> ((half + 19) & 63)) as i32;
-            // by Cauchy and Schwarz no larger than the deviation of the value
-            let (s, t) = (over(variance), over(covariance));
+        let pair = |course: &Course| {
+            let ([slope, value], [s, t]) = ([course.slope(), course.value()], deviations(course));
             [
                 [slope.saturating_add(s), value.saturating_add(t)],
                 [slope.saturating_sub(s), value.saturating_sub(t)],
             ]
         };
         let ([a, b], [c, d]) = (pair(&self.x), pair(&self.y));
-        let at = |[f, big_f]: [i32; 2], [g, big_g]: [i32; 2]| [times(f, big_g), times(big_f, g)];
         [at(a, c), at(a, d), at(b, c), at(b, d)]
     }
+
+    /// Three points of equal weight with the same means and covariances: 0 and -+sqrt(3/2) deviations along x
+    /// with sqrt 2 and -1/sqrt 2 along y for `FAR`, and the other way round for `-FAR`: so that what is of
+    /// third order in two boxes side by side cancels.
+    #[inline(always)]
+    pub(super) fn three(&self, far: i32) -> [Slope; 3] {
+        /// `sqrt(3/2)`, 30 fractional bits.
+        const ACROSS: i32 = 1_315_059_792;
+        let ([s, t], [u, v]) = (times_deviations(&self.x, ACROSS), times_deviations(&self.y, far));
+        let ([f, big_f], [g, big_g]) = ([self.x.slope(), self.x.value()], [self.y.slope(), self.y.value()]);
+        let near = [g.saturating_sub(u >> 1), big_g.saturating_sub(v >> 1)];
+        [
+            at([f, big_f], [g.saturating_add(u), big_g.saturating_add(v)]),
+            at([f.saturating_add(s), big_f.saturating_add(t)], near),
+            at([f.saturating_sub(s), big_f.saturating_sub(t)], near),
+        ]
+    }
+}
+
+/// The slopes where slope and value are these along x and along y.
+#[inline(always)]
+fn at([f, big_f]: [i32; 2], [g, big_g]: [i32; 2]) -> Slope {
+    [times(f, big_g), times(big_f, g)]
+}
+
+/// The deviation of the slope, and what the value deviates with it.
+#[inline(always)]
+fn deviations(course: &Course) -> [i32; 2] {
+    let (m, root, up) = root_of_word(course.variance() as u32 | 1);
+    // the root of m has 29 fractional bits here, s has 24, and c / s is s's part of c / s^2; by Cauchy and
+    // Schwarz it is no larger than the deviation of the value
+    let s = (high_u(m, root) >> (up + 2)) as i32;
+    [s, high(course.covariance() << up, root as i32) >> 2]
+}
+
+/// The same times a factor with 30 fractional bits, below 2.
+#[inline(always)]
+fn times_deviations(course: &Course, factor: i32) -> [i32; 2] {
+    let (m, root, up) = root_of_word(course.variance() as u32 | 1);
+    // half of it
+    let root = high(root as i32, factor) << 1;
+    [high((m >> 1) as i32, root) >> up, high(course.covariance() << up, root) >> 1]
 }
 
 /// With 28 fractional bits, so that a product's upper word has 24; cut off at 8.
@@ -84,21 +134,24 @@ struct Moments {
 }
 
 impl Moments {
-    /// Of a box with `h^2 / 3`, 31 fractional bits, along both axes.
+    /// Of a box with so large [`spans`].
     #[inline(always)]
-    fn new(Slopes { x, y }: &Slopes, [third_x, third_y]: [i32; 2]) -> Self {
-        let (f, big_f, g, big_g) = (wide(x.slope), wide(x.value), wide(y.slope), wide(y.value));
-        // that of the value, as of a straight line: h^2 / 3 is below 1/3 of what is shown
-        let square = |v: i32, slope: i32, third: i32| {
-            wide(high(v, v).wrapping_add(high(high(slope, slope), third) << 1))
+    fn new(Slopes { x, y }: &Slopes, [along_x, along_y]: [i32; 2]) -> Self {
+        let steep = |slope: i32| slope.clamp(-(1 << 24), (1 << 24) - 1) << 7;
+        let high_up = |value: i32| value.clamp(-(1 << 25), (1 << 25) - 1) << 6;
+        let (f, big_f, g, big_g) = (steep(x.slope), high_up(x.value), steep(y.slope), high_up(y.value));
+        // that of the value, as of a straight line
+        let square = |v: i32, slope: i32, deviation: i32| {
+            let off = high(slope, deviation) << 1;
+            wide(high(v, v).wrapping_add(high(off, off)))
         };
         let (with_f, with_g) = (high(f, wide(x.middle)), high(g, wide(y.middle)));
         Self {
             mean: [high(f, big_g), high(big_f, g)],
             squares: [
-                high(x.squares, square(big_g, g, third_y)),
+                high(x.squares << 2, square(big_g, g, along_y)),
                 high(wide(with_f), wide(with_g)) >> 4,
-                high(y.squares, square(big_f, f, third_x)),
+                high(y.squares << 2, square(big_f, f, along_x)),
             ],
         }
     }
@@ -142,11 +195,10 @@ impl Spread {
         [at(s, more), at(s, less), at(-s, more.saturating_neg()), at(-s, less.saturating_neg())]
     }
 
-    /// Of two boxes that count alike.
+    /// Of two boxes with the same [`spans`] that count alike.
     #[inline(always)]
-    pub(super) fn of_two(boxes: &[Slopes; 2], half: [i32; 2]) -> Self {
-        let thirds = thirds(half);
-        let [a, b] = boxes.each_ref().map(|slopes| Moments::new(slopes, thirds));
+    pub(super) fn of_two(boxes: &[Slopes; 2], spans: [i32; 2]) -> Self {
+        let [a, b] = [Moments::new(&boxes[0], spans), Moments::new(&boxes[1], spans)];
         let middle = |a: i32, b: i32| (a >> 1).wrapping_add(b >> 1);
         let [[p, q], [r, s]] = [a.mean, b.mean];
         let [[pp, pq, qq], [rr, rs, ss]] = [a.squares, b.squares];
@@ -155,17 +207,16 @@ impl Spread {
 
     /// Of one box.
     #[inline(always)]
-    pub(super) fn of(slopes: &Slopes, half: [i32; 2]) -> Self {
-        let Moments { mean, squares } = Moments::new(slopes, thirds(half));
+    pub(super) fn of(slopes: &Slopes, spans: [i32; 2]) -> Self {
+        let Moments { mean, squares } = Moments::new(slopes, spans);
         Self::new(mean, squares)
     }
 }
 
-/// `h^2 / 3`, 31 fractional bits.
+/// How far a box's places deviate from its middle, `h / sqrt(3)` for half of it, 31 fractional bits. A half
+/// beyond 1 counts as 1: that is far beyond what a pixel shows.
 #[inline(always)]
-fn thirds(half: [i32; 2]) -> [i32; 2] {
-    half.map(|h| {
-        let square = (product(h, h) >> 17).min(i64::from(i32::MAX)) as i32;
-        high(square, 0x5555_5555)
-    })
+pub(super) fn spans([x, y]: [i32; 2]) -> [i32; 2] {
+    let deviation = |half: i32| high(half.min((1 << 24) - 1) << 7, 0x49e6_9d16) << 1;
+    [deviation(x), deviation(y)]
 }
