@@ -75,7 +75,13 @@ impl<'a> Ground<'a> {
         let half = self.part(half).clamp(0, WHOLE / 2 - 1) | 1;
         let width = NonZeroU32::new(half.unsigned_abs() << 3).unwrap_or(NonZeroU32::MIN);
         let (last, spare) = (WHOLE - 1 - (half << 1), half >> (firm & 31));
-        Side { half, last, spare, allowed: (last + 1 + (spare << 1)) as u32, width: self.sums.width_of(width) }
+        Side {
+            half,
+            last,
+            spare,
+            allowed: (last + 1 + (spare << 1)) as u32,
+            width: self.sums.width_of(width),
+        }
     }
 
     /// The profile so far to both sides of a place, moved inside where it is outside by no more than it may;
