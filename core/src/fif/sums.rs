@@ -136,8 +136,8 @@ pub struct Sums<'a> {
     up: i32,
 }
 
-/// The reciprocals of an interval's width, for [`over`]: a power of two that a difference is multiplied by, and
-/// a factor.
+/// The reciprocals of an interval's width, for [`over`]: a power of two that a difference is multiplied by,
+/// and a factor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Width {
     slope: (i32, i32),
@@ -374,7 +374,8 @@ impl<'a> Sums<'a> {
         let half = (part >> 1) as i32;
         let gained = |a: i32, b: i32| high(b.wrapping_sub(a) << 1, half);
         let risen = gained(a.value, b.value);
-        // half of what has risen times the rest of the way: a rise leaves room for the bits that areas have more
+        // half of what has risen times the rest of the way: a rise leaves room for the bits that areas have
+        // more
         let short = high(high(risen.wrapping_mul(self.up), half ^ i32::MAX), *less);
         Sum {
             value: a.value.wrapping_add(risen),

@@ -89,7 +89,7 @@ pub(crate) fn reciprocal_sqrt_of(v: u64) -> (Q31, u32) {
     (newton(m) as i32, half)
 }
 
-/// The same for a `v` of at least `2^32`: nothing to choose.
+/// The same for a `v` of at least `2^32`: there is nothing to choose.
 #[inline(always)]
 pub(crate) fn reciprocal_sqrt_of_long(v: u64) -> (Q31, u32) {
     let (high, even) = evenly((v >> 32) as u32);
@@ -260,6 +260,19 @@ mod tests {
             worst = worst.max((f64::from(m) / (s as f64).exp2() * (v as f64).sqrt() - 1.0).abs());
         }
         assert!(worst > (-31.0_f64).exp2() && worst < (-29.0_f64).exp2(), "{worst:e}");
+    }
+
+    /// Of large numbers and of words alike: the same mantissas, and numbers as they are taken apart.
+    #[test]
+    fn a_reciprocal_root_is_the_same_where_less_is_to_be_chosen() {
+        for v in inputs().filter(|v| *v > 0) {
+            let long = v | 1 << (32 + v % 31);
+            assert_eq!(reciprocal_sqrt_of_long(long), reciprocal_sqrt_of(long), "{long}");
+            let word = (v >> (v % 33)) as u32 | 1;
+            let (m, root, up) = root_of_word(word);
+            assert_eq!((m >> (2 * up), (m >> 30 > 0)), (word, true), "{word}");
+            assert_eq!(reciprocal_sqrt_of(word.into()), (root as i32, 15 - up), "{word}");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub(crate) fn shifted_up_evenly(v: NonZeroU32) -> (u32, u32) {
     evenly(v.get())
 }
 
-/// The same of what is not known not to be 0, which stays 0.
+/// The same of a number that its type does not know not to be 0.
 #[inline(always)]
 pub(crate) fn evenly(v: u32) -> (u32, u32) {
     if cfg!(no_long_product) {

@@ -31,12 +31,12 @@ const GENTLE: u16 = 16;
 /// What light a box is seen in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
-    /// The direction of the ray, of length 1.
+    /// The direction of the ray, of length 1; its length does not matter where the finish is matt.
     direction: [i32; 3],
     light: [i32; 3],
-    /// `d . l`.
+    /// `d . l`, where there is a highlight of Phong's.
     straight: i32,
-    finish: Finish,
+    finish: &'a Finish,
     environment: &'a Environment,
     checkerboard: Option<&'a Checkerboard>,
 }
@@ -50,8 +50,8 @@ struct Facing {
     root: (i32, u32),
 }
 
-/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes, twelve
-/// at most. 28 fractional bits.
+/// What a pixel has shown so far: the matt part or the reflection, and the highlight, of so many boxes,
+/// twelve at most. 28 fractional bits.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shown {
     pub(super) boxes: u32,
@@ -151,15 +151,20 @@ fn matte(ambient: Unit, matt: Unit) -> Unit {
 
 impl<'a> View<'a> {
     pub(super) fn new(
-        direction: Vec3<Unit>,
+        direction: [i32; 3],
         light: Vec3<Unit>,
-        finish: Finish,
+        finish: &'a Finish,
         environment: &'a Environment,
         checkerboard: Option<&'a Checkerboard>,
     ) -> Self {
-        let [direction, towards] = [direction, light].map(|v| [v.x, v.y, v.z].map(Unit::to_bits));
-        let straight = direction.iter().zip(towards).fold(0, |sum, (a, b)| sum + unit_product(*a, b));
-        Self { direction, light: towards, straight, finish, environment, checkerboard }
+        let light = [light.x, light.y, light.z].map(Unit::to_bits);
+        let straight = match finish {
+            Finish::Phong { .. } => {
+                direction.iter().zip(light).fold(0_i32, |sum, (a, b)| sum.wrapping_add(unit_product(*a, b)))
+            }
+            _ => 0,
+        };
+        Self { direction, light, straight, finish, environment, checkerboard }
     }
 
     /// What a box shows in diffuse light, to second order; none where a part of it may turn away.
@@ -199,7 +204,7 @@ impl<'a> View<'a> {
     /// What the footprint shows; none where a part of it may turn away from the eye.
     #[inline(always)]
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Unit> {
-        let shown = match (self.finish, self.checkerboard) {
+        let shown = match (*self.finish, self.checkerboard) {
             (Finish::Mirror, Some(checkerboard)) => self.reflected(checkerboard, ground, footprint)?,
             (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) => {
                 self.gleaming(shininess, ground, footprint)?
@@ -280,7 +285,7 @@ impl<'a> View<'a> {
     /// What four points show; none where one turns away from the eye. `points` are of no more use.
     #[inline(never)]
     pub(super) fn seen(&self, points: &mut [Slope; 4]) -> Option<Seen> {
-        match self.finish {
+        match *self.finish {
             Finish::Diffuse { .. } => self.plain(points, |_, facing| facing.lit().max(0)),
             Finish::Phong { shininess, .. } => self.phong(Exponent::new(shininess), points),
             Finish::TorranceSparrow { roughness, reflectance, .. } => {
@@ -328,8 +333,8 @@ impl<'a> View<'a> {
         Some(Seen { area: area(points)?, matt, highlight: 0 })
     }
 
-    /// The sum of what `tone` says of points, each times its area, 52 fractional bits. Leaves the areas as the
-    /// points' second numbers.
+    /// The sum of what `tone` says of points, each times its area, 52 fractional bits. Leaves the areas as
+    /// the points' second numbers.
     #[inline(always)]
     fn all<const N: usize>(
         &self,
@@ -425,7 +430,7 @@ impl<'a> View<'a> {
         let part = PART.get(shown.boxes as usize).copied().unwrap_or(0);
         let mean = |sum: u32| Unit::from_bits((product_u(sum, part) >> 28).min(1 << 30) as i32);
         let (matt, highlight) = (mean(shown.matt), mean(shown.highlight));
-        match self.finish {
+        match *self.finish {
             Finish::Diffuse { ambient } => matte(ambient, matt),
             Finish::Phong { ambient, diffuse, specular, .. }
             | Finish::TorranceSparrow { ambient, diffuse, specular, .. } => {

@@ -17,7 +17,7 @@ use super::outline;
 use super::slopes::Spread;
 use crate::Error;
 use crate::fif::Sums;
-use crate::num::{Unit, reciprocal_sqrt_of, scaled, square, unit};
+use crate::num::{Unit, Vec3, reciprocal_sqrt_of, scaled, square, unit};
 use crate::plane::{Field, Tone, along};
 use crate::trace::environment::{Around, Checkerboard};
 use crate::trace::finish::Finish;
@@ -168,7 +168,7 @@ impl<'a> FilteredCaster<'a> {
     fn filtered(&self, sight: &Sight, (t, first): (i32, Place), reach: i32) -> Option<Unit> {
         let RayCaster { material, light, environment, .. } = &self.caster;
         let checkerboard = self.checkerboard.as_ref();
-        let view = || View::new(unit(sight.direction), light.towards, *material, environment, checkerboard);
+        let view = |d: [i32; 3]| View::new(d, light.towards, material, environment, checkerboard);
         let place = settled(&self.ground, sight, first, reach)?;
         // a ridge, and something else behind it
         if !are_near(t, place.t, reach) {
@@ -176,16 +176,28 @@ impl<'a> FilteredCaster<'a> {
         }
         if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
             let (slopes, spans) = whole(&self.ground, sight, self.edges, &place)?;
-            return view().glance(ambient, &Spread::of(&slopes, spans));
+            return view(sight.direction).glance(ambient, &Spread::of(&slopes, spans));
         }
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());
-            return view()
+            return view(sight.direction)
                 .shown(&mut outline::spread(&self.ground, sight, self.edges, place, size)?.points());
         }
         let few = matches!(material, Finish::Mirror) && checkerboard.is_some();
-        let mut footprint = self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few));
-        view().tone(&self.ground, &mut footprint)
+        let view = self.view(sight);
+        view.tone(
+            &self.ground,
+            &mut self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few)),
+        )
+    }
+
+    /// The light that what shines is seen in.
+    #[inline(never)]
+    fn view(&self, sight: &Sight) -> View<'_> {
+        let RayCaster { material, light, environment, .. } = &self.caster;
+        let Vec3 { x, y, z } = unit(sight.direction);
+        let direction = [x, y, z].map(Unit::to_bits);
+        View::new(direction, light.towards, material, environment, self.checkerboard.as_ref())
     }
 
     /// What surrounds the surface, through a pixel that shows nothing else.

@@ -102,10 +102,9 @@ impl Sight {
     /// The place at a parameter.
     #[inline(always)]
     pub(super) fn at(&self, t: i32) -> [i32; 3] {
-        [0, 1, 2].map(|i| {
-            let [o, d] = [self.eye, self.direction].map(|v| v.get(i).copied().unwrap_or(0));
-            o.wrapping_add((product(d, t) >> 28) as i32)
-        })
+        let ([x, y, z], [dx, dy, dz]) = (self.eye, self.direction);
+        let along = |from: i32, by: i32| from.wrapping_add(rounded_down::<28>(product(by, t)));
+        [along(x, dx), along(y, dy), along(z, dz)]
     }
 
     /// Where the ray meets the plane with slopes `slope` through `height` above `at`, no further than `reach`
@@ -163,8 +162,8 @@ impl Ways {
         Self { farther, up: 1 << up, rest: i32::MAX - reach }
     }
 
-    /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets that
-    /// at the height which it has at the place.
+    /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets
+    /// that at the height which it has at the place.
     #[inline(always)]
     pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], height: i32) -> [i32; 2] {
         let surface = rounded_down::<24>(product(x.value(u), y.value(v)));
@@ -315,8 +314,9 @@ impl Quality {
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
         let (spans, sides) = sides(ground, [a, b], if few.wrapping_mul(many) > 2 { 1 } else { 2 });
         let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
-        let rises = [a, b].map(rise);
-        let [a, b] = [a, b].map(|v| [x.part(v[0]), y.part(v[1])]);
+        let rises = [rise(a), rise(b)];
+        let part = |v: [i32; 2]| [x.part(v[0]), y.part(v[1])];
+        let [a, b] = [part(a), part(b)];
         // from the middle to the end of the first line
         let back =
             |a: i32, b: i32| (a.wrapping_mul(parts[0] - 1)).wrapping_add(b.wrapping_mul(parts[1])) >> 1;

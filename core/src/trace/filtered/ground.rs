@@ -23,8 +23,8 @@ pub(super) struct Ground<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     half: i32,
-    /// How far to the right it may begin, how much of it may lie outside, and on how much of the ground it may
-    /// begin for that.
+    /// How far to the right it may begin, how much of it may lie outside, and on how much of the ground it
+    /// may begin for that.
     last: i32,
     spare: i32,
     allowed: u32,
@@ -54,8 +54,8 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// A factor, 26 fractional bits, as one by which the upper word of a product with `length << up` is a part of
-    /// the whole.
+    /// A factor, 26 fractional bits, as one by which the upper word of a product with `length << up` is a
+    /// part of the whole.
     #[inline(always)]
     pub(super) fn factor(&self, times: i32, up: u32) -> i32 {
         let (mantissa, shift) = self.per_length;
@@ -85,7 +85,8 @@ impl<'a> Ground<'a> {
     }
 
     /// The profile so far to both sides of a place, moved inside where it is outside by no more than it may;
-    /// none where by more. The same along both axes: a function of its own, which writes where its result stays.
+    /// none where by more. The same along both axes: a function of its own, which writes where its result
+    /// stays.
     #[inline(never)]
     pub(super) fn around(&self, middle: i32, side: &Side, course: &mut Course) -> Option<()> {
         let from = middle.saturating_sub(side.half);

@@ -131,7 +131,7 @@ pub(super) fn spread(
     let [_, _, z] = sight.at(place.t);
     let middle = [x.place(place.at[0]), y.place(place.at[1])];
     let across = cut(a, columns);
-    let halves = [a, b].map(|v| v.map(|c| c >> 1));
+    let halves = [[a[0] >> 1, a[1] >> 1], [b[0] >> 1, b[1] >> 1]];
     let (across, down) = (step(across), step(b));
     let mut beyond = 0;
     // along the upper edge, down, back along the lower one, and up

@@ -207,7 +207,8 @@ impl<'a> FilteredPatch<'a> {
     /// None where a part of the pixel may turn away from the eye, or is not above the square.
     fn filtered(&self, sight: &Sight, first: Place, reach: i32) -> Option<Unit> {
         let PatchCaster { material, light, environment, .. } = &self.caster;
-        let view = View::new(unit(sight.direction), light.towards, *material, environment, None);
+        let d = unit(sight.direction);
+        let view = View::new([d.x, d.y, d.z].map(Unit::to_bits), light.towards, material, environment, None);
         // the mean plane of the cell as large as the footprint on that of the leaf
         let wide = width(edges(&first, sight, self.pixel), 1);
         let (slope, above) = self.plane(first.at, self.level(wide))?;

@@ -78,14 +78,13 @@ impl Slopes {
     }
 
     /// Three points of equal weight with the same means and covariances: 0 and -+sqrt(3/2) deviations along x
-    /// with sqrt 2 and -1/sqrt 2 along y for `FAR`, and the other way round for `-FAR`: so that what is of third
-    /// order in two boxes side by side cancels.
+    /// with sqrt 2 and -1/sqrt 2 along y for `FAR`, and the other way round for `-FAR`: so that what is of
+    /// third order in two boxes side by side cancels.
     #[inline(always)]
     pub(super) fn three(&self, far: i32) -> [Slope; 3] {
         /// `sqrt(3/2)`, 30 fractional bits.
         const ACROSS: i32 = 1_315_059_792;
-        let ([s, t], [u, v]) = (deviations(&self.x), deviations(&self.y));
-        let [s, t, u, v] = [high(s, ACROSS) << 2, high(t, ACROSS) << 2, high(u, far) << 2, high(v, far) << 2];
+        let ([s, t], [u, v]) = (times_deviations(&self.x, ACROSS), times_deviations(&self.y, far));
         let ([f, big_f], [g, big_g]) = ([self.x.slope(), self.x.value()], [self.y.slope(), self.y.value()]);
         let near = [g.saturating_sub(u >> 1), big_g.saturating_sub(v >> 1)];
         [
@@ -110,6 +109,15 @@ fn deviations(course: &Course) -> [i32; 2] {
     // Schwarz it is no larger than the deviation of the value
     let s = (high_u(m, root) >> (up + 2)) as i32;
     [s, high(course.covariance() << up, root as i32) >> 2]
+}
+
+/// The same times a factor with 30 fractional bits, below 2.
+#[inline(always)]
+fn times_deviations(course: &Course, factor: i32) -> [i32; 2] {
+    let (m, root, up) = root_of_word(course.variance() as u32 | 1);
+    // half of it
+    let root = high(root as i32, factor) << 1;
+    [high((m >> 1) as i32, root) >> up, high(course.covariance() << up, root) >> 1]
 }
 
 /// With 28 fractional bits, so that a product's upper word has 24; cut off at 8.
