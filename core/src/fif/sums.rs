@@ -433,3 +433,129 @@ impl<'a> Sums<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fif::Knot;
+    use crate::num::Scaling;
+    use std::vec::Vec;
+
+    const WHOLE: i32 = 1 << 30;
+
+    /// The integral of the function through (0, `knots[0]`), (1, `knots[1]`), (2, `knots[2]`), from `first` on.
+    fn with_integral(first: f64, knots: [f64; 3], scalings: [f64; 2], then: impl FnOnce(&Sums<'_>)) {
+        let knot = |(x, y): (i32, f64)| Knot::new(Wide::from_num(x), Wide::from_num(y));
+        let knots = [(0, knots[0]), (1, knots[1]), (2, knots[2])].map(knot);
+        let slope = Fif::<2, 2>::interpolating(&knots, &scalings.map(Scaling::from_num)).unwrap();
+        let f = slope.integral::<3>(Wide::from_num(first)).unwrap();
+        let mut memory: Vec<Sum> = std::vec![Sum::ZERO; Sums::places(2, 9)];
+        then(&Sums::new(&f, 9, &mut memory).unwrap());
+    }
+
+    impl Sums<'_> {
+        /// Up to a part of the whole, 30 fractional bits, outside too.
+        fn up_to(&self, u: i32) -> Sum {
+            let inside = u.clamp(0, WHOLE - 1);
+            let sum = self.at(&self.place((inside as u32) << 2).unwrap());
+            if inside == u { sum } else { self.beyond(&sum, u - inside) }
+        }
+
+        /// The mean value between two such places.
+        fn mean(&self, [a, b]: [i32; 2]) -> f64 {
+            f64::from(self.mean_between(&self.up_to(a), &self.up_to(b), b - a)) / 2_f64.powi(24)
+        }
+    }
+
+    /// Places inside and up to a quarter of the whole outside, in parts of it.
+    fn places() -> impl Iterator<Item = [i32; 2]> {
+        let place = |i: u32, n: u32| {
+            let part = i.wrapping_mul(0x9e37_79b9).wrapping_add(n.wrapping_mul(0x85eb_ca6b)) >> 8;
+            (f64::from(part) / 2_f64.powi(24) * 1.5 * f64::from(WHOLE)) as i32 - (WHOLE >> 2)
+        };
+        (0..400).map(move |i| [place(i, 1), place(i, 2)])
+    }
+
+    fn x(u: i32) -> f64 {
+        2.0 * f64::from(u) / f64::from(WHOLE)
+    }
+
+    /// A straight line goes on as it is, at both ends: value and mean value.
+    #[test]
+    fn a_straight_line_goes_on_beyond_its_ends() {
+        for (first, slope) in [(0.25, 0.5), (-1.0, 0.75), (0.5, -0.375), (0.0, 0.0)] {
+            with_integral(first, [slope; 3], [0.0; 2], |sums| {
+                let line = |x: f64| first + slope * x;
+                let mut outside = [0; 2];
+                for [a, b] in places() {
+                    for u in [a, b] {
+                        let value = f64::from(sums.up_to(u).value()) / 2_f64.powi(24);
+                        // a unit of the rise over a 1024th
+                        let far = (x(u) - x(u.clamp(0, WHOLE - 1))).abs() / 2.0;
+                        let tolerance = (2.0 + 2048.0 * far) * 2_f64.powi(-24);
+                        assert!((value - line(x(u))).abs() < tolerance, "{u}: {value}");
+                        outside[0] += i32::from(u < 0);
+                        outside[1] += i32::from(u >= WHOLE);
+                    }
+                    let (mean, exact) = (sums.mean([a, b]), line((x(a) + x(b)) / 2.0));
+                    let close = (x(a) - x(b)).abs() / 2.0;
+                    let tolerance = 2_f64.powi(-16) + 2_f64.powi(-24) / close.max(2_f64.powi(-12));
+                    assert!((mean - exact).abs() < tolerance, "{a} {b}: {mean} {exact}");
+                }
+                assert!(outside.iter().all(|n| *n > 80), "{outside:?}");
+            });
+        }
+    }
+
+    /// Mean values of `x^2 / 4` between any two places, from left to right and back; a rough function's means
+    /// by how wide each part is add up to that of the whole, outside too.
+    #[test]
+    fn mean_values_are_those_of_the_area() {
+        with_integral(0.125, [0.0, 0.5, 1.0], [0.0; 2], |sums| {
+            for [a, b] in places().map(|ends| ends.map(|u| u.clamp(0, WHOLE - 1))) {
+                let (s, t) = (x(a), x(b));
+                let exact = 0.125 + (s * s + s * t + t * t) / 12.0;
+                let tolerance =
+                    2_f64.powi(-19) + 2_f64.powi(-24) / ((t - s) / 2.0).abs().max(2_f64.powi(-12));
+                for mean in [sums.mean([a, b]), sums.mean([b, a])] {
+                    assert!((mean - exact).abs() < tolerance, "{s} {t}: {mean} {exact}");
+                }
+            }
+            // closer than 2^-12: half of both values
+            let [a, b] = [WHOLE / 3, WHOLE / 3 + (1 << 17)];
+            let [f, g] = [a, b].map(|u| sums.up_to(u));
+            assert_eq!(sums.mean_between(&f, &g, b - a), (f.value() >> 1) + (g.value() >> 1));
+        });
+        with_integral(0.0, [0.0, 1.0, 0.0], [0.85, -0.85], |sums| {
+            for ([a, b], [c, _]) in places().zip(places().skip(7)) {
+                let width = |ends: [i32; 2]| x(ends[1]) - x(ends[0]);
+                let part = |ends: [i32; 2]| width(ends) * sums.mean(ends);
+                if [[a, b], [b, c], [a, c]].iter().all(|ends| width(*ends).abs() > 0.01) {
+                    let off = part([a, b]) + part([b, c]) - part([a, c]);
+                    assert!(off.abs() < 2_f64.powi(-18), "{off}");
+                }
+            }
+        });
+    }
+
+    /// Beyond an end a rough function goes on as it does between the end and a 1024th before.
+    #[test]
+    fn what_lies_beyond_an_end_has_the_slope_before_it() {
+        with_integral(0.5, [0.25, 1.0, -0.5], [0.6, 0.7], |sums| {
+            for (end, before, by) in [
+                (0, 1 << 20, -WHOLE / 16),
+                (0, 1 << 20, -WHOLE / 1000),
+                (WHOLE - 1, WHOLE - (1 << 20), WHOLE / 16),
+                (WHOLE - 1, WHOLE - (1 << 20), WHOLE / 1000),
+            ] {
+                let [at, inside, outside] = [end, before, end + by].map(|u| f64::from(sums.up_to(u).value()));
+                let slope = (at - inside) * 1024.0;
+                let exact = at + slope * f64::from(by.abs()) / f64::from(WHOLE);
+                assert!((outside - exact).abs() < 4.0 + slope.abs() * 2_f64.powi(-20), "{outside} {exact}");
+                let mean = f64::from(sums.mean_between(&sums.up_to(end), &sums.up_to(end + by), by));
+                let tolerance = 64.0 + 2.0 / (f64::from(by.abs()) / f64::from(WHOLE));
+                assert!((mean - (at + outside) / 2.0).abs() < tolerance, "{by}: {mean} {at} {outside}");
+            }
+        });
+    }
+}

@@ -25,7 +25,7 @@ use crate::trace::finish::Finish;
 use crate::trace::material::{Sight, TorranceSparrow};
 use crate::trace::power::{Exponent, times as part_of};
 
-/// The exponent of a highlight up to which three points of a box do.
+/// The exponent of a highlight up to which three points of a box do, where there are more than two boxes.
 const GENTLE: u16 = 16;
 
 /// What light a box is seen in.
@@ -206,7 +206,7 @@ impl<'a> View<'a> {
     pub(super) fn tone(&self, ground: &[Ground<'_>; 2], footprint: &mut Footprint) -> Option<Unit> {
         let shown = match (*self.finish, self.checkerboard) {
             (Finish::Mirror, Some(checkerboard)) => self.reflected(checkerboard, ground, footprint)?,
-            (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) => {
+            (Finish::Phong { shininess: shininess @ ..=GENTLE, .. }, _) if footprint.count() > 2 => {
                 self.gleaming(shininess, ground, footprint)?
             }
             (Finish::Phong { shininess, .. }, _) => self.shining(shininess, ground, footprint)?,

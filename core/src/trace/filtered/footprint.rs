@@ -26,7 +26,7 @@ use crate::num::{high, product, product_within, reciprocal_of, rough_sqrt, round
 pub enum Quality {
     /// Two boxes; in diffuse light one, and no outline.
     Coarse,
-    /// Eight boxes, in a mirror of a checkerboard six; in diffuse light an outline of eight corners.
+    /// Ten boxes, in a mirror of a checkerboard six; in diffuse light an outline of eight corners.
     Fine,
     /// Twelve boxes; in diffuse light an outline of fourteen corners.
     Finest,
@@ -41,6 +41,15 @@ impl Quality {
             Self::Fine if few => [2, 3],
             Self::Fine => [2, 5],
             Self::Finest => [2, 6],
+        }
+    }
+
+    /// Cells of a lattice in a pixel, or so.
+    pub(super) const fn cells(self) -> i32 {
+        match self {
+            Self::Coarse => 2,
+            Self::Fine => 8,
+            Self::Finest => 12,
         }
     }
 

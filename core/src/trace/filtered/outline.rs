@@ -177,3 +177,181 @@ pub(super) fn spread(
     boxes[1].around(ground, [to[0] - part[0], to[1] - part[1]], &sides)?;
     Some(Spread { mean, ..Spread::of_two(&boxes, spans) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::footprint::steepness;
+    use super::*;
+    use crate::fif::{Fif, Knot, Sums};
+    use crate::num::{Scaling, Wide};
+
+    const WHOLE: f64 = 1073741824.0;
+
+    /// Above `[0, 2] x [0, 2]`: `a + b x` times `c + d y`.
+    fn with_ground([a, b, c, d]: [f64; 4], then: impl FnOnce(&[Ground<'_>; 2])) {
+        let line = |slope: f64, first: f64| {
+            let knots = [0, 1, 2].map(|x| Knot::new(Wide::from_num(x), Wide::from_num(slope)));
+            let slope = Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap();
+            slope.integral::<2>(Wide::from_num(first)).unwrap()
+        };
+        let (f, g) = (line(b, a), line(d, c));
+        let mut memory = [[Sum::ZERO; Sums::places(2, 8)]; 2];
+        let [x, y] = &mut memory;
+        let sums = [Sums::new(&f, 8, x).unwrap(), Sums::new(&g, 8, y).unwrap()];
+        then(&sums.map(|sums| Ground::new(sums, 0, 2 << 24)));
+    }
+
+    fn bits(v: f64) -> i32 {
+        (v * 16_777_216.0).round() as i32
+    }
+
+    fn value(v: i32) -> f64 {
+        f64::from(v) / 16_777_216.0
+    }
+
+    /// By Green's theorem with exact numbers: twice the area, and the mean place.
+    fn exact(corners: &[[f64; 2]]) -> (f64, [f64; 2]) {
+        let (mut twice, mut place) = (0.0, [0.0; 2]);
+        for (k, [x, y]) in corners.iter().enumerate() {
+            let [u, v] = corners[(k + 1) % corners.len()];
+            let cross = x * v - u * y;
+            twice += cross;
+            place = [place[0] + (x + u) * cross / 3.0, place[1] + (y + v) * cross / 3.0];
+        }
+        (twice, place.map(|c| c / twice))
+    }
+
+    /// The area of a polygon, and the mean slopes of a product of two straight lines above it: those at the
+    /// polygon's mean place. From the left and from the right, convex and not.
+    #[test]
+    fn an_outline_tells_its_area_and_its_mean_slopes() {
+        let polygons: [&[[f64; 2]]; 5] = [
+            &[[0.5, 0.5], [0.53, 0.51], [0.51, 0.54]],
+            &[[1.0, 1.0], [1.03, 0.97], [1.07, 1.01], [1.04, 1.05]],
+            &[[1.5, 0.25], [1.5, 0.75], [1.875, 0.75], [1.875, 0.25]],
+            // an L and a dart
+            &[[0.2, 1.2], [0.4, 1.2], [0.4, 1.25], [0.25, 1.25], [0.25, 1.6], [0.2, 1.6]],
+            &[[0.7, 0.7], [1.3, 0.9], [0.9, 0.9], [0.9, 1.3]],
+        ];
+        for [a, b, c, d] in [[0.25, 0.5, 0.5, 0.75], [1.0, -0.375, 0.25, 0.5], [0.5, 0.25, 1.0, 0.0]] {
+            with_ground([a, b, c, d], |ground| {
+                for corners in polygons {
+                    for turned in [false, true] {
+                        let mut corners = corners.to_vec();
+                        if turned {
+                            corners.reverse();
+                        }
+                        let (twice, [x, y]) = exact(&corners);
+                        let at = |[x, y]: [f64; 2]| {
+                            let at = [x, y].map(|c| (c / 2.0 * WHOLE) as i32);
+                            let mut beyond = 0;
+                            let [u, v] = ground;
+                            let sums = [u.at(at[0], &mut beyond).unwrap(), v.at(at[1], &mut beyond).unwrap()];
+                            assert_eq!(beyond, 0);
+                            Corner { at, sums }
+                        };
+                        let all: std::vec::Vec<_> = corners.iter().map(|corner| at(*corner)).collect();
+                        let mut sum = Loop::default();
+                        for (k, from) in all.iter().enumerate() {
+                            sum.add(ground, all[0].at[0], from, &all[(k + 1) % all.len()]);
+                        }
+                        let area = sum.twice as f64 / (WHOLE * WHOLE / 4.0);
+                        assert!((area - twice).abs() < 1e-8, "{area} {twice}");
+                        let [p, q] = sum.mean(ground).unwrap().map(value);
+                        let off = [p - b * (c + d * y), q - d * (a + b * x)];
+                        // a unit of a height along the edge of a small polygon
+                        let tolerance = 3e-6 / twice.abs().sqrt();
+                        assert!(
+                            off.iter().all(|off| off.abs() < tolerance),
+                            "{off:?} {tolerance} {corners:?}"
+                        );
+                    }
+                }
+            });
+        }
+        with_ground([0.5; 4], |ground| assert!(Loop::default().mean(ground).is_none()));
+    }
+
+    /// A square pixel from above, around a place, `side` wide at the ground.
+    fn from_above(ground: &[Ground<'_>; 2], [x, y]: [f64; 2], side: f64, columns: i32) -> Option<Spread> {
+        let direction = [0, 0, -(1 << 28)];
+        let sight = Sight { eye: [bits(x), bits(y), bits(8.0)], direction };
+        // an eighth of that at the distance of 1, with 28 fractional bits
+        let pixel = [[1, 0, 0], [0, -1, 0]].map(|edge| edge.map(|c| c * bits(side) * 2));
+        let slope = [0; 2];
+        let t = bits(8.0);
+        let place = Place { t, at: [bits(x), bits(y)], slope, steep: steepness(slope, direction) };
+        spread(ground, &sight, pixel, place, (bits(1.0), columns))
+    }
+
+    /// From above a pixel covers a square around its middle, as wide as it is at the surface's distance: mean
+    /// slopes there, and variances of straight lines over it.
+    #[test]
+    fn a_pixel_from_above_has_the_slopes_of_its_square() {
+        let [a, b, c, d] = [0.25, 0.5, 0.5, 0.75];
+        with_ground([a, b, c, d], |ground| {
+            for (x, y, columns) in [(1.0, 1.0, 3), (0.5, 1.5, 3), (1.25, 0.75, 6), (1.5, 0.5, 1)] {
+                let height = (a + b * x) * (c + d * y);
+                let side = 0.125 * (8.0 - height) / 8.0;
+                let Spread { mean, covariance } = from_above(ground, [x, y], 0.125, columns).unwrap();
+                let exact = [b * (c + d * y), d * (a + b * x)];
+                for (got, exact) in mean.iter().zip(exact) {
+                    assert!((value(*got) - exact).abs() < 2e-3, "{} {exact}", value(*got));
+                }
+                // p goes with y alone, q with x
+                let variance = (b * d * side).powi(2) / 12.0;
+                let [pp, pq, qq] = covariance.map(value);
+                assert!([pp, qq].iter().all(|v| (v / variance - 1.0).abs() < 0.1), "{pp} {qq} {variance}");
+                assert!(pq.abs() < variance / 4.0, "{pq}");
+            }
+        });
+    }
+
+    /// A plane has its slopes wherever a pixel is seen from, and no variance.
+    #[test]
+    fn a_plane_has_its_slopes_from_anywhere() {
+        with_ground([0.25, 0.5, 1.0, 0.0], |ground| {
+            for [dx, dy] in [[0.5, 0.5], [-0.75, 0.25], [0.125, -0.5]] {
+                let direction = [dx, dy, -0.75].map(|c: f64| (c * 268_435_456.0) as i32);
+                // 4 before the place (1, 1)
+                let eye = [1.0 - 4.0 * dx, 1.0 - 4.0 * dy, 0.75 + 3.0].map(bits);
+                let sight = Sight { eye, direction };
+                let slope = [bits(0.5), 0];
+                let place =
+                    Place { t: bits(4.0), at: [bits(1.0); 2], slope, steep: steepness(slope, direction) };
+                let pixel = [[0.01, -0.01, 0.0], [-0.005, -0.005, -0.01]];
+                let pixel = pixel.map(|edge| edge.map(|c: f64| (c * 268_435_456.0) as i32));
+                let Spread { mean, covariance } =
+                    spread(ground, &sight, pixel, place, (bits(0.25), 3)).unwrap();
+                let [p, q] = mean.map(value);
+                assert!((p - 0.5).abs() < 1e-4 && q.abs() < 1e-4, "{p} {q}");
+                assert!(covariance.iter().all(|c| value(*c).abs() < 1e-5), "{covariance:?}");
+            }
+        });
+    }
+
+    /// A pixel of which a strip lies beyond the domain: an eighth to one side, a sixteenth before or behind.
+    #[test]
+    fn a_pixel_that_leaves_the_domain_is_none() {
+        with_ground([0.25, 0.0, 1.0, 0.0], |ground| {
+            let side = 0.125;
+            // as wide as it is at the height of 1/4
+            let half = side * (8.0 - 0.25) / 8.0 / 2.0;
+            let outside = |part: f64| half - part * 2.0 * half;
+            for (part, to_a_side, before) in
+                [(0.0, true, true), (0.05, true, true), (0.075, true, false), (0.15, false, false)]
+            {
+                for columns in [3, 6] {
+                    let at = outside(part);
+                    let is_some = |place: [f64; 2]| from_above(ground, place, side, columns).is_some();
+                    for (x, y) in [(at, 1.0), (2.0 - at, 1.0)] {
+                        assert_eq!(is_some([x, y]), to_a_side, "{part} {columns}");
+                    }
+                    for (x, y) in [(1.0, at), (1.0, 2.0 - at)] {
+                        assert_eq!(is_some([x, y]), before, "{part} {columns}");
+                    }
+                }
+            }
+        });
+    }
+}

@@ -215,8 +215,7 @@ impl<'a> FilteredPatch<'a> {
         let [_, _, z] = sight.at(first.t);
         let place = sight.meet(first.t, slope, z.saturating_sub(above), reach);
         let [_, _, z] = sight.at(place.t);
-        let [few, many] = self.quality.parts(false);
-        let wide = width(edges(&place, sight, self.pixel), few.wrapping_mul(many));
+        let wide = width(edges(&place, sight, self.pixel), self.quality.cells());
         let pixel = Pixel::new(&place, z, sight, self.pixel, reach)?;
         let sum = self.sum(&pixel, &view, self.level(wide))?;
         // the areas of cells against the pixel's: 4 points with 20 fractional bits, shares of 12, cells of
