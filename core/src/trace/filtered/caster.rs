@@ -3,7 +3,8 @@
 //! A pixel's ray is cast through the middle of its lower edge: of a height field whatever stands before
 //! something else comes from below, so that this ray meets first what hides a part of the pixel. Where the
 //! surface stays turned to the eye all over the pixel, its normals are integrated; a pixel whose surface may
-//! turn away, or that only its upper edge meets, takes the samples of the ray caster instead.
+//! turn away, or that only its upper edge meets, takes the samples of the ray caster instead. But a ridge may
+//! only graze the lower edge: a second, narrower ray a quarter of a pixel above tells what lies behind it.
 
 use core::num::NonZeroU32;
 use core::ops::Range;

@@ -152,6 +152,13 @@ pub(super) fn sides(ground: &[Ground<'_>; 2], [a, b]: [[i32; 2]; 2], firm: u32) 
     (spans(half), [x.side(half[0], firm), y.side(half[1], firm)])
 }
 
+/// A number where `rest` is left beyond it in a word, the nearer end otherwise: cut off at both ends of the
+/// word.
+#[inline(always)]
+const fn within(v: i32, rest: i32) -> i32 {
+    v.saturating_add(rest).saturating_sub(rest).saturating_sub(rest).saturating_add(rest)
+}
+
 /// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ways {
@@ -176,10 +183,7 @@ impl Ways {
     #[inline(always)]
     pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], height: i32) -> [i32; 2] {
         let surface = rounded_down::<24>(product(x.value(u), y.value(v)));
-        // cut off at both ends of the word
-        let above = height.saturating_sub(surface).saturating_add(self.rest).saturating_sub(self.rest);
-        let above = above.saturating_sub(self.rest).saturating_add(self.rest);
-        let above = above.wrapping_mul(self.up);
+        let above = within(height.saturating_sub(surface), self.rest).wrapping_mul(self.up);
         [high(above, self.farther[0]), high(above, self.farther[1])]
     }
 }
@@ -345,6 +349,39 @@ impl Quality {
             line: first,
             left: 0,
             before: at,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_height_is_cut_off_where_it_is_out_of_reach() {
+        for reach in [0, 1, 77, 1 << 20, (1 << 30) - 1, 1 << 30] {
+            let ends = [reach - 1, reach, reach + 1].into_iter().flat_map(|end| [end, -end, -end - 1]);
+            for v in ends.chain([0, 5, -5, i32::MIN, i32::MAX]) {
+                assert_eq!(within(v, i32::MAX - reach), v.clamp(-reach - 1, reach), "{v} {reach}");
+            }
+            // and what a line is moved by stays in its word
+            let up = i64::from(1_i32 << reach.leading_zeros().saturating_sub(1).min(30));
+            let most = [i64::from(-reach - 1), reach.into()].map(|end| end * up);
+            assert!(most.iter().all(|end| i32::try_from(*end).is_ok()), "{reach}");
+        }
+    }
+
+    #[test]
+    fn a_part_of_a_length_is_a_part_of_it() {
+        for n in 1..=6 {
+            for v in [0, 1, -1, 77, 1_234_567, -7_654_321, 1 << 30, -(1 << 30)] {
+                let off = cut([v, -v], n).map(|part| i64::from(part) * i64::from(n));
+                let most = 2 * i64::from(n) + 2;
+                assert!(
+                    (off[0] - i64::from(v)).abs() <= most && (off[1] + i64::from(v)).abs() <= most,
+                    "{v} {n}"
+                );
+            }
         }
     }
 }
