@@ -1,5 +1,6 @@
 //! `attractor encode`: a PNG file as a stream of core's codec.
 
+mod bins;
 mod cosine;
 mod file;
 mod partition;
@@ -8,6 +9,7 @@ mod quality;
 mod quantise;
 mod range_encoder;
 mod rate;
+mod rounded;
 mod samples;
 mod search;
 mod settled;
@@ -32,9 +34,9 @@ use crate::still::Still;
 impl Effort {
     /// How hard to look.
     pub(crate) const FAST: Self =
-        Self { isometries: 1, candidates: 2, far: false, rounds: 1, polish: false, filled: 0.995 };
+        Self { isometries: 1, candidates: 2, far: false, rounds: 1, polish: false, filled: 0.995, again: 0 };
     pub(crate) const BEST: Self =
-        Self { isometries: 8, candidates: 16, far: true, rounds: 2, polish: true, filled: 0.998 };
+        Self { isometries: 8, candidates: 16, far: true, rounds: 2, polish: true, filled: 0.998, again: 3 };
 }
 
 impl Plan {
