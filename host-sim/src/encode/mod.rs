@@ -29,7 +29,7 @@ use crate::cli::{Encode, EncodeEffort, EncodePart, EncodeProfile};
 use crate::decode::decoded;
 use crate::fail::{Fail, say};
 use crate::output;
-use crate::still::Still;
+use crate::still::{Pixels, Still};
 
 impl Effort {
     /// How hard to look.
@@ -108,7 +108,10 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
             say(&format!("{} bytes are not met: the nearest file below has {length}", bytes as u64));
         }
         Target::Decibels(decibels) if best.psnr < decibels => {
-            say(&format!("{decibels} dB are out of reach: {:.2} dB", best.psnr));
+            // what is lost with three quarters of the chroma no step brings back
+            let halved = matches!(still.pixels, Pixels::Colour(_)) && !args.full_chroma;
+            let more = if halved { "; --full-chroma keeps all samples of chroma" } else { "" };
+            say(&format!("{decibels} dB are out of reach: {:.2} dB{more}", best.psnr));
         }
         _ => {}
     }

@@ -22,8 +22,8 @@ use super::settled::Settled;
 /// How many domains of a leaf are weighed with what its coefficients add to them.
 const WEIGHED: usize = 5;
 
-/// Below this step the rounding of samples is part of every choice, not only of the last, and pairs of changes
-/// are weighed at the end, with so many first ones.
+/// Below this step the rounding of samples is part of every choice, not only of the last, and pairs of
+/// changes are weighed at the end, with so many first ones.
 const FINE: f32 = 10.0;
 const AHEAD: usize = 8;
 

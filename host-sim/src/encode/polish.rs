@@ -1,10 +1,10 @@
 //! A leaf once more, with its samples as they are rounded and cut off.
 //!
 //! Of leaves that cost nearly the same before the rounding, one is better than the others after it. So the
-//! mean and each level are tried a step lower and a step higher, as long as one of that pays. Where none does,
-//! the best of them are made all the same, to see whether another pays after it.
+//! mean and each level are tried a step lower and a step higher, as long as one of that pays. Where none
+//! does, the best of them are made all the same, to see whether another pays after it.
 
-use attractor::codec::shared::{Leaf, scan};
+use attractor::codec::shared::{LARGEST, Leaf, scan};
 
 use super::bins::Bins;
 use super::cosine::Coefficients;
@@ -73,8 +73,8 @@ impl<'a, F: Fn(i32) -> f32> Polish<'a, F> {
         Self { rounded, bins, leaf, scan, step, lambda, left, error, mean }
     }
 
-    /// Changes the leaf while that takes error and bits off, and tells the squared error left. Of pairs of changes that
-    /// do not pay one by one, `ahead` first ones are tried.
+    /// Changes the leaf while that takes error and bits off, and tells the squared error left. Of pairs of
+    /// changes that do not pay one by one, `ahead` first ones are tried.
     pub(super) fn polish(&mut self, ahead: usize) -> f32 {
         let gain = -1e-3 * self.lambda;
         for _ in 0..MADE {
@@ -125,6 +125,9 @@ impl<'a, F: Fn(i32) -> f32> Polish<'a, F> {
         for place in 1..=last {
             let (at, level) = (self.scan[place], self.leaf.levels.get(self.scan[place]));
             for by in [-1, 1] {
+                if (level + by).abs() > LARGEST {
+                    continue;
+                }
                 let dearer = self.bins.dearer(place, (level + by).abs());
                 offer(place, by, dearer, self.left[usize::from(at)]);
             }

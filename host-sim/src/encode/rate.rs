@@ -33,8 +33,8 @@ pub(crate) struct Encoded {
     pub(crate) step: u16,
 }
 
-/// How an encoding was made: its step, what a bit was worth more than it should be, what was known of bins; and
-/// what came of it.
+/// How an encoding was made: its step, what a bit was worth more than it should be, what was known of bins;
+/// and what came of it.
 struct Fit {
     psnr: f64,
     miss: f64,
@@ -267,8 +267,9 @@ pub(crate) fn meet(
             }
         }
     }
-    // what is decided early in a picture changes what all else costs, so that bytes are no smooth function of
-    // anything: a few more encodings that differ by little, side by side, of which one fills what is asked for
+    // what is decided early in a picture changes what all else costs, so that bytes are no smooth function
+    // of anything: a few more encodings that differ by little, side by side, until one fills what is asked
+    // for
     if let (Target::Bytes(_), Some(fit)) = (target, &fit) {
         // how much less it is to take, and how that changes what it takes, as far as is known
         let (mut lean, mut slope, mut seen) = (fit.miss - aim, 1.0, None::<(f64, f64)>);

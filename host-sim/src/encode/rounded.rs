@@ -95,7 +95,7 @@ impl<'a> Rounded<'a> {
         let mut down = [0.0; 32];
         let sums = &self.sums[usize::from(column)];
         for ((down, sum), c) in down.iter_mut().zip(sums).zip(self.cosine.down(self.size, row)).take(n) {
-            *down = (self.term(sum + by * c, column) - self.term(*sum, column)) as f32;
+            *down = (self.term(sum.wrapping_add(by * c), column) - self.term(*sum, column)) as f32;
         }
         Wave { down, across: self.cosine.across(self.size, column) }
     }
@@ -147,7 +147,7 @@ impl<'a> Rounded<'a> {
         self.waves = waves;
         let sums = &mut self.sums[usize::from(place & 15)];
         for (sum, c) in sums.iter_mut().zip(self.cosine.down(self.size, place >> 4)) {
-            *sum += by * c;
+            *sum = sum.wrapping_add(by * c);
         }
     }
 
