@@ -176,6 +176,16 @@ fn colour_palettes_transparency_and_16_bits_are_encoded() {
     good(dir, &["decode", "rgb.atfi"]);
     let back = decode(&dir.join("rgb.png"));
     assert!(back.color == png::ColorType::Rgb && psnr(&rgb, &back.data) > 35.9);
+    // colours that change from pixel to pixel are gone where chroma is halved
+    let dots: Vec<u8> = (0..w * h).flat_map(|i| [255 * (i % 3 == 0) as u8, 128, (i * 77) as u8]).collect();
+    png(&dir.join("dots.png"), (w, h), png::ColorType::Rgb, png::BitDepth::Eight, &dots);
+    let target = ["encode", "dots.png", "-o", "dots.atfi", "--psnr", "40"];
+    let said = attractor_in(dir, &target);
+    assert!(said.status.success());
+    let said = text(&said.stderr);
+    assert!(said.contains("40 dB are out of reach") && said.contains("--full-chroma keeps"), "{said}");
+    let said = attractor_in(dir, &[&target[..], &["--full-chroma"]].concat());
+    assert!(said.status.success() && !text(&said.stderr).contains("chroma"), "{}", text(&said.stderr));
     // one colour and one that is transparent, on the ground that was named
     let bits: Vec<u8> =
         (0..h).flat_map(|y| (0..w / 8).map(move |x| if (x + y / 8) % 2 == 0 { 0 } else { 255 })).collect();

@@ -6,19 +6,26 @@
 //! when it is written.
 
 use attractor::codec::shared::Coder as _;
-use attractor::codec::shared::{Domain, Leaf, Plane, Setting, scan};
+use attractor::codec::shared::{Domain, FREQUENCIES, Leaf, Plane, Setting};
 use attractor::codec::{Profile, Sample};
 
+use super::bins::Bins;
 use super::cosine::{Coefficients, Cosine};
-use super::polish::Rounded;
+use super::polish::Polish;
 use super::quantise::Quantiser;
 use super::range_encoder::{Cost, Counts, Prices, RangeEncoder, Rates};
+use super::rounded::Rounded;
 use super::samples::Samples;
 use super::search::{Candidates, Effort};
 use super::settled::Settled;
 
 /// How many domains of a leaf are weighed with what its coefficients add to them.
 const WEIGHED: usize = 5;
+
+/// Below this step the rounding of samples is part of every choice, not only of the last, and pairs of
+/// changes are weighed at the end, with so many first ones.
+const FINE: f32 = 10.0;
+const AHEAD: usize = 8;
 
 /// A square.
 enum Node {
@@ -96,8 +103,13 @@ impl<S: Sample> Partition<'_, '_, S> {
             return (0.0, Node::Outside);
         }
         let must_divide = self.without.split && size > 3;
-        let (mut cost, leaf) =
+        let (mut cost, mut leaf) =
             if must_divide { (f32::INFINITY, Box::default()) } else { self.leaf(x, y, size) };
+        if self.effort.polish && self.step < FINE && !must_divide {
+            // a leaf whose samples are not known is rounded as any number is
+            let rounding = (1 << (2 * size)) as f32 / 12.0;
+            cost = self.polish(&mut leaf, x, y, size, 0).unwrap_or(cost + rounding);
+        }
         if size > 2 && !(self.without.split && size == 3) {
             let [whole, parts] = self.rates.bins[self.plane.split_context(x, y, size)];
             cost += self.lambda * whole;
@@ -130,7 +142,7 @@ impl<S: Sample> Partition<'_, '_, S> {
                     out.bin(self.plane.split_context(x, y, size), false);
                 }
                 if self.effort.polish {
-                    self.polish(leaf, x, y, size);
+                    self.polish(leaf, x, y, size, if self.step < FINE { AHEAD } else { 0 });
                 }
                 leaf.code(out, &self.plane.setting(x, y, size));
                 self.draw(leaf, x, y, size);
@@ -163,45 +175,34 @@ impl<S: Sample> Partition<'_, '_, S> {
         }
     }
 
-    /// Weighs a leaf once more with its samples as they are rounded. Those of a domain in sweeps are not
-    /// known yet.
-    fn polish(&self, leaf: &mut Leaf, x: u32, y: u32, size: u32) {
-        let setting = self.plane.setting(x, y, size);
+    /// Changes a leaf by what its samples cost as they are rounded, and tells that; of pairs of changes so
+    /// many first ones are tried. Samples of a domain in sweeps are not known yet: none for those, and where
+    /// there are no coefficients.
+    fn polish(&self, leaf: &mut Leaf, x: u32, y: u32, size: u32, ahead: usize) -> Option<f32> {
+        let (setting, shape) = (self.plane.setting(x, y, size), *self.plane.shape());
         let known = leaf.domain.is_none() || matches!(self.profile, Profile::Streaming);
-        if !(setting.transform && known && leaf.last > 0) {
-            return;
+        if !setting.transform || self.without.transform || !known {
+            return None;
         }
-        let (n, shape) = (1_usize << size, *self.plane.shape());
-        let mut rounded = Rounded {
-            cosine: self.cosine,
-            size,
-            seen: [shape.width - x, shape.height - y].map(|left| n.min(left as usize)),
-            peak: ((1 << S::BITS) - 1) as f32,
-            truth: [0.0; 1024],
-            drawn: [0.0; 1024],
-        };
-        let mean = self.original.square(x, y, n, &mut rounded.truth);
-        rounded.truth.iter_mut().take(n * n).for_each(|value| *value += mean);
-        let base = self.plane.expected(x, y, size) as f32 / 128.0 + leaf.mean as f32 * self.step / n as f32;
-        rounded.drawn.fill(base);
+        let n = 1 << size;
+        let mut truth = [0.0; 1024];
+        let mean = self.original.square(x, y, n, &mut truth);
+        truth.iter_mut().take(n * n).for_each(|value| *value = (*value + mean).round());
+        let seen = [shape.width - x, shape.height - y];
+        let mut rounded = Rounded::new(self.cosine, (size, S::BITS, shape.step), seen, truth);
+        rounded.fill(self.plane.expected(x, y, size), leaf.mean);
         if let Some(domain) = &leaf.domain {
             let mut copied = [0; 1024];
             self.plane.copied(domain, x, y, size, &mut copied);
-            let contrast = domain.contrast() as f32 / 1024.0;
-            let drawn = rounded.drawn.iter_mut().zip(&copied).take(n * n);
-            drawn.for_each(|(drawn, copied)| *drawn += contrast * *copied as f32);
+            rounded.copy(&copied[..n * n], domain.contrast());
         }
-        for place in &scan(size)[1..=leaf.last as usize] {
-            let level = leaf.levels.get(*place);
-            if level != 0 {
-                rounded.add(*place, level as f32 * self.step);
-            }
-        }
-        rounded.polish(leaf, self.step, self.lambda, |leaf| {
-            let mut cost = Cost { rates: &self.rates, bits: 0.0 };
-            leaf.code(&mut cost, &setting);
-            cost.bits
-        });
+        let rates = &self.rates;
+        let mean = |mean| rates.mean(setting.chroma, size, mean);
+        let bins = Bins::new(rates, size);
+        let error = Polish::new(rounded, bins, leaf, self.step, self.lambda, mean).polish(ahead);
+        let mut cost = Cost { rates, bits: 0.0 };
+        leaf.code(&mut cost, &setting);
+        Some(error + self.lambda * cost.bits)
     }
 
     /// The best leaf for a square, and its cost.
@@ -259,7 +260,8 @@ impl<S: Sample> Partition<'_, '_, S> {
                 let domain = Domain { scaling: eighths | domain.scaling & 8, ..domain };
                 let contrast = domain.contrast() as f32 / 8.0;
                 let mut rest = target.coefficients;
-                rest.iter_mut().zip(&frequencies).for_each(|(rest, domain)| *rest -= contrast * domain);
+                let less = rest.iter_mut().zip(&frequencies).take(FREQUENCIES << size);
+                less.for_each(|(rest, domain)| *rest -= contrast * domain);
                 let energy = target.energy - 2.0 * contrast * dot + contrast * contrast * energy;
                 let late = self.lambda * late;
                 other.domain = Some(domain);

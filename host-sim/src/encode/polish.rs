@@ -1,26 +1,35 @@
 //! A leaf once more, with its samples as they are rounded and cut off.
 //!
-//! At an error of about one grey level the rounding is a tenth of it, and it is known: of leaves that cost
-//! nearly the same before it, one is better than the others after it. So the mean and each level are tried a
-//! step lower and a step higher, as long as one of that pays.
+//! Of leaves that cost nearly the same before the rounding, one is better than the others after it. So the
+//! mean and each level are tried a step lower and a step higher, as long as one of that pays. Where none
+//! does, the best of them are made all the same, to see whether another pays after it.
 
-use attractor::codec::shared::{Leaf, scan};
+use attractor::codec::shared::{LARGEST, Leaf, scan};
 
-use super::cosine::{Coefficients, Cosine};
+use super::bins::Bins;
+use super::cosine::Coefficients;
+use super::rounded::Rounded;
 
 /// How many changes of a leaf are weighed at most before one of them is made, and how many are made.
-const WEIGHED: usize = 24;
+const WEIGHED: usize = 50;
 const MADE: usize = 12;
+/// By how many of the roots of the squared error what the rounding adds or takes may differ from nothing.
+const SLACK: f32 = 3.0;
 
-/// The samples of a square, and what a leaf makes of them before they are rounded.
-pub(super) struct Rounded<'a> {
-    pub(super) cosine: &'a Cosine,
-    pub(super) size: u32,
-    /// Columns and rows that lie in the picture.
-    pub(super) seen: [usize; 2],
-    pub(super) peak: f32,
-    pub(super) truth: [f32; 1024],
-    pub(super) drawn: [f32; 1024],
+/// A leaf while it is changed.
+pub(super) struct Polish<'a, F> {
+    rounded: Rounded<'a>,
+    bins: Bins<'a>,
+    leaf: &'a mut Leaf,
+    scan: &'static [u8],
+    step: f32,
+    lambda: f32,
+    /// What is left of the truth, by frequency.
+    left: Coefficients,
+    /// Squared error.
+    error: f32,
+    /// Bits of a mean.
+    mean: F,
 }
 
 /// A change: a place along the scan, 0 for the mean, and by how much.
@@ -30,183 +39,188 @@ struct Change {
     by: i32,
 }
 
-impl Rounded<'_> {
-    /// Squared error, once so much of a frequency is added.
-    fn error(&self, place: u8, amount: f32) -> f32 {
-        // adding it takes the fraction off
-        const WHOLE: f32 = 12_582_912.0;
-        let n = 1 << self.size;
-        let [columns, rows] = self.seen;
-        let (down, across) = self.waves(place);
-        let mut sum = 0.0;
-        let lines = self.truth.chunks_exact(n).zip(self.drawn.chunks_exact(n)).zip(down).take(rows);
-        for ((truth, drawn), down) in lines {
-            let down = amount * down;
-            let mut sums = [0.0_f32; 4];
-            let fours = truth[..columns].chunks(4).zip(drawn[..columns].chunks(4)).zip(across.chunks(4));
-            for ((truth, drawn), across) in fours {
-                for (((sum, truth), drawn), across) in sums.iter_mut().zip(truth).zip(drawn).zip(across) {
-                    let sample = ((drawn + down * across + WHOLE) - WHOLE).clamp(0.0, self.peak);
-                    *sum += (truth - sample) * (truth - sample);
-                }
-            }
-            sum += sums.iter().sum::<f32>();
-        }
-        sum
-    }
-
-    fn waves(&self, place: u8) -> (&[f32], &[f32]) {
-        (self.cosine.wave(self.size, place >> 4), self.cosine.wave(self.size, place & 15))
-    }
-
-    /// Adds so much of a frequency.
-    pub(super) fn add(&mut self, place: u8, amount: f32) {
-        let n = 1 << self.size;
-        let cosine = self.cosine;
-        let (down, across) = (cosine.wave(self.size, place >> 4), cosine.wave(self.size, place & 15));
-        for (row, down) in self.drawn.chunks_exact_mut(n).zip(down) {
-            for (drawn, across) in row.iter_mut().zip(across) {
-                *drawn += amount * down * across;
-            }
-        }
-    }
-
-    /// Changes the leaf's mean and levels while that takes error and bits, `lambda` each, off. `bits` tells
-    /// what a leaf takes.
-    pub(super) fn polish(
-        &mut self,
-        leaf: &mut Leaf,
-        step: f32,
-        lambda: f32,
-        mut bits: impl FnMut(&mut Leaf) -> f32,
-    ) {
-        let scan = scan(self.size);
-        let count = 1 << (2 * self.size);
-        let mut rest = [0.0; 1024];
-        for ((rest, truth), drawn) in rest.iter_mut().zip(&self.truth).zip(&self.drawn).take(count) {
-            *rest = truth - drawn;
-        }
-        let mut left: Coefficients = [0.0; 256];
-        self.cosine.forward(self.size, &rest[..count], &mut left);
-        let (mut error, mut said) = (self.error(0, 0.0), bits(leaf));
-        for _ in 0..MADE {
-            // what the rounding may add or take
-            let slack = 2.0 * error.sqrt();
-            let mut likely = Vec::new();
-            for place in 0..(leaf.last as usize + 6).min(scan.len()) {
-                let level = if place == 0 { leaf.mean } else { leaf.levels.get(scan[place]) };
-                for by in [-1, 1] {
-                    let amount = by as f32 * step;
-                    let more = amount * amount - 2.0 * amount * left[usize::from(scan[place])];
-                    let saved = if level * by < 0 { 7.0 } else { -1.0 };
-                    if more > slack + saved * lambda && place > 0 || more > slack + 3.0 * lambda {
-                        continue;
-                    }
-                    let change = Change { place, by };
-                    let last = change.make(leaf, scan);
-                    let dearer = bits(leaf) - said;
-                    change.undo(leaf, scan, last);
-                    let cost = more + lambda * dearer;
-                    if cost < slack {
-                        likely.push((cost, dearer, change));
-                    }
-                }
-            }
-            likely.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let mut best = None;
-            let mut least = -1e-3 * lambda;
-            for (_, dearer, change) in likely.into_iter().take(WEIGHED) {
-                let other = self.error(scan[change.place], change.by as f32 * step);
-                let cost = other - error + lambda * dearer;
-                if cost < least {
-                    (least, best) = (cost, Some((other, dearer, change)));
-                }
-            }
-            let Some((other, dearer, change)) = best else { return };
-            change.make(leaf, scan);
-            (error, said) = (other, said + dearer);
-            let amount = change.by as f32 * step;
-            self.add(scan[change.place], amount);
-            left[usize::from(scan[change.place])] -= amount;
-        }
-    }
+/// What a change costs, in squared error with bits and without.
+#[derive(Clone, Copy)]
+struct Weighed {
+    cost: f32,
+    dearer: f32,
+    change: Change,
 }
 
-impl Change {
-    /// Changes a leaf, and tells the place of its last coefficient before.
-    fn make(self, leaf: &mut Leaf, scan: &[u8]) -> u32 {
-        let last = leaf.last;
-        self.add(leaf, scan, self.by);
-        if self.place > leaf.last as usize {
-            leaf.last = self.place as u32;
+impl<'a, F: Fn(i32) -> f32> Polish<'a, F> {
+    /// A leaf as it is drawn by `rounded`, without its coefficients so far; bits of a mean are `mean`, one is
+    /// worth `lambda`.
+    pub(super) fn new(
+        mut rounded: Rounded<'a>,
+        mut bins: Bins<'a>,
+        leaf: &'a mut Leaf,
+        step: f32,
+        lambda: f32,
+        mean: F,
+    ) -> Self {
+        let scan = scan(rounded.size());
+        for (i, place) in scan.iter().enumerate().take(leaf.last as usize + 1).skip(1) {
+            let level = leaf.levels.get(*place);
+            if level != 0 {
+                rounded.add(*place, level);
+                bins.set(i, level.abs());
+            }
         }
-        while leaf.last > 0 && leaf.levels.get(scan[leaf.last as usize]) == 0 {
-            leaf.last -= 1;
-        }
-        last
+        bins.last = leaf.last as usize;
+        let mut left = [0.0; 256];
+        rounded.left(&mut left);
+        let error = rounded.error(&rounded.wave(0, 0));
+        Self { rounded, bins, leaf, scan, step, lambda, left, error, mean }
     }
 
-    fn undo(self, leaf: &mut Leaf, scan: &[u8], last: u32) {
-        self.add(leaf, scan, -self.by);
-        leaf.last = last;
+    /// Changes the leaf while that takes error and bits off, and tells the squared error left. Of pairs of
+    /// changes that do not pay one by one, `ahead` first ones are tried.
+    pub(super) fn polish(&mut self, ahead: usize) -> f32 {
+        let gain = -1e-3 * self.lambda;
+        for _ in 0..MADE {
+            let weighed = self.weighed();
+            let Some(first) = weighed.first() else { break };
+            if first.cost < gain {
+                self.make(first.change);
+                continue;
+            }
+            let pair = weighed.iter().take(ahead).find_map(|first| {
+                let error = self.error;
+                self.make(first.change);
+                let next = self.weighed().first().copied();
+                let pays = next.filter(|next| first.cost + next.cost < gain);
+                if pays.is_none() {
+                    self.make(Change { by: -first.change.by, ..first.change });
+                    self.error = error;
+                }
+                pays.map(|next| next.change)
+            });
+            let Some(change) = pair else { break };
+            self.make(change);
+        }
+        self.error
     }
 
-    fn add(self, leaf: &mut Leaf, scan: &[u8], by: i32) {
-        if self.place == 0 {
-            leaf.mean += by;
+    fn level(&self, place: usize) -> i32 {
+        if place == 0 { self.leaf.mean } else { self.leaf.levels.get(self.scan[place]) }
+    }
+
+    /// What each change costs that is likely to pay, the best first.
+    fn weighed(&mut self) -> Vec<Weighed> {
+        let last = self.bins.last;
+        let mut likely = Vec::with_capacity(2 * self.scan.len());
+        let slack = SLACK * self.error.sqrt();
+        let mut offer = |place: usize, by: i32, dearer: f32, left: f32| {
+            let amount = by as f32 * self.step;
+            let cost = amount * amount - 2.0 * amount * left + self.lambda * dearer;
+            if cost < slack {
+                likely.push(Weighed { cost, dearer, change: Change { place, by } });
+            }
+        };
+        let mean = self.leaf.mean;
+        let said = (self.mean)(mean);
+        for by in [-1, 1] {
+            offer(0, by, (self.mean)(mean + by) - said, self.left[0]);
+        }
+        for place in 1..=last {
+            let (at, level) = (self.scan[place], self.leaf.levels.get(self.scan[place]));
+            for by in [-1, 1] {
+                if (level + by).abs() > LARGEST {
+                    continue;
+                }
+                let dearer = self.bins.dearer(place, (level + by).abs());
+                offer(place, by, dearer, self.left[usize::from(at)]);
+            }
+        }
+        for (place, dearer) in self.bins.beyond() {
+            let left = self.left[usize::from(self.scan[place])];
+            offer(place, if left < 0.0 { -1 } else { 1 }, dearer, left);
+        }
+        if likely.len() > WEIGHED {
+            likely.select_nth_unstable_by(WEIGHED, |a, b| a.cost.total_cmp(&b.cost));
+            likely.truncate(WEIGHED);
+        }
+        for Weighed { cost, dearer, change } in &mut likely {
+            let error = self.rounded.error(&self.rounded.wave(self.scan[change.place], change.by));
+            *cost = error - self.error + self.lambda * *dearer;
+        }
+        likely.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        likely
+    }
+
+    fn make(&mut self, change: Change) {
+        let Change { place, by } = change;
+        let (at, level) = (self.scan[place], self.level(place) + by);
+        if place == 0 {
+            self.leaf.mean = level;
         } else {
-            let level = leaf.levels.get(scan[self.place]);
-            leaf.levels.set(scan[self.place], level + by);
+            self.leaf.levels.set(at, level);
+            self.bins.put(place, level.abs());
+            self.leaf.last = self.bins.last as u32;
         }
+        self.rounded.add(at, by);
+        self.left[usize::from(at)] -= by as f32 * self.step;
+        self.error = self.rounded.error(&self.rounded.wave(0, 0));
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::cosine::Cosine;
+    use super::super::range_encoder::{Cost, NEW, Prices, Rates};
     use super::*;
+    use attractor::codec::shared::Setting;
 
-    const STEP: f32 = 2.5;
-    const LAMBDA: f32 = 0.12 * STEP * STEP;
+    /// In `2^-8`.
+    const STEP: u32 = 640;
+    const LAMBDA: f32 = 0.12 * 2.5 * 2.5;
 
-    fn bits(leaf: &mut Leaf) -> f32 {
-        let said = scan(3).iter().skip(1).map(|place| leaf.levels.get(*place).unsigned_abs());
-        said.map(|level| if level == 0 { 0.0 } else { 3.0 + level as f32 }).sum::<f32>()
-            + (2 * leaf.mean.abs()) as f32
-            + 0.1 * leaf.last as f32
+    fn bits(rates: &Rates, leaf: &mut Leaf) -> f32 {
+        let setting = Setting { size: 3, chroma: 0, neighbours: 0, far: None, transform: true };
+        let mut cost = Cost { rates, bits: 0.0 };
+        leaf.code(&mut cost, &setting);
+        cost.bits
     }
 
-    /// A square of 8 x 8 with a grain of one grey level, and what a leaf draws of it.
+    /// A square of 8 x 8 with a grain of one grey level, in which a leaf with that mean is drawn.
     fn square<'a>(cosine: &'a Cosine, leaf: &Leaf, seed: u32) -> Rounded<'a> {
         let mut truth = [0.0; 1024];
         for (i, value) in (0_u32..64).zip(&mut truth) {
             let grain = (i * 31 + seed).wrapping_mul(0x9e37_79b9) >> 30;
             *value = (2 + i / 24 + grain) as f32;
         }
-        let drawn = [4.3 + leaf.mean as f32 * STEP / 8.0; 1024];
-        let mut rounded = Rounded { cosine, size: 3, seen: [8, 7], peak: 255.0, truth, drawn };
-        for place in &scan(3)[1..] {
-            rounded.add(*place, leaf.levels.get(*place) as f32 * STEP);
-        }
+        let mut rounded = Rounded::new(cosine, (3, 8, STEP), [8, 7], truth);
+        rounded.fill(550, leaf.mean);
         rounded
     }
 
     #[test]
     fn a_leaf_costs_less_once_it_was_polished_and_says_what_was_weighed() {
-        let cosine = Cosine::new();
-        let (mut gained, mut changed) = (0.0, 0);
-        for seed in 0..200 {
-            let mut leaf = Leaf { mean: (seed % 3) as i32 - 1, last: 2, ..Leaf::default() };
-            leaf.levels.set(scan(3)[2], if seed % 2 == 0 { 1 } else { -1 });
-            let cost = |leaf: &mut Leaf| square(&cosine, leaf, seed).error(0, 0.0) + LAMBDA * bits(leaf);
-            let before = cost(&mut leaf);
-            square(&cosine, &leaf, seed).polish(&mut leaf, STEP, LAMBDA, bits);
-            let after = cost(&mut leaf);
-            assert!(after <= before + 1e-3, "{seed}: {before} became {after}");
-            assert!(leaf.last == 0 || leaf.levels.get(scan(3)[leaf.last as usize]) != 0, "{seed}");
-            assert!(scan(3)[leaf.last as usize + 1..].iter().all(|place| leaf.levels.get(*place) == 0));
-            gained += before - after;
-            changed += u32::from(after < before);
+        let (cosine, rates) = (Cosine::new(), Prices::new().rates(&NEW, None, 0));
+        let mut gained = [0.0; 2];
+        for (gained, ahead) in gained.iter_mut().zip([0, 8]) {
+            let mut changed = 0;
+            for seed in 0..200 {
+                let mut leaf = Leaf { mean: (seed % 3) as i32 - 1, last: 2, ..Leaf::default() };
+                leaf.levels.set(scan(3)[2], if seed % 2 == 0 { 1 } else { -1 });
+                let polish = |leaf: &mut Leaf, ahead: Option<usize>| {
+                    let (rounded, mean) = (square(&cosine, leaf, seed), |mean| rates.mean(0, 3, mean));
+                    let mut polish = Polish::new(rounded, Bins::new(&rates, 3), leaf, 2.5, LAMBDA, mean);
+                    let error = ahead.map_or(polish.error, |ahead| polish.polish(ahead));
+                    error + LAMBDA * bits(&rates, leaf)
+                };
+                let before = polish(&mut leaf, None);
+                let said = polish(&mut leaf, Some(ahead));
+                let after = polish(&mut leaf, None);
+                assert!((said - after).abs() < 1e-2, "{seed}: {said} is {after}");
+                assert!(after <= before + 1e-3, "{seed}: {before} became {after}");
+                assert!(leaf.last == 0 || leaf.levels.get(scan(3)[leaf.last as usize]) != 0, "{seed}");
+                assert!(scan(3)[leaf.last as usize + 1..].iter().all(|place| leaf.levels.get(*place) == 0));
+                *gained += before - after;
+                changed += u32::from(after < before);
+            }
+            assert!(changed > 150, "{changed}");
         }
-        assert!(changed > 150 && gained > 200.0 * LAMBDA, "{changed} {gained}");
+        assert!(gained[0] > 200.0 * LAMBDA && gained[1] > gained[0] + 50.0 * LAMBDA, "{gained:?} {LAMBDA}");
     }
 }

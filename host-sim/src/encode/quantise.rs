@@ -6,15 +6,11 @@
 //! again, one lower and one higher, with what that does to the bins of the places below it and to its right,
 //! and so is the place to stop.
 
-use std::sync::LazyLock;
+use attractor::codec::shared::{LARGEST, Leaf, Setting, scan};
 
-use attractor::codec::shared::{CLASSES, LARGEST, Leaf, Setting, class, context, scan};
-
+use super::bins::Bins;
 use super::cosine::Coefficients;
 use super::range_encoder::Rates;
-
-/// From one row of the grid to the next: a column of zeros before the first.
-const ROW: usize = 17;
 
 /// Prices and the exchange rate.
 pub(super) struct Quantiser<'a> {
@@ -26,64 +22,14 @@ pub(super) struct Quantiser<'a> {
 
 /// The levels of a square while they are chosen.
 struct Choice<'a> {
-    rates: &'a Rates,
+    bins: Bins<'a>,
     /// Squared steps that a bit is worth.
     lambda: f32,
-    scan: &'static [u8],
-    /// Logarithm of the side, less 2.
-    size: usize,
     /// Coefficients in steps, along the scan.
     values: [f32; 256],
-    /// Levels without sign, in a grid with a row and a column of zeros before the first.
-    grid: [i32; ROW * ROW],
-    /// Where a place of the grid is along the scan; 0 where it is not.
-    order: &'a Order,
-    last: usize,
-}
-
-const fn cell(place: u8) -> usize {
-    ((place >> 4) as usize + 1) * ROW + (place & 15) as usize + 1
-}
-
-/// Where each place of the grid, and of a row below it, is along the scan.
-type Order = [u8; ROW * ROW + ROW];
-
-static ORDERS: LazyLock<[Order; 4]> = LazyLock::new(|| [2, 3, 4, 5].map(order));
-/// The class of each place of a scan.
-static CLASS: [usize; 256] = {
-    let (mut classes, mut i) = ([0; 256], 0);
-    while i < 256 {
-        classes[i] = class(i as u32);
-        i += 1;
-    }
-    classes
-};
-
-fn order(size: u32) -> Order {
-    let (mut order, scan) = ([0; ROW * ROW + ROW], scan(size));
-    let mut i = 1;
-    while i < scan.len() {
-        order[cell(scan[i])] = i as u8;
-        i += 1;
-    }
-    order
 }
 
 impl Choice<'_> {
-    #[inline]
-    fn level(&self, i: usize) -> i32 {
-        self.grid[cell(self.scan[i])]
-    }
-
-    /// Bits of whether the level at a place is not 0.
-    #[inline]
-    fn significance(&self, i: usize, level: i32) -> f32 {
-        let at = cell(self.scan[i]);
-        let about = (self.grid[at - ROW] + self.grid[at - 1]).min(2) as usize;
-        let model = context::SIGNIFICANT + (self.size * CLASSES + CLASS[i]) * 3 + about;
-        self.rates.bins[model][usize::from(level != 0)]
-    }
-
     /// Squared error and price of a level, against that of no level, but for its significance.
     #[inline]
     fn magnitude(&self, i: usize, level: i32) -> f32 {
@@ -91,9 +37,7 @@ impl Choice<'_> {
             return 0.0;
         }
         let (length, l) = (self.values[i], level as f32);
-        let large = self.rates.bins[context::LARGE + self.size * CLASSES + CLASS[i]][usize::from(level > 1)];
-        let rest = if level > 1 { self.rates.magnitude(level as u32 - 2) } else { 0.0 };
-        l * l - 2.0 * l * length + self.lambda * (1.0 + large + rest)
+        l * l - 2.0 * l * length + self.lambda * self.bins.magnitude(i, level)
     }
 
     #[inline]
@@ -104,67 +48,57 @@ impl Choice<'_> {
     /// Along the scan, once, without looking ahead: what all costs.
     fn first(&mut self, most: usize) -> f32 {
         let mut sum = 0.0;
-        let (mut least, mut end) = (self.lambda * self.rates.last[self.size][0], (0, 0));
+        let (mut least, mut end) = (self.lambda * self.bins.end(0), (0, 0));
         for i in 1..=most {
             let nearest = self.nearest(i);
-            let zero = self.lambda * self.significance(i, 0);
+            let [zero, other] = self.bins.significances(i).map(|bits| self.lambda * bits);
             if nearest == 0 {
                 sum += zero;
                 continue;
             }
             let (mut level, mut cost) = (nearest, self.magnitude(i, nearest));
-            if nearest > 1 && self.magnitude(i, nearest - 1) < cost {
-                (level, cost) = (nearest - 1, self.magnitude(i, nearest - 1));
+            if nearest > 1 {
+                let less = self.magnitude(i, nearest - 1);
+                if less < cost {
+                    (level, cost) = (nearest - 1, less);
+                }
             }
             // the last one's significance is not said
-            let stop = sum + cost + self.lambda * self.rates.last[self.size][i];
+            let stop = sum + cost + self.lambda * self.bins.end(i);
             if stop < least {
                 (least, end) = (stop, (i, level));
             }
-            let kept = cost + self.lambda * self.significance(i, 1);
+            let kept = cost + other;
             if kept < zero {
-                self.grid[cell(self.scan[i])] = level;
+                self.bins.set(i, level);
                 sum += kept;
             } else {
                 sum += zero;
             }
         }
-        self.last = end.0;
-        for place in &self.scan[(end.0 + 1).min(self.scan.len())..] {
-            self.grid[cell(*place)] = 0;
-        }
+        self.bins.stop(end.0, most);
         if end.0 > 0 {
-            self.grid[cell(self.scan[end.0])] = end.1;
+            self.bins.set(end.0, end.1);
         }
         least
     }
 
     /// What a place's level costs, with the bins that depend on it.
     fn around(&mut self, i: usize, level: i32) -> f32 {
-        let at = cell(self.scan[i]);
-        let before = std::mem::replace(&mut self.grid[at], level);
-        let mut bits = if i < self.last { self.significance(i, level) } else { 0.0 };
-        for next in [at + 1, at + ROW] {
-            let next = usize::from(self.order[next]);
-            if next > 0 && next < self.last {
-                bits += self.significance(next, self.level(next));
-            }
-        }
-        self.grid[at] = before;
-        self.magnitude(i, level) + self.lambda * bits
+        self.magnitude(i, level) + self.lambda * self.bins.around(i, level)
     }
 
     /// Each level once more; whether one has changed.
     fn again(&mut self) -> bool {
         let mut changed = false;
-        for i in (1..=self.last).rev() {
-            let level = self.level(i);
+        for i in (1..=self.bins.last).rev() {
+            let level = self.bins.level(i);
             if level == 0 && self.values[i] < 0.4 {
                 continue;
             }
             let mut best = (self.around(i, level), level);
             for other in [level - 1, level + 1] {
-                let least = i32::from(i == self.last);
+                let least = i32::from(i == self.bins.last);
                 if other < least || other > self.nearest(i).max(1) {
                     continue;
                 }
@@ -174,7 +108,7 @@ impl Choice<'_> {
                 }
             }
             if best.1 != level {
-                self.grid[cell(self.scan[i])] = best.1;
+                self.bins.set(i, best.1);
                 changed = true;
             }
         }
@@ -184,23 +118,20 @@ impl Choice<'_> {
     /// The place to stop, once more: what all costs, and whether it has changed.
     fn stop(&mut self) -> (f32, bool) {
         let mut sum = 0.0;
-        let (mut least, mut end) = (self.lambda * self.rates.last[self.size][0], 0);
-        for i in 1..=self.last {
-            let level = self.level(i);
+        let (mut least, mut end) = (self.lambda * self.bins.end(0), 0);
+        for i in 1..=self.bins.last {
+            let level = self.bins.level(i);
             let cost = self.magnitude(i, level);
             if level > 0 {
-                let stop = sum + cost + self.lambda * self.rates.last[self.size][i];
+                let stop = sum + cost + self.lambda * self.bins.end(i);
                 if stop < least {
                     (least, end) = (stop, i);
                 }
             }
-            sum += cost + self.lambda * self.significance(i, level);
+            sum += cost + self.lambda * self.bins.significance(i, level);
         }
-        let changed = end < self.last;
-        for i in end + 1..=self.last {
-            self.grid[cell(self.scan[i])] = 0;
-        }
-        self.last = end;
+        let changed = end < self.bins.last;
+        self.bins.stop(end, self.bins.last);
         (least, changed)
     }
 }
@@ -225,14 +156,9 @@ impl Quantiser<'_> {
             return self.lambda * self.rates.last[(setting.size - 2) as usize][0];
         };
         let mut choice = Choice {
-            rates: self.rates,
+            bins: Bins::new(self.rates, setting.size),
             lambda: self.lambda / (self.step * self.step),
-            scan,
-            size: (setting.size - 2) as usize,
             values: [0.0; 256],
-            grid: [0; ROW * ROW],
-            order: &ORDERS[(setting.size - 2) as usize],
-            last: 0,
         };
         let steps = 1.0 / self.step;
         for i in 1..=most {
@@ -247,9 +173,9 @@ impl Quantiser<'_> {
                 break;
             }
         }
-        leaf.last = choice.last as u32;
-        for (i, place) in scan.iter().enumerate().take(choice.last + 1).skip(1) {
-            let level = choice.level(i);
+        leaf.last = choice.bins.last as u32;
+        for (i, place) in scan.iter().enumerate().take(choice.bins.last + 1).skip(1) {
+            let level = choice.bins.level(i);
             if level != 0 {
                 leaf.levels.set(*place, if value(i) < 0.0 { -level } else { level });
             }

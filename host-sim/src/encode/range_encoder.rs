@@ -99,7 +99,7 @@ impl Coder for RangeEncoder {
 }
 
 /// The part of what a model was on the whole.
-const WHOLE: f32 = 0.7;
+const WHOLE: f32 = 0.85;
 
 /// How often each model had a 0 and a 1.
 pub(super) type Counts = [[u32; 2]; MODELS];
@@ -152,6 +152,16 @@ pub(super) struct Rates {
 }
 
 impl Rates {
+    /// So many steps of a mean.
+    pub(super) fn mean(&self, chroma: u32, size: u32, mean: i32) -> f32 {
+        let (mut cost, k) = (Cost { rates: self, bits: 0.0 }, (4 * chroma + size - 2) as usize);
+        number(&mut cost, context::MEAN + k * NUMBER, mean.unsigned_abs());
+        if mean != 0 {
+            cost.bin(context::MEAN_SIGN + k, mean < 0);
+        }
+        cost.bits
+    }
+
     /// A magnitude less 2.
     pub(super) fn magnitude(&self, value: u32) -> f32 {
         self.magnitudes.get(value as usize).copied().unwrap_or_else(|| {

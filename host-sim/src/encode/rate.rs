@@ -9,9 +9,11 @@ use std::cell::Cell;
 use attractor::Error;
 use attractor::codec::shared::crc32;
 use attractor::codec::{Planes, Profile, Step, check};
+use rayon::prelude::*;
 
 use super::file::{At, Known, Plan, Pool, Source};
 use super::quality::decibels;
+use super::range_encoder::Counts;
 use super::search::Effort;
 use crate::decode::{decoded, decoded_with_planes};
 use crate::still::Still;
@@ -31,6 +33,16 @@ pub(crate) struct Encoded {
     pub(crate) step: u16,
 }
 
+/// How an encoding was made: its step, what a bit was worth more than it should be, what was known of bins;
+/// and what came of it.
+struct Fit {
+    psnr: f64,
+    miss: f64,
+    step: u16,
+    thrift: f32,
+    counts: Counts,
+}
+
 /// Where a header says how many sweeps.
 const REACH: usize = 12;
 
@@ -44,6 +56,11 @@ const PASSES: usize = 12;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
 const FINER: [u16; 8] = [0, 2, 7, 19, 4, 11, 14, 29];
 const BETWEEN: usize = 6;
+/// Logarithm of the bytes that a step takes.
+const PER_STEP: f64 = 0.0035;
+/// How many encodings there are side by side that differ by little, until one fills this part of the bytes.
+const ASIDE: u16 = 4;
+const FULL: f64 = 0.9992;
 /// What part of the bytes is enough where what is wanted is not met soon.
 const ENOUGH: f64 = 0.992;
 
@@ -159,6 +176,8 @@ pub(crate) fn meet(
     let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
     let (mut pool, mut passes): (Option<Vec<Pool>>, u32) = (None, 0);
     let learns = Cell::new(true);
+    // how the best so far was made
+    let mut fit = None::<Fit>;
     let mut one = |(step, thrift): (u16, f32)| {
         let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift, every: 1 };
         let known = Known { candidates: &candidates, pools: pool.as_deref(), counts: Some(&counts) };
@@ -167,6 +186,11 @@ pub(crate) fn meet(
         // would meet the target
         if passes < 2 && sweeps {
             pool = Some(pools);
+        }
+        let miss = target.missed(&encoded);
+        let better = fit.as_ref().is_none_or(|fit| encoded.psnr > fit.psnr);
+        if target.allows(&encoded) && miss > -0.01 && better {
+            fit = Some(Fit { psnr: encoded.psnr, step, thrift, miss, counts });
         }
         // prices of bins are those of the one before, but while bits are weighed at the nearest step
         if learns.get() {
@@ -212,7 +236,7 @@ pub(crate) fn meet(
             // of small pictures bytes may jump past what is enough while the prices stay
             learns.set(finer > 0);
             // logarithms of what a bit is worth, and what is missed
-            let (mut over, mut under) = ((0.0, f64::from(finer) * 0.0035), None::<(f64, f64)>);
+            let (mut over, mut under) = ((0.0, f64::from(finer) * PER_STEP), None::<(f64, f64)>);
             if finer == 0 {
                 let there = tried.iter().find(|e| e.step == step);
                 over.1 = there.map_or(0.0, |e| target.missed(e));
@@ -241,6 +265,37 @@ pub(crate) fn meet(
                 }
                 tried.push(encoded);
             }
+        }
+    }
+    // what is decided early in a picture changes what all else costs, so that bytes are no smooth function
+    // of anything: a few more encodings that differ by little, side by side, until one fills what is asked
+    // for
+    if let (Target::Bytes(_), Some(fit)) = (target, &fit) {
+        // how much less it is to take, and how that changes what it takes, as far as is known
+        let (mut lean, mut slope, mut seen) = (fit.miss - aim, 1.0, None::<(f64, f64)>);
+        for turn in 0..effort.again {
+            if tried.iter().any(|e| target.is_met(e, FULL)) {
+                break;
+            }
+            let others = (0..ASIDE).into_par_iter().map(|i| {
+                let step = (fit.step + ASIDE / 2).saturating_sub(turn * ASIDE + i);
+                let step = step.min(Step::MAX.to_bits());
+                let finer = f64::from(fit.step) - f64::from(step);
+                let thrift = fit.thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32;
+                let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift, every: 1 };
+                let counts = Some(&fit.counts);
+                let known = Known { candidates: &candidates, pools: pool.as_deref(), counts };
+                encode(at, known).map(|(encoded, ..)| encoded)
+            });
+            let others = others.collect::<Result<Vec<_>, _>>()?;
+            let over = others.iter().map(|e| target.missed(e) - aim).sum::<f64>() / f64::from(ASIDE);
+            if let Some((less, before)) = seen.filter(|(less, _)| *less != lean) {
+                slope = ((before - over) / (lean - less)).clamp(1.0, 8.0);
+            }
+            seen = Some((lean, over));
+            lean += over / slope;
+            others.iter().for_each(&mut *said);
+            tried.extend(others);
         }
     }
     let best = target.best(&tried).cloned();
