@@ -196,7 +196,7 @@ mod tests {
         // prices that differ
         let counts = std::array::from_fn(|i| [0, 1].map(|bin| 1 + random(2 * i as u32 + bin) % 40));
         let _: &[[u32; 2]; MODELS] = &counts;
-        let rates = Prices::new().rates(&NEW, Some(&counts), 0);
+        let rates = Prices::new().rates(&NEW, Some((&counts, 0.7)), 0);
         let mut tried = 0;
         for seed in 0..300_u32 {
             let size = 2 + seed % 4;

@@ -206,7 +206,7 @@ impl<'a> Source<'a> {
                     late: self.late(),
                     without: self.plan.without,
                     effort: Effort { polish: self.effort.polish && every == 1, ..self.effort },
-                    rates: self.prices.rates(&out.models, counts, shapes[index as usize].chroma),
+                    rates: self.prices.rates(&out.models, None, shapes[index as usize].chroma),
                     counts,
                     before: pools.map(|pools| &pools[index as usize].settled),
                     settled: &mut settled[index as usize],

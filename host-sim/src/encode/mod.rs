@@ -33,10 +33,26 @@ use crate::still::{Pixels, Still};
 
 impl Effort {
     /// How hard to look.
-    pub(crate) const FAST: Self =
-        Self { isometries: 1, candidates: 2, far: false, rounds: 1, polish: false, filled: 0.995, again: 0 };
-    pub(crate) const BEST: Self =
-        Self { isometries: 8, candidates: 16, far: true, rounds: 2, polish: true, filled: 0.998, again: 3 };
+    pub(crate) const FAST: Self = Self {
+        isometries: 1,
+        candidates: 2,
+        far: false,
+        rounds: 1,
+        polish: false,
+        whole: 0.7,
+        filled: 0.995,
+        again: 0,
+    };
+    pub(crate) const BEST: Self = Self {
+        isometries: 8,
+        candidates: 16,
+        far: true,
+        rounds: 2,
+        polish: true,
+        whole: 0.85,
+        filled: 0.998,
+        again: 3,
+    };
 }
 
 impl Plan {

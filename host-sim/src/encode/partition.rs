@@ -89,7 +89,11 @@ impl<S: Sample> Partition<'_, '_, S> {
     pub(super) fn band(&mut self, band: u32, out: &mut RangeEncoder) {
         let size = self.plane.shape().largest;
         for x in (0..self.plane.shape().width).step_by(1 << size) {
-            self.rates = self.prices.rates(&out.models, self.counts, self.plane.shape().chroma);
+            self.rates = self.prices.rates(
+                &out.models,
+                self.counts.map(|counts| (counts, self.effort.whole)),
+                self.plane.shape().chroma,
+            );
             let edge = self.plane.edge(x, band, size);
             let (_, mut node) = self.choose(x, band, size);
             self.plane.restore(&edge);

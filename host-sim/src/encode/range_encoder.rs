@@ -98,9 +98,6 @@ impl Coder for RangeEncoder {
     }
 }
 
-/// The part of what a model was on the whole.
-const WHOLE: f32 = 0.85;
-
 /// How often each model had a 0 and a 1.
 pub(super) type Counts = [[u32; 2]; MODELS];
 
@@ -112,14 +109,19 @@ impl Prices {
         Self((0..=8192_u16).map(|p| -(f32::from(p.max(1)) / 8192.0).log2()).collect())
     }
 
-    /// What a 0 and a 1 take under each model as it stands; if there was an encoding before, rather as it was
-    /// there on the whole: a model that learns fast follows noise as well.
-    pub(super) fn rates(&self, models: &[Model; MODELS], before: Option<&Counts>, chroma: u32) -> Rates {
+    /// What a 0 and a 1 take under each model as it stands; if there was an encoding before, as it was there
+    /// on the whole for so large a part: a model that learns fast follows noise as well.
+    pub(super) fn rates(
+        &self,
+        models: &[Model; MODELS],
+        before: Option<(&Counts, f32)>,
+        chroma: u32,
+    ) -> Rates {
         let bins = std::array::from_fn(|i| {
             let mut zero = models[i].zero() as f32;
-            if let Some(before) = before {
+            if let Some((before, whole)) = before {
                 let [zeros, ones] = before[i].map(|count| count as f32 + 2.0);
-                zero += WHOLE * (8192.0 * zeros / (zeros + ones) - zero);
+                zero += whole * (8192.0 * zeros / (zeros + ones) - zero);
             }
             let zero = (zero as usize).clamp(8, 8184);
             [self.0[zero], self.0[8192 - zero]]

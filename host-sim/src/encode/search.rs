@@ -27,6 +27,8 @@ pub(crate) struct Effort {
     pub(super) rounds: u32,
     /// Whether leaves are weighed once more with their samples as they are rounded.
     pub(super) polish: bool,
+    /// What part of a bin's price is that of the encoding before on the whole.
+    pub(super) whole: f32,
     /// What part of the bytes asked for is filled at least.
     pub(super) filled: f64,
     /// How often there are more encodings, which differ by little, once the bytes are met.
