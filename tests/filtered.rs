@@ -194,7 +194,7 @@ fn table(view: &View, looks: &[usize], side: u32, depth: u32, places: usize) -> 
     })
 }
 
-/// The whole comparison, against more than 65,536 samples a pixel: a quarter of an hour. What it printed
+/// The whole comparison, against 61,000 samples a pixel or more: a quarter of an hour. What it printed
 /// last: docs/FILTERED.md.
 #[test]
 #[ignore = "minutes: cargo test -p attractor-tests --test suite -- --ignored --nocapture filtered"]
