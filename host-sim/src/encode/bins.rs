@@ -202,11 +202,11 @@ mod tests {
             let size = 2 + seed % 4;
             let (scan, mut leaf) = (scan(size), Leaf::default());
             let mut bins = Bins::new(&rates, size);
-            for i in 1..scan.len() {
+            for (i, place) in scan.iter().enumerate().skip(1) {
                 let level = random(seed << 8 | i as u32) % 11;
                 if level < 3 && i < 6 + seed as usize {
                     let level = [1, -1, 3][level as usize];
-                    leaf.levels.set(scan[i], level);
+                    leaf.levels.set(*place, level);
                     bins.put(i, level.abs());
                 }
             }

@@ -79,7 +79,7 @@ impl<'a> Rounded<'a> {
     fn term(&self, sum: i32, column: u8) -> i32 {
         let k = 17 + self.size;
         let most = 1 << (5 + self.bits);
-        let term = (i64::from(sum) * i64::from(self.step) + (1 << (k - 1)) >> k) as i32;
+        let term = ((i64::from(sum) * i64::from(self.step) + (1 << (k - 1))) >> k) as i32;
         let term = term.clamp(-most, most - 1);
         if column > 0 { term } else { ((i64::from(term) * 11585 + (1 << 13)) >> 14) as i32 }
     }
