@@ -1,5 +1,5 @@
-//! What iterators and decoders take on a 32-bit machine, checked where they are compiled: the sizes that core's
-//! documentation states.
+//! What iterators and decoders take on a 32-bit machine, checked where they are compiled: the sizes that
+//! core's documentation states.
 
 use core::iter::Copied;
 use core::slice::Iter;

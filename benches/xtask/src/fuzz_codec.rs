@@ -112,7 +112,7 @@ fn fuzz(mut random: Random, executions: u64, done: &AtomicU64) -> Result<Tally> 
             let scale = [0, 0, 0, 0, -2, -1, 1, 2][random.below(8)];
             let beyond = random.below(6) * random.below(200);
             let compare = compare && again == 0;
-            // all sweeps of a few, after each of which pictures are compared; of the others two, then pictures
+            // all sweeps of a few, pictures compared after each; two of the others, pictures after them
             let all = again % 16 == 0;
             let opened = open(bytes.iter().copied());
             let result = opened.and_then(|opened| match opened.header().deep {

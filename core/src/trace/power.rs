@@ -41,7 +41,7 @@ impl Exponent {
         }
     }
 
-    /// `base^exponent` of four bases at once, 30 fractional bits, in 32; what is not in `[0, 1]` counts as
+    /// `base^exponent` of some bases at once, 30 fractional bits, in 32; what is not in `[0, 1]` counts as
     /// the nearer end.
     ///
     /// Each product is rounded down: short of the power by less than `exponent / 2^30`.

@@ -39,11 +39,12 @@ struct Change {
     by: i32,
 }
 
-/// What a change costs, in squared error with bits and without.
+/// What a change costs, squared error with bits; the bits alone, and the error that it leaves.
 #[derive(Clone, Copy)]
 struct Weighed {
     cost: f32,
     dearer: f32,
+    error: f32,
     change: Change,
 }
 
@@ -81,22 +82,21 @@ impl<'a, F: Fn(i32) -> f32> Polish<'a, F> {
             let weighed = self.weighed();
             let Some(first) = weighed.first() else { break };
             if first.cost < gain {
-                self.make(first.change);
+                self.make(first.change, first.error);
                 continue;
             }
             let pair = weighed.iter().take(ahead).find_map(|first| {
                 let error = self.error;
-                self.make(first.change);
+                self.make(first.change, first.error);
                 let next = self.weighed().first().copied();
                 let pays = next.filter(|next| first.cost + next.cost < gain);
                 if pays.is_none() {
-                    self.make(Change { by: -first.change.by, ..first.change });
-                    self.error = error;
+                    self.make(Change { by: -first.change.by, ..first.change }, error);
                 }
-                pays.map(|next| next.change)
+                pays
             });
-            let Some(change) = pair else { break };
-            self.make(change);
+            let Some(next) = pair else { break };
+            self.make(next.change, next.error);
         }
         self.error
     }
@@ -114,7 +114,7 @@ impl<'a, F: Fn(i32) -> f32> Polish<'a, F> {
             let amount = by as f32 * self.step;
             let cost = amount * amount - 2.0 * amount * left + self.lambda * dearer;
             if cost < slack {
-                likely.push(Weighed { cost, dearer, change: Change { place, by } });
+                likely.push(Weighed { cost, dearer, error: 0.0, change: Change { place, by } });
             }
         };
         let mean = self.leaf.mean;
@@ -140,16 +140,16 @@ impl<'a, F: Fn(i32) -> f32> Polish<'a, F> {
             likely.select_nth_unstable_by(WEIGHED, |a, b| a.cost.total_cmp(&b.cost));
             likely.truncate(WEIGHED);
         }
-        for Weighed { cost, dearer, change } in &mut likely {
-            let error = self.rounded.error(&self.rounded.wave(self.scan[change.place], change.by));
-            *cost = error - self.error + self.lambda * *dearer;
+        for Weighed { cost, dearer, error, change } in &mut likely {
+            *error = self.rounded.error(&self.rounded.wave(self.scan[change.place], change.by));
+            *cost = *error - self.error + self.lambda * *dearer;
         }
         likely.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         likely
     }
 
-    fn make(&mut self, change: Change) {
-        let Change { place, by } = change;
+    /// Makes a change, which leaves that error.
+    fn make(&mut self, Change { place, by }: Change, error: f32) {
         let (at, level) = (self.scan[place], self.level(place) + by);
         if place == 0 {
             self.leaf.mean = level;
@@ -160,7 +160,7 @@ impl<'a, F: Fn(i32) -> f32> Polish<'a, F> {
         }
         self.rounded.add(at, by);
         self.left[usize::from(at)] -= by as f32 * self.step;
-        self.error = self.rounded.error(&self.rounded.wave(0, 0));
+        self.error = error;
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! The format rounds three times: a column's term to 4 fractional bits, a wave to 7, a sample to none. At an
 //! error of about one grey level that is a tenth of it, and it is known: it is not noise to be put up with.
-//! So all three are done here as in core, in floating point where whole numbers are exact.
+//! So all three are done here as in core, in floating point: exact for samples of 8 bits. Of samples of 16
+//! bits the waves have more bits than a float does; what that makes wrong is a part of a step of rounding.
 
 use super::cosine::{Coefficients, Cosine};
 
@@ -85,7 +86,7 @@ impl<'a> Rounded<'a> {
     }
 
     /// What so many steps more at a place of the scan add: of the mean at the first.
-    pub(super) fn wave(&self, place: u8, by: i32) -> Wave<'_> {
+    pub(super) fn wave(&self, place: u8, by: i32) -> Wave<'a> {
         let n = 1 << self.size;
         if place == 0 {
             let more = self.moved(self.mean + by) - self.moved(self.mean);
@@ -138,13 +139,11 @@ impl<'a> Rounded<'a> {
             self.mean += by;
             return;
         }
-        let mut waves = self.waves;
-        for (row, down) in waves.chunks_exact_mut(n).zip(down) {
+        for (row, down) in self.waves.chunks_exact_mut(n).zip(down) {
             for (wave, across) in row.iter_mut().zip(across) {
                 *wave += down * across;
             }
         }
-        self.waves = waves;
         let sums = &mut self.sums[usize::from(place & 15)];
         for (sum, c) in sums.iter_mut().zip(self.cosine.down(self.size, place >> 4)) {
             *sum = sum.wrapping_add(by * c);

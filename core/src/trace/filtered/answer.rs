@@ -8,7 +8,8 @@
 //! - the mirrored ray itself, `d - 2 (n^ . d) n^`.
 //!
 //! Diffuse light changes so little over a pixel that four points stand for all of it, and one box is
-//! answered to second order; what is mirrored has four points for each, but a checkerboard one look-up.
+//! answered to second order; what is mirrored has four points for each, a gentle highlight three, a
+//! checkerboard one look-up.
 //!
 //! Formats: slopes and `w` 24 fractional bits, unit vectors and tones 30.
 
@@ -59,7 +60,7 @@ pub(super) struct Shown {
     pub(super) highlight: u32,
 }
 
-/// What four points show, each on its area: the sum of the areas, 22 fractional bits, and of what they show
+/// What points show, each on its area: the sum of the areas, 22 fractional bits, and of what they show
 /// times them, 52.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {

@@ -167,9 +167,7 @@ impl<'a> FilteredCaster<'a> {
     /// None where a part of the pixel may turn away from the eye.
     #[inline(always)]
     fn filtered(&self, sight: &Sight, (t, first): (i32, Place), reach: i32) -> Option<Unit> {
-        let RayCaster { material, light, environment, .. } = &self.caster;
-        let checkerboard = self.checkerboard.as_ref();
-        let view = |d: [i32; 3]| View::new(d, light.towards, material, environment, checkerboard);
+        let material = &self.caster.material;
         let place = settled(&self.ground, sight, first, reach)?;
         // a ridge, and something else behind it
         if !are_near(t, place.t, reach) {
@@ -177,28 +175,33 @@ impl<'a> FilteredCaster<'a> {
         }
         if let (Quality::Coarse, Finish::Diffuse { ambient }) = (self.quality, *material) {
             let (slopes, spans) = whole(&self.ground, sight, self.edges, &place)?;
-            return view(sight.direction).glance(ambient, &Spread::of(&slopes, spans));
+            return self.view(sight.direction).glance(ambient, &Spread::of(&slopes, spans));
         }
         if let Finish::Diffuse { .. } = material {
             let size = (reach, self.quality.columns());
-            return view(sight.direction)
+            return self
+                .view(sight.direction)
                 .shown(&mut outline::spread(&self.ground, sight, self.edges, place, size)?.points());
         }
-        let few = matches!(material, Finish::Mirror) && checkerboard.is_some();
-        let view = self.view(sight);
-        view.tone(
+        let few = matches!(material, Finish::Mirror) && self.checkerboard.is_some();
+        self.view_of_length_1(sight).tone(
             &self.ground,
             &mut self.quality.footprint(&self.ground, sight, self.edges, &place, (reach, few)),
         )
     }
 
-    /// The light that what shines is seen in.
-    #[inline(never)]
-    fn view(&self, sight: &Sight) -> View<'_> {
+    /// The light that a pixel is seen in.
+    #[inline(always)]
+    fn view(&self, direction: [i32; 3]) -> View<'_> {
         let RayCaster { material, light, environment, .. } = &self.caster;
-        let Vec3 { x, y, z } = unit(sight.direction);
-        let direction = [x, y, z].map(Unit::to_bits);
         View::new(direction, light.towards, material, environment, self.checkerboard.as_ref())
+    }
+
+    /// The same for what shines, which asks for a direction of length 1.
+    #[inline(never)]
+    fn view_of_length_1(&self, sight: &Sight) -> View<'_> {
+        let Vec3 { x, y, z } = unit(sight.direction);
+        self.view([x, y, z].map(Unit::to_bits))
     }
 
     /// What surrounds the surface, through a pixel that shows nothing else.

@@ -159,6 +159,34 @@ const fn within(v: i32, rest: i32) -> i32 {
     v.saturating_add(rest).saturating_sub(rest).saturating_sub(rest).saturating_add(rest)
 }
 
+/// A place on the plane that a pixel's rays meet: in parts of the domain, and how high; or the way from one to
+/// another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    pub(super) at: [i32; 2],
+    pub(super) height: i32,
+}
+
+impl Spot {
+    /// The way along a plane with these slopes.
+    #[inline(always)]
+    pub(super) fn along([x, y]: &[Ground<'_>; 2], [p, q]: Slope, [u, v]: [i32; 2]) -> Self {
+        Self { at: [x.part(u), y.part(v)], height: ((product(p, u) + product(q, v)) >> 24) as i32 }
+    }
+
+    #[inline(always)]
+    pub(super) fn plus(self, way: Self) -> Self {
+        let ([x, y], [u, v]) = (self.at, way.at);
+        Self { at: [x.wrapping_add(u), y.wrapping_add(v)], height: self.height.wrapping_add(way.height) }
+    }
+
+    #[inline(always)]
+    pub(super) fn minus(self, way: Self) -> Self {
+        let at = way.at.map(i32::wrapping_neg);
+        self.plus(Self { at, height: way.height.wrapping_neg() })
+    }
+}
+
 /// How rays go on from where they meet the plane: a line `above` the surface moves along its rays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ways {
@@ -178,10 +206,10 @@ impl Ways {
         Self { farther, up: 1 << up, rest: i32::MAX - reach }
     }
 
-    /// How far a place at `at`, at the height of the plane, is moved to the surface: to where its ray meets
-    /// that at the height which it has at the place.
+    /// How far a place on the plane is moved to the surface: to where its ray meets that at the height which
+    /// it has at the place.
     #[inline(always)]
-    pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], [u, v]: [i32; 2], height: i32) -> [i32; 2] {
+    pub(super) fn moved(&self, [x, y]: &[Ground<'_>; 2], Spot { at: [u, v], height }: Spot) -> [i32; 2] {
         let surface = rounded_down::<24>(product(x.value(u), y.value(v)));
         let above = within(height.saturating_sub(surface), self.rest).wrapping_mul(self.up);
         [high(above, self.farther[0]), high(above, self.farther[1])]
@@ -191,16 +219,16 @@ impl Ways {
 /// A pixel's footprint, how it is cut, and the part that comes next.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Footprint {
-    /// From a column to the next and from a line to the next: on the ground, and how much the plane rises.
-    steps: [([i32; 2], i32); 2],
+    /// From a column to the next and from a line to the next.
+    steps: [Spot; 2],
     parts: [i32; 2],
     ways: Ways,
     spans: [i32; 2],
     sides: [Side; 2],
-    /// The end of a column's first line, on the plane, and its height.
-    first: ([i32; 2], i32),
+    /// The end of a column's first line.
+    first: Spot,
     /// The last line, how many come behind it, and where its rays meet the surface.
-    line: ([i32; 2], i32),
+    line: Spot,
     left: i32,
     before: [i32; 2],
 }
@@ -224,26 +252,22 @@ impl Footprint {
     /// Where the rays of the last line meet the surface: at its middle.
     #[inline(always)]
     fn met(&self, ground: &[Ground<'_>; 2]) -> [i32; 2] {
-        let ([u, v], height) = self.line;
-        let [x, y] = self.ways.moved(ground, [u, v], height);
+        let ([u, v], [x, y]) = (self.line.at, self.ways.moved(ground, self.line));
         [u.wrapping_add(x), v.wrapping_add(y)]
     }
 
     /// The next part; none where it leaves the domain.
     #[inline(never)]
     pub(super) fn next(&mut self, ground: &[Ground<'_>; 2], slopes: &mut Slopes) -> Option<()> {
-        let further = |([x, y], height): ([i32; 2], i32), ([u, v], rise): ([i32; 2], i32)| {
-            ([x.wrapping_add(u), y.wrapping_add(v)], height.wrapping_add(rise))
-        };
         let [column, row] = self.steps;
         if self.left == 0 {
             self.left = self.parts[1];
             self.line = self.first;
-            self.first = further(self.first, column);
+            self.first = self.first.plus(column);
             self.before = self.met(ground);
         }
         self.left = self.left.wrapping_sub(1);
-        self.line = further(self.line, row);
+        self.line = self.line.plus(row);
         let ([u, v], [s, t]) = (self.before, self.met(ground));
         self.before = [s, t];
         slopes.around(ground, [(u >> 1) + (s >> 1), (v >> 1) + (t >> 1)], &self.sides)
@@ -318,7 +342,6 @@ impl Quality {
         (reach, few): (i32, bool),
     ) -> Footprint {
         let [x, y] = ground;
-        let slope = place.slope;
         let [a, b] = edges(place, sight, pixel);
         // more parts along the longer edge
         let length = |[x, y]: [i32; 2]| product(x, x) + product(y, y);
@@ -326,21 +349,18 @@ impl Quality {
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
         let (spans, sides) = sides(ground, [a, b], if few.wrapping_mul(many) > 2 { 1 } else { 2 });
-        let rise = |[x, y]: [i32; 2]| ((product(slope[0], x) + product(slope[1], y)) >> 24) as i32;
-        let rises = [rise(a), rise(b)];
-        let part = |v: [i32; 2]| [x.part(v[0]), y.part(v[1])];
-        let [a, b] = [part(a), part(b)];
+        let [a, b] = [a, b].map(|v| Spot::along(ground, place.slope, v));
         // from the middle to the end of the first line
         let back =
             |a: i32, b: i32| (a.wrapping_mul(parts[0] - 1)).wrapping_add(b.wrapping_mul(parts[1])) >> 1;
         let at = [
-            x.place(place.at[0]).wrapping_sub(back(a[0], b[0])),
-            y.place(place.at[1]).wrapping_sub(back(a[1], b[1])),
+            x.place(place.at[0]).wrapping_sub(back(a.at[0], b.at[0])),
+            y.place(place.at[1]).wrapping_sub(back(a.at[1], b.at[1])),
         ];
         let [_, _, z] = sight.at(place.t);
-        let first = (at, z.wrapping_sub(back(rises[0], rises[1])));
+        let first = Spot { at, height: z.wrapping_sub(back(a.height, b.height)) };
         Footprint {
-            steps: [(a, rises[0]), (b, rises[1])],
+            steps: [a, b],
             parts,
             ways: Ways::new(ground, sight, place.steep, reach),
             spans,

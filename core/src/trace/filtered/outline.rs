@@ -20,7 +20,7 @@
 
 use core::num::NonZeroU32;
 
-use super::footprint::{Place, Sight, Ways, cut, edges, on_mean, sides};
+use super::footprint::{Place, Sight, Spot, Ways, cut, edges, on_mean, sides};
 use super::ground::Ground;
 use super::slopes::{Slope, Slopes, Spread};
 use crate::fif::Sum;
@@ -33,31 +33,11 @@ struct Corner {
     sums: [Sum; 2],
 }
 
-/// Where a ray of the pixel meets the mean plane: in parts of the domain, and how high.
-#[derive(Debug, Clone, Copy)]
-struct Start {
-    at: [i32; 2],
-    height: i32,
-}
-
-impl Start {
-    #[inline(always)]
-    fn plus(self, ([x, y], rise): ([i32; 2], i32)) -> Self {
-        let at = [self.at[0].wrapping_add(x), self.at[1].wrapping_add(y)];
-        Self { at, height: self.height.wrapping_add(rise) }
-    }
-
-    #[inline(always)]
-    fn minus(self, ([x, y], rise): ([i32; 2], i32)) -> Self {
-        self.plus(([x.wrapping_neg(), y.wrapping_neg()], rise.wrapping_neg()))
-    }
-}
-
 /// The corner of a ray.
 #[inline(always)]
-fn corner(ground: &[Ground<'_>; 2], ways: &Ways, start: &Start, beyond: &mut u32) -> Option<Corner> {
+fn corner(ground: &[Ground<'_>; 2], ways: &Ways, start: Spot, beyond: &mut u32) -> Option<Corner> {
     let ([u, v], [x, y]) = (start.at, ground);
-    let [s, t] = ways.moved(ground, start.at, start.height);
+    let [s, t] = ways.moved(ground, start);
     let at = [u.saturating_add(s), v.saturating_add(t)];
     Some(Corner { at, sums: [x.at(at[0], beyond)?, y.at(at[1], beyond)?] })
 }
@@ -126,8 +106,7 @@ pub(super) fn spread(
     let place = on_mean(ground, sight, place, &sides(ground, edges(&place, sight, pixel), 0).1, reach)?;
     let [a, b] = edges(&place, sight, pixel);
     let ways = Ways::new(ground, sight, place.steep, reach);
-    let rise = |[u, v]: [i32; 2]| ((product(place.slope[0], u) + product(place.slope[1], v)) >> 24) as i32;
-    let step = |v: [i32; 2]| ([x.part(v[0]), y.part(v[1])], rise(v));
+    let step = |v: [i32; 2]| Spot::along(ground, place.slope, v);
     let [_, _, z] = sight.at(place.t);
     let middle = [x.place(place.at[0]), y.place(place.at[1])];
     let across = cut(a, columns);
@@ -135,28 +114,28 @@ pub(super) fn spread(
     let (across, down) = (step(across), step(b));
     let mut beyond = 0;
     // along the upper edge, down, back along the lower one, and up
-    let mut start = Start { at: middle, height: z }.minus(step(halves[0])).minus(step(halves[1]));
-    let first = corner(ground, &ways, &start, &mut beyond)?;
+    let mut start = Spot { at: middle, height: z }.minus(step(halves[0])).minus(step(halves[1]));
+    let first = corner(ground, &ways, start, &mut beyond)?;
     let (mut last, mut sum) = (first, Loop::default());
     for _ in 0..columns {
         start = start.plus(across);
-        let next = corner(ground, &ways, &start, &mut beyond)?;
+        let next = corner(ground, &ways, start, &mut beyond)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
     let second = last;
     start = start.plus(down);
-    let third = corner(ground, &ways, &start, &mut beyond)?;
+    let third = corner(ground, &ways, start, &mut beyond)?;
     sum.add(ground, middle[0], &second, &third);
     last = third;
     for _ in 0..columns {
         start = start.minus(across);
-        let next = corner(ground, &ways, &start, &mut beyond)?;
+        let next = corner(ground, &ways, start, &mut beyond)?;
         sum.add(ground, middle[0], &last, &next);
         last = next;
     }
     sum.add(ground, middle[0], &last, &first);
-    if beyond > 0 && is_cut([across.0.map(|c| c.wrapping_mul(columns)), down.0], columns, beyond) {
+    if beyond > 0 && is_cut([across.at.map(|c| c.wrapping_mul(columns)), down.at], columns, beyond) {
         return None;
     }
     let mean = sum.mean(ground)?;
