@@ -251,37 +251,49 @@ mod tests {
         with_ground([0.5; 4], |ground| assert!(Loop::default().mean(ground).is_none()));
     }
 
-    /// A square pixel from above, around a place, `side` wide at the ground.
-    fn from_above(ground: &[Ground<'_>; 2], [x, y]: [f64; 2], side: f64, columns: i32) -> Option<Spread> {
+    /// A pixel from above, around a place, with these sides along x and y at the ground.
+    fn from_above(
+        ground: &[Ground<'_>; 2],
+        [x, y]: [f64; 2],
+        [wide, high]: [f64; 2],
+        columns: i32,
+    ) -> Option<Spread> {
         let direction = [0, 0, -(1 << 28)];
         let sight = Sight { eye: [bits(x), bits(y), bits(8.0)], direction };
         // an eighth of that at the distance of 1, with 28 fractional bits
-        let pixel = [[1, 0, 0], [0, -1, 0]].map(|edge| edge.map(|c| c * bits(side) * 2));
+        let pixel = [[2 * bits(wide), 0, 0], [0, -2 * bits(high), 0]];
         let slope = [0; 2];
         let t = bits(8.0);
         let place = Place { t, at: [bits(x), bits(y)], slope, steep: steepness(slope, direction) };
         spread(ground, &sight, pixel, place, (bits(1.0), columns))
     }
 
-    /// From above a pixel covers a square around its middle, as wide as it is at the surface's distance: mean
-    /// slopes there, and variances of straight lines over it.
+    /// From above a pixel covers a rectangle around its middle, as large as it is at the surface's distance:
+    /// mean slopes there, and variances of straight lines over it, whichever edge is the longer one.
     #[test]
-    fn a_pixel_from_above_has_the_slopes_of_its_square() {
+    fn a_pixel_from_above_has_the_slopes_of_its_rectangle() {
         let [a, b, c, d] = [0.25, 0.5, 0.5, 0.75];
         with_ground([a, b, c, d], |ground| {
-            for (x, y, columns) in [(1.0, 1.0, 3), (0.5, 1.5, 3), (1.25, 0.75, 6), (1.5, 0.5, 1)] {
+            for (x, y, columns, sides) in [
+                (1.0, 1.0, 3, [0.125, 0.125]),
+                (0.5, 1.5, 3, [0.125, 0.0625]),
+                (1.25, 0.75, 6, [0.0625, 0.125]),
+                (1.5, 0.5, 1, [0.1875, 0.0625]),
+                (0.75, 0.5, 3, [0.0625, 0.1875]),
+            ] {
                 let height = (a + b * x) * (c + d * y);
-                let side = 0.125 * (8.0 - height) / 8.0;
-                let Spread { mean, covariance } = from_above(ground, [x, y], 0.125, columns).unwrap();
+                let [wide, high] = sides.map(|side| side * (8.0 - height) / 8.0);
+                let Spread { mean, covariance } = from_above(ground, [x, y], sides, columns).unwrap();
                 let exact = [b * (c + d * y), d * (a + b * x)];
                 for (got, exact) in mean.iter().zip(exact) {
                     assert!((value(*got) - exact).abs() < 2e-3, "{} {exact}", value(*got));
                 }
                 // p goes with y alone, q with x
-                let variance = (b * d * side).powi(2) / 12.0;
+                let exact = [high, wide].map(|side| (b * d * side).powi(2) / 12.0);
                 let [pp, pq, qq] = covariance.map(value);
-                assert!([pp, qq].iter().all(|v| (v / variance - 1.0).abs() < 0.1), "{pp} {qq} {variance}");
-                assert!(pq.abs() < variance / 4.0, "{pq}");
+                let near = [pp, qq].iter().zip(exact).all(|(v, exact)| (v / exact - 1.0).abs() < 0.1);
+                assert!(near, "{pp} {qq} {exact:?}");
+                assert!(pq.abs() < exact[0].min(exact[1]) / 4.0, "{pq}");
             }
         });
     }
@@ -322,7 +334,7 @@ mod tests {
             {
                 for columns in [3, 6] {
                     let at = outside(part);
-                    let is_some = |place: [f64; 2]| from_above(ground, place, side, columns).is_some();
+                    let is_some = |place: [f64; 2]| from_above(ground, place, [side; 2], columns).is_some();
                     for (x, y) in [(at, 1.0), (2.0 - at, 1.0)] {
                         assert_eq!(is_some([x, y]), to_a_side, "{part} {columns}");
                     }
