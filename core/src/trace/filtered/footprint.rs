@@ -349,7 +349,7 @@ impl Quality {
         let parts = if length(a) > length(b) { [many, few] } else { [few, many] };
         let [a, b] = [cut(a, parts[0]), cut(b, parts[1])];
         let (spans, sides) = sides(ground, [a, b], if few.wrapping_mul(many) > 2 { 1 } else { 2 });
-        let [a, b] = [a, b].map(|v| Spot::along(ground, place.slope, v));
+        let (a, b) = (Spot::along(ground, place.slope, a), Spot::along(ground, place.slope, b));
         // from the middle to the end of the first line
         let back =
             |a: i32, b: i32| (a.wrapping_mul(parts[0] - 1)).wrapping_add(b.wrapping_mul(parts[1])) >> 1;
