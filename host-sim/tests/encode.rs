@@ -132,35 +132,43 @@ fn targets_are_met_and_what_is_out_of_reach_is_said() {
     assert_eq!(decode(&dir.join("mono.png")).depth, png::BitDepth::One);
 }
 
-/// No detail is invented, but a picture at twice the size is no worse than its pixels twice as large.
+/// No detail is invented, but a picture at twice the size is no worse than its pixels twice as large: not by
+/// its edges, and by far not where it is smooth, as its leaves are joined there (without that 8.5 dB).
 #[test]
 fn twice_the_size_is_nearer_than_the_nearest_pixel() {
     let directory = tempfile::tempdir().unwrap();
     let dir = directory.path();
     let (w, h) = (96_usize, 80_usize);
     // what the picture is a half of
-    let value = |x: usize, y: usize| {
+    let disc = |x: usize, y: usize| {
         let disc = (x as i32 - 90).pow(2) + (y as i32 - 70).pow(2) < 2500;
         let wave = (20.0 * (0.09 * x as f64).sin() * (0.07 * y as f64).cos()) as i32;
         (if disc { 190 } else { 60 + x as i32 / 3 + wave }).clamp(0, 255) as u8
     };
-    let whole: Vec<u8> = (0..2 * h).flat_map(|y| (0..2 * w).map(move |x| value(x, y))).collect();
-    let at = |x: usize, y: usize| u32::from(whole[y * 2 * w + x]);
-    let mean = |i: usize| {
-        let (x, y) = (2 * (i % w), 2 * (i / w));
-        ((at(x, y) + at(x + 1, y) + at(x, y + 1) + at(x + 1, y + 1) + 2) / 4) as u8
+    let rings = |x: usize, y: usize| {
+        let square = (x as i32 - 90).pow(2) + (y as i32 - 70).pow(2);
+        (128.0 + 60.0 * (0.9 * f64::from(square).sqrt()).sin()) as u8
     };
-    let half: Vec<u8> = (0..w * h).map(mean).collect();
-    grey(&dir.join("in.png"), w as u32, h as u32, &half);
-    for profile in ["streaming", "iterated"] {
-        good(dir, &["encode", "in.png", "-o", "out.atfi", "--bpp", "0.8", "--profile", profile]);
-        good(dir, &["decode", "out.atfi", "-o", "one.png"]);
-        good(dir, &["decode", "out.atfi", "-o", "two.png", "--scale", "2"]);
-        let (one, two) = (decode(&dir.join("one.png")).data, decode(&dir.join("two.png")).data);
-        let nearest: Vec<u8> = (0..4 * w * h).map(|i| one[i / (4 * w) * w + i % (2 * w) / 2]).collect();
-        let (scaled, nearest) = (psnr(&whole, &two), psnr(&whole, &nearest));
-        println!("{profile}: {scaled:.2} dB, nearest {nearest:.2} dB");
-        assert!(scaled > nearest && nearest > 25.0, "{profile}: {scaled} {nearest}");
+    let pictures: [(&dyn Fn(usize, usize) -> u8, _, _); 2] = [(&disc, "0.8", 2.0), (&rings, "1.5", 8.75)];
+    for (value, rate, gain) in pictures {
+        let whole: Vec<u8> = (0..2 * h).flat_map(|y| (0..2 * w).map(move |x| value(x, y))).collect();
+        let at = |x: usize, y: usize| u32::from(whole[y * 2 * w + x]);
+        let mean = |i: usize| {
+            let (x, y) = (2 * (i % w), 2 * (i / w));
+            ((at(x, y) + at(x + 1, y) + at(x, y + 1) + at(x + 1, y + 1) + 2) / 4) as u8
+        };
+        let half: Vec<u8> = (0..w * h).map(mean).collect();
+        grey(&dir.join("in.png"), w as u32, h as u32, &half);
+        for profile in ["streaming", "iterated"] {
+            good(dir, &["encode", "in.png", "-o", "out.atfi", "--bpp", rate, "--profile", profile]);
+            good(dir, &["decode", "out.atfi", "-o", "one.png"]);
+            good(dir, &["decode", "out.atfi", "-o", "two.png", "--scale", "2"]);
+            let (one, two) = (decode(&dir.join("one.png")).data, decode(&dir.join("two.png")).data);
+            let nearest: Vec<u8> = (0..4 * w * h).map(|i| one[i / (4 * w) * w + i % (2 * w) / 2]).collect();
+            let (scaled, nearest) = (psnr(&whole, &two), psnr(&whole, &nearest));
+            println!("{profile}: {scaled:.2} dB, nearest {nearest:.2} dB");
+            assert!(scaled > nearest + gain && nearest > 22.0, "{profile}: {scaled} {nearest}");
+        }
     }
 }
 

@@ -69,11 +69,11 @@ impl<'a, S: Sample> Plane<'a, S> {
         }
         if !stays {
             self.fill(&leaf.levels, [x, y, size], mean, source, same);
-            if unsettled.is_none() {
-                self.settled.add(x, y, 1 << size);
-            }
             if !self.half.is_empty() {
                 self.halve(x, y, size);
+            }
+            if unsettled.is_none() {
+                self.stay(x, y, size);
             }
         }
         Some(unsettled)
@@ -87,7 +87,7 @@ impl<'a, S: Sample> Plane<'a, S> {
         let settled = self.settled.has(2 * column, 2 * row, 2 << size);
         self.fill(levels, [x, y, size], mean, Some(self.source(map)), false);
         if settled {
-            self.settled.add(x, y, 1 << size);
+            self.stay(x, y, size);
         }
         settled
     }
@@ -174,6 +174,28 @@ impl<'a, S: Sample> Plane<'a, S> {
         }
         if shown {
             self.recall(&area, x, y);
+        }
+    }
+
+    /// What follows where no sweep draws a leaf again.
+    #[inline]
+    fn stay(&self, x: u32, y: u32, size: u32) {
+        self.settled.add(x, y, 1 << size);
+        if self.shape.scale > 0 {
+            self.join(x, y, size);
+        }
+    }
+
+    /// Joins a leaf that is drawn larger to what is to the left of it and above: a picture goes on where
+    /// cosines are flat. Not to what is above the band in a window of rows, for that was shown.
+    #[inline(never)]
+    fn join(&self, x: u32, y: u32, size: u32) {
+        let area = self.area(x, y, size);
+        if x > 0 {
+            area.join([1, area.columns], area.high);
+        }
+        if area.start >= area.columns {
+            area.join([area.columns, 1], area.wide);
         }
     }
 

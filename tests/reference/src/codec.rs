@@ -341,6 +341,31 @@ impl Plane {
         }
     }
 
+    /// Joins a leaf that is drawn larger to what is to the left and above; to what is above in a window of
+    /// rows only within a band.
+    fn join(&mut self, leaf: &Leaf) {
+        let (n, left, top) = (self.scaled(leaf.n), self.scaled(leaf.x), self.scaled(leaf.y));
+        let above = if self.window.is_some() { leaf.y % self.largest } else { leaf.y };
+        let length = |there: bool| if there && self.scale > 0 { n } else { 0 };
+        let down = (0..length(leaf.x > 0)).map(|k| (left, top + k, 1));
+        let right = (0..length(above > 0)).map(|k| (left + k, top, self.wide));
+        let inside = down.chain(right).filter(|(x, y, _)| *x < self.wide && *y < self.high);
+        let seams: Vec<_> = inside.map(|(x, y, step)| (y * self.wide + x, step)).collect();
+        for (at, step) in seams {
+            // a sample next to an edge, of that behind it, itself and that beyond the edge
+            let mean = |behind: usize, here: usize, beyond: usize| {
+                let mix = |all: &[f64]| (all[behind] + 12.0 * all[here] + 3.0 * all[beyond]) / 16.0;
+                let (value, off) = (mix(&self.samples), mix(&self.off));
+                let exact = self.exact[behind] + 12 * self.exact[here] + 3 * self.exact[beyond];
+                (here, (value + 0.5).floor(), self.rounded_off(value, off), rounded(exact, 4))
+            };
+            let means = [mean(at - 2 * step, at - step, at), mean(at + step, at, at - step)];
+            for (at, sample, off, exact) in means {
+                (self.samples[at], self.off[at], self.exact[at]) = (sample, off, exact);
+            }
+        }
+    }
+
     /// One sweep; `first` if none was before it.
     fn sweep(&mut self, first: bool) {
         let across = self.across / 4;
@@ -358,6 +383,7 @@ impl Plane {
             self.draw(&leaf, ready || !first);
             if ready {
                 cells(leaf.x, leaf.y, leaf.n).for_each(|cell| self.settled[cell] = true);
+                self.join(&leaf);
             }
         }
     }
@@ -532,7 +558,10 @@ pub fn decode_scaled(file: &[u8], scale: i32) -> Decoded {
             }
         }
     }
-    if profile != 0 {
+    if profile == 0 {
+        // domains are of what was not joined
+        planes.iter_mut().for_each(|plane| plane.leaves.clone().iter().for_each(|leaf| plane.join(leaf)));
+    } else {
         for sweep in 0..reach {
             planes.iter_mut().for_each(|plane| plane.sweep(sweep == 0));
         }
