@@ -32,19 +32,22 @@ impl<'a, S: Sample> Area<'a, S> {
         self.picture.get(start..start + self.wide as usize).unwrap_or(&[])
     }
 
-    /// Mixes the samples on both sides of an edge, so many from the first one on: `a b | c d` become `a`,
-    /// `(a + 12 b + 3 c) / 16`, `(3 b + 12 c + d) / 16`, `d`, to nearest. Steps lead across it and along.
+    /// Mixes the samples at an edge, so many from the first one on: `a b | c d` become `a`,
+    /// `(a + 12 b + 3 c) / 16`, `(3 b + 12 c + d) / 16`, `d`, to nearest; `b` only if both
+    /// sides may change. Steps lead across the edge and along.
     ///
     /// Error: what the three are off, weighed as they are, and the rounding
     /// (`other_sizes_are_those_of_the_format_and_as_near_to_its_formulas_as_their_roundings_allow`).
     #[inline(never)]
-    pub(super) fn join(&self, [across, along]: [u32; 2], count: u32) {
+    pub(super) fn join(&self, [across, along]: [u32; 2], count: u32, both: bool) {
         let mut at = self.start - 2 * across;
         for _ in 0..count {
             let four = [0, 1, 2, 3].map(|k| self.picture.get((at + k * across) as usize));
             let [Some(a), Some(b), Some(c), Some(d)] = four else { break };
             let [e, f, g, h] = [a, b, c, d].map(|sample| sample.get().number());
-            b.set(S::cut((e + 12 * f + 3 * g + 8) >> 4));
+            if both {
+                b.set(S::cut((e + 12 * f + 3 * g + 8) >> 4));
+            }
             c.set(S::cut((3 * f + 12 * g + h + 8) >> 4));
             at += along;
         }

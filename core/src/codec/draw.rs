@@ -72,9 +72,7 @@ impl<'a, S: Sample> Plane<'a, S> {
             if !self.half.is_empty() {
                 self.halve(x, y, size);
             }
-            if unsettled.is_none() {
-                self.stay(x, y, size);
-            }
+            self.follow([x, y, size], unsettled.is_none());
         }
         Some(unsettled)
     }
@@ -86,9 +84,7 @@ impl<'a, S: Sample> Plane<'a, S> {
         let Unsettled { x, y, size, mean, column, row, .. } = *map;
         let settled = self.settled.has(2 * column, 2 * row, 2 << size);
         self.fill(levels, [x, y, size], mean, Some(self.source(map)), false);
-        if settled {
-            self.stay(x, y, size);
-        }
+        self.follow([x, y, size], settled);
         settled
     }
 
@@ -177,25 +173,28 @@ impl<'a, S: Sample> Plane<'a, S> {
         }
     }
 
-    /// What follows where no sweep draws a leaf again.
+    /// What follows on a leaf that was drawn, and is settled now or not.
     #[inline]
-    fn stay(&self, x: u32, y: u32, size: u32) {
-        self.settled.add(x, y, 1 << size);
+    fn follow(&self, [x, y, size]: [u32; 3], settled: bool) {
+        if settled {
+            self.settled.add(x, y, 1 << size);
+        }
         if self.shape.scale > 0 {
-            self.join(x, y, size);
+            self.join([x, y, size], settled);
         }
     }
 
     /// Joins a leaf that is drawn larger to what is to the left of it and above: a picture goes on where
-    /// cosines are flat. Not to what is above the band in a window of rows, for that was shown.
+    /// cosines are flat. Not to what is above the band in a window of rows, for that was shown. Sweep after
+    /// sweep a leaf that is not settled would pull its neighbours along: it alone is changed.
     #[inline(never)]
-    fn join(&self, x: u32, y: u32, size: u32) {
+    fn join(&self, [x, y, size]: [u32; 3], both: bool) {
         let area = self.area(x, y, size);
         if x > 0 {
-            area.join([1, area.columns], area.high);
+            area.join([1, area.columns], area.high, both);
         }
         if area.start >= area.columns {
-            area.join([area.columns, 1], area.wide);
+            area.join([area.columns, 1], area.wide, both);
         }
     }
 

@@ -342,8 +342,8 @@ impl Plane {
     }
 
     /// Joins a leaf that is drawn larger to what is to the left and above; to what is above in a window of
-    /// rows only within a band.
-    fn join(&mut self, leaf: &Leaf) {
+    /// rows only within a band. What is beyond the leaf's edges changes if `both` do.
+    fn join(&mut self, leaf: &Leaf, both: bool) {
         let (n, left, top) = (self.scaled(leaf.n), self.scaled(leaf.x), self.scaled(leaf.y));
         let above = if self.window.is_some() { leaf.y % self.largest } else { leaf.y };
         let length = |there: bool| if there && self.scale > 0 { n } else { 0 };
@@ -360,7 +360,7 @@ impl Plane {
                 (here, (value + 0.5).floor(), self.rounded_off(value, off), rounded(exact, 4))
             };
             let means = [mean(at - 2 * step, at - step, at), mean(at + step, at, at - step)];
-            for (at, sample, off, exact) in means {
+            for (at, sample, off, exact) in means.into_iter().skip(usize::from(!both)) {
                 (self.samples[at], self.off[at], self.exact[at]) = (sample, off, exact);
             }
         }
@@ -383,8 +383,8 @@ impl Plane {
             self.draw(&leaf, ready || !first);
             if ready {
                 cells(leaf.x, leaf.y, leaf.n).for_each(|cell| self.settled[cell] = true);
-                self.join(&leaf);
             }
+            self.join(&leaf, ready);
         }
     }
 
@@ -560,7 +560,9 @@ pub fn decode_scaled(file: &[u8], scale: i32) -> Decoded {
     }
     if profile == 0 {
         // domains are of what was not joined
-        planes.iter_mut().for_each(|plane| plane.leaves.clone().iter().for_each(|leaf| plane.join(leaf)));
+        for plane in &mut planes {
+            plane.leaves.clone().iter().for_each(|leaf| plane.join(leaf, true));
+        }
     } else {
         for sweep in 0..reach {
             planes.iter_mut().for_each(|plane| plane.sweep(sweep == 0));
