@@ -273,6 +273,7 @@ fn compared(name: &str, bytes: &[u8], scale: i32) -> [usize; 3] {
 
 #[test]
 fn other_sizes_are_those_of_the_format_and_as_near_to_its_formulas_as_their_roundings_allow() {
+    // what `draw` leaves in the picture, and `join` along the edges of what is larger
     for scale in [-2, -1, 1, 2] {
         let (mut differing, mut all) = (0, 0);
         for (name, bytes) in FILES {

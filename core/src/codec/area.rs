@@ -42,13 +42,18 @@ impl<'a, S: Sample> Area<'a, S> {
     pub(super) fn join(&self, [across, along]: [u32; 2], count: u32, both: bool) {
         let mut at = self.start - 2 * across;
         for _ in 0..count {
-            let four = [0, 1, 2, 3].map(|k| self.picture.get((at + k * across) as usize));
-            let [Some(a), Some(b), Some(c), Some(d)] = four else { break };
-            let [e, f, g, h] = [a, b, c, d].map(|sample| sample.get().number());
+            let sample = |k| self.picture.get((at + k * across) as usize);
+            let (Some(a), Some(b), Some(c), Some(d)) = (sample(0), sample(1), sample(2), sample(3)) else {
+                break;
+            };
+            let (before, after) = (b.get().number(), c.get().number());
+            let mixed = |behind: &Cell<S>, here: i32, beyond: i32| {
+                S::cut((behind.get().number() + 12 * here + 3 * beyond + 8) >> 4)
+            };
             if both {
-                b.set(S::cut((e + 12 * f + 3 * g + 8) >> 4));
+                b.set(mixed(a, before, after));
             }
-            c.set(S::cut((3 * f + 12 * g + h + 8) >> 4));
+            c.set(mixed(d, after, before));
             at += along;
         }
     }
