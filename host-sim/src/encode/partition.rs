@@ -22,9 +22,7 @@ use super::settled::Settled;
 /// How many domains of a leaf are weighed with what its coefficients add to them.
 const WEIGHED: usize = 5;
 
-/// Below this step the rounding of samples is part of every choice, not only of the last, and pairs of
-/// changes are weighed at the end, with so many first ones.
-const FINE: f32 = 10.0;
+/// Of pairs of changes at the end, so many first ones are weighed.
 const AHEAD: usize = 8;
 
 /// A square.
@@ -109,7 +107,7 @@ impl<S: Sample> Partition<'_, '_, S> {
         let must_divide = self.without.split && size > 3;
         let (mut cost, mut leaf) =
             if must_divide { (f32::INFINITY, Box::default()) } else { self.leaf(x, y, size) };
-        if self.effort.polish && self.step < FINE && !must_divide {
+        if self.effort.polish && !must_divide {
             // a leaf whose samples are not known is rounded as any number is
             let rounding = (1 << (2 * size)) as f32 / 12.0;
             cost = self.polish(&mut leaf, x, y, size, 0).unwrap_or(cost + rounding);
@@ -146,7 +144,7 @@ impl<S: Sample> Partition<'_, '_, S> {
                     out.bin(self.plane.split_context(x, y, size), false);
                 }
                 if self.effort.polish {
-                    self.polish(leaf, x, y, size, if self.step < FINE { AHEAD } else { 0 });
+                    self.polish(leaf, x, y, size, AHEAD);
                 }
                 leaf.code(out, &self.plane.setting(x, y, size));
                 self.draw(leaf, x, y, size);
@@ -193,7 +191,7 @@ impl<S: Sample> Partition<'_, '_, S> {
         let mean = self.original.square(x, y, n, &mut truth);
         truth.iter_mut().take(n * n).for_each(|value| *value = (*value + mean).round());
         let seen = [shape.width - x, shape.height - y];
-        let mut rounded = Rounded::new(self.cosine, (size, S::BITS, shape.step), seen, truth);
+        let mut rounded = Rounded::new(self.cosine, (size, S::BITS, shape.step), seen, &truth);
         rounded.fill(self.plane.expected(x, y, size), leaf.mean);
         if let Some(domain) = &leaf.domain {
             let mut copied = [0; 1024];
@@ -259,8 +257,11 @@ impl<S: Sample> Partition<'_, '_, S> {
             self.plane.copied(&domain, x, y, size, &mut copied);
             copy.iter_mut().zip(&copied).take(count).for_each(|(to, from)| *to = *from as f32 / 128.0);
             self.cosine.forward(size, &copy[..count], &mut frequencies);
-            let eighths = domain.scaling & 7;
-            for eighths in eighths.saturating_sub(1)..=(eighths + 1).min(7) {
+            let nearest = domain.scaling & 7;
+            for eighths in [nearest, nearest.wrapping_sub(1), nearest + 1] {
+                if eighths > 7 {
+                    continue;
+                }
                 let domain = Domain { scaling: eighths | domain.scaling & 8, ..domain };
                 let contrast = domain.contrast() as f32 / 8.0;
                 let mut rest = target.coefficients;
@@ -270,6 +271,10 @@ impl<S: Sample> Partition<'_, '_, S> {
                 let late = self.lambda * late;
                 other.domain = Some(domain);
                 let mut with = late + self.cost(&rest, energy, &setting, 0, &mut other);
+                // other contrasts of it change little
+                if eighths == nearest && with > least + 12.0 * self.lambda {
+                    break;
+                }
                 if with < least + 4.0 * self.lambda {
                     with = late + self.cost(&rest, energy, &setting, self.effort.rounds, &mut other);
                 }

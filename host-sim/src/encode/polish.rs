@@ -11,7 +11,7 @@ use super::cosine::Coefficients;
 use super::rounded::Rounded;
 
 /// How many changes of a leaf are weighed at most before one of them is made, and how many are made.
-const WEIGHED: usize = 50;
+const WEIGHED: usize = 25;
 const MADE: usize = 12;
 /// By how many of the roots of the squared error what the rounding adds or takes may differ from nothing.
 const SLACK: f32 = 3.0;
@@ -184,12 +184,12 @@ mod tests {
 
     /// A square of 8 x 8 with a grain of one grey level, in which a leaf with that mean is drawn.
     fn square<'a>(cosine: &'a Cosine, leaf: &Leaf, seed: u32) -> Rounded<'a> {
-        let mut truth = [0.0; 1024];
+        let mut truth = [0.0; 64];
         for (i, value) in (0_u32..64).zip(&mut truth) {
             let grain = (i * 31 + seed).wrapping_mul(0x9e37_79b9) >> 30;
             *value = (2 + i / 24 + grain) as f32;
         }
-        let mut rounded = Rounded::new(cosine, (3, 8, STEP), [8, 7], truth);
+        let mut rounded = Rounded::new(cosine, (3, 8, STEP), [8, 7], &truth);
         rounded.fill(550, leaf.mean);
         rounded
     }

@@ -5,6 +5,9 @@
 //! So all three are done here as in core, in floating point: exact for samples of 8 bits. Of samples of 16
 //! bits the waves have more bits than a float does; what that makes wrong is a part of a step of rounding.
 
+use attractor::codec::shared::FREQUENCIES;
+use pulp::Arch;
+
 use super::cosine::{Coefficients, Cosine};
 
 /// Adding it takes the fraction off.
@@ -21,14 +24,16 @@ pub(super) struct Rounded<'a> {
     bits: u32,
     /// In `2^-8`.
     step: u32,
-    truth: [f32; 1024],
+    truth: Vec<f32>,
     /// What is drawn besides the waves, in `2^-7`.
-    still: [f32; 1024],
+    still: Vec<f32>,
     /// Of the mean, how many steps.
     mean: i32,
     /// The waves in `2^-7` before they are rounded, and the sums down each column of frequencies.
-    waves: [f32; 1024],
-    sums: [[i32; 32]; 16],
+    waves: Vec<f32>,
+    sums: Vec<i32>,
+    /// What the processor can do.
+    arch: Arch,
 }
 
 /// What a change adds: so much down the rows, times so much across.
@@ -45,11 +50,15 @@ impl<'a> Rounded<'a> {
         cosine: &'a Cosine,
         (size, bits, step): (u32, u32, u32),
         seen: [u32; 2],
-        truth: [f32; 1024],
+        truth: &[f32],
     ) -> Self {
-        let seen = seen.map(|seen| seen.min(1 << size) as usize);
-        let (still, waves, sums) = ([0.0; 1024], [0.0; 1024], [[0; 32]; 16]);
-        Self { cosine, size, seen, bits, step, truth, still, mean: 0, waves, sums }
+        let n = 1 << size;
+        let seen = seen.map(|seen| seen.min(n) as usize);
+        let n = n as usize;
+        let blank = vec![0.0; n * n];
+        let (truth, sums) = (truth[..n * n].to_vec(), vec![0; n * n.min(FREQUENCIES)]);
+        let (still, waves, arch) = (blank.clone(), blank, Arch::new());
+        Self { cosine, size, seen, bits, step, truth, still, mean: 0, waves, sums, arch }
     }
 
     pub(super) const fn size(&self) -> u32 {
@@ -94,8 +103,8 @@ impl<'a> Rounded<'a> {
         }
         let (row, column) = (place >> 4, place & 15);
         let mut down = [0.0; 32];
-        let sums = &self.sums[usize::from(column)];
-        for ((down, sum), c) in down.iter_mut().zip(sums).zip(self.cosine.down(self.size, row)).take(n) {
+        let sums = self.sums[n * usize::from(column)..].iter();
+        for ((down, sum), c) in down.iter_mut().zip(sums).zip(self.cosine.down(self.size, row)) {
             *down = (self.term(sum.wrapping_add(by * c), column) - self.term(*sum, column)) as f32;
         }
         Wave { down, across: self.cosine.across(self.size, column) }
@@ -103,31 +112,45 @@ impl<'a> Rounded<'a> {
 
     /// Squared error, once a wave is added.
     pub(super) fn error(&self, wave: &Wave<'_>) -> f32 {
-        let n = 1 << self.size;
+        match self.size {
+            2 => self.arch.dispatch(
+                #[inline(always)]
+                || self.error_of::<4>(wave),
+            ),
+            3 => self.arch.dispatch(
+                #[inline(always)]
+                || self.error_of::<8>(wave),
+            ),
+            4 => self.arch.dispatch(
+                #[inline(always)]
+                || self.error_of::<16>(wave),
+            ),
+            _ => self.arch.dispatch(
+                #[inline(always)]
+                || self.error_of::<32>(wave),
+            ),
+        }
+    }
+
+    /// The same in a square of `N` a side: a sum for each column.
+    #[inline(always)]
+    fn error_of<const N: usize>(&self, wave: &Wave<'_>) -> f32 {
         let [columns, rows] = self.seen;
         let peak = ((1 << self.bits) - 1) as f32;
-        let across = &wave.across[..columns];
-        let mut all = 0.0;
-        for i in 0..rows {
-            let at = i * n..i * n + columns;
-            let down = wave.down[i];
-            let (truth, still, waves) = (&self.truth[at.clone()], &self.still[at.clone()], &self.waves[at]);
-            let mut sums = [0.0_f32; 4];
-            let fours = truth.chunks(4).zip(still.chunks(4)).zip(waves.chunks(4)).zip(across.chunks(4));
-            for (((truth, still), waves), across) in fours {
-                for ((((sum, truth), still), wave), across) in
-                    sums.iter_mut().zip(truth).zip(still).zip(waves).zip(across)
-                {
-                    let wave = (wave + down * across + WHOLE) - WHOLE;
-                    // halves up: a number of 7 fractional bits and a half is never between two samples
-                    let sample = ((wave + still + 0.5) * (1.0 / 128.0) + WHOLE) - WHOLE;
-                    let off = truth - sample.clamp(0.0, peak);
-                    *sum += off * off;
-                }
+        let Some(across) = wave.across.first_chunk::<N>() else { return 0.0 };
+        let squares = [&self.truth, &self.still, &self.waves].map(|square| square.as_chunks::<N>().0);
+        let [truth, still, waves] = squares;
+        let mut sums = [0.0_f32; N];
+        for (((truth, still), waves), down) in truth.iter().zip(still).zip(waves).zip(&wave.down).take(rows) {
+            for j in 0..N {
+                let wave = (waves[j] + down * across[j] + WHOLE) - WHOLE;
+                // halves up: a number of 7 fractional bits and a half is never between two samples
+                let sample = ((wave + still[j] + 0.5) * (1.0 / 128.0) + WHOLE) - WHOLE;
+                let off = truth[j] - sample.clamp(0.0, peak);
+                sums[j] += off * off;
             }
-            all += sums.iter().sum::<f32>();
         }
-        all
+        sums[..columns].iter().sum()
     }
 
     /// Makes the change.
@@ -144,20 +167,17 @@ impl<'a> Rounded<'a> {
                 *wave += down * across;
             }
         }
-        let sums = &mut self.sums[usize::from(place & 15)];
-        for (sum, c) in sums.iter_mut().zip(self.cosine.down(self.size, place >> 4)) {
+        let sums = self.sums[n * usize::from(place & 15)..].iter_mut();
+        for (sum, c) in sums.zip(self.cosine.down(self.size, place >> 4)) {
             *sum = sum.wrapping_add(by * c);
         }
     }
 
     /// What is left of the truth before samples are rounded, by frequency.
     pub(super) fn left(&self, into: &mut Coefficients) {
-        let mut rest = [0.0; 1024];
         let drawn = self.still.iter().zip(&self.waves).map(|(still, wave)| (still + wave) * (1.0 / 128.0));
-        for ((rest, truth), drawn) in rest.iter_mut().zip(&self.truth).zip(drawn) {
-            *rest = truth - drawn;
-        }
-        self.cosine.forward(self.size, &rest[..1 << (2 * self.size)], into);
+        let rest: Vec<f32> = self.truth.iter().zip(drawn).map(|(truth, drawn)| truth - drawn).collect();
+        self.cosine.forward(self.size, &rest, into);
     }
 }
 
@@ -197,8 +217,8 @@ mod tests {
             plane.begin(0, 0);
             let mut leaf = Leaf { mean: below(9) as i32 - 4, ..Leaf::default() };
             let seen = [shape.width, shape.height];
-            let truth = std::array::from_fn(|_| below(256) as f32);
-            let mut rounded = Rounded::new(&cosine, (size, 8, shape.step), seen, truth);
+            let truth: [f32; 1024] = std::array::from_fn(|_| below(256) as f32);
+            let mut rounded = Rounded::new(&cosine, (size, 8, shape.step), seen, &truth);
             rounded.fill(plane.expected(0, 0, size), leaf.mean - 1);
             rounded.add(0, 1);
             for _ in 0..below(7) {

@@ -9,6 +9,7 @@
 
 use attractor::codec::shared::{Domain, Place, Shape};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use pulp::Arch;
 use rayon::prelude::*;
 
 use super::cosine::{Coefficients, Cosine};
@@ -199,6 +200,19 @@ impl Index {
     }
 }
 
+/// The product of a square of `N` a side with one that begins at a sample of a picture so wide.
+#[inline(always)]
+fn dot<const N: usize>(square: &[f32], (samples, width): (&[f32], usize)) -> f32 {
+    let mut sums = [0.0; N];
+    let rows = samples.chunks(width).filter_map(|row| row.first_chunk::<N>());
+    for (a, b) in square.as_chunks::<N>().0.iter().zip(rows).take(N) {
+        for j in 0..N {
+            sums[j] += a[j] * b[j];
+        }
+    }
+    sums.iter().sum()
+}
+
 /// A square that looks for its domain.
 struct Square {
     x: u32,
@@ -249,12 +263,17 @@ impl Square {
             return best.list.into();
         }
         let turned: Vec<[f32; 1024]> = (0..effort.isometries).map(|isometry| self.turned(isometry)).collect();
-        for row in 0..16 {
-            for column in 0..16 {
-                let domain = Domain { near: true, column, row, isometry: 0, scaling: 0 };
-                self.weigh(shape, pool, domain, (0..).zip(&turned), &mut best);
-            }
-        }
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for row in 0..16 {
+                    for column in 0..16 {
+                        let domain = Domain { near: true, column, row, isometry: 0, scaling: 0 };
+                        self.weigh(shape, pool, domain, (0..).zip(&turned), &mut best);
+                    }
+                }
+            },
+        );
         let Some(Index { tree: Some(tree), places }) = index else { return best.list.into() };
         let mut coefficients = [0.0; 256];
         for (isometry, square) in (0..).zip(&turned) {
@@ -273,6 +292,7 @@ impl Square {
     }
 
     /// Offers a domain in each of the isometries.
+    #[inline(always)]
     fn weigh<'a>(
         &self,
         shape: &Shape,
@@ -285,23 +305,19 @@ impl Square {
             return;
         };
         let n = 1_usize << self.size;
-        let samples = pool.samples;
-        let start = py as usize * samples.width + px as usize;
-        let rows = || samples.values[start..].chunks(samples.width).take(n).map(|row| &row[..n]);
-        let energy = pool.energy(px as usize, py as usize, n);
+        let (px, py) = (px as usize, py as usize);
+        let energy = pool.energy(px, py, n);
         if energy < 0.5 * (n * n) as f32 {
             return;
         }
+        let place = (&pool.samples.values[py * pool.samples.width + px..], pool.samples.width);
         for (isometry, square) in turned {
-            let mut sums = [0.0; 4];
-            for (square, row) in square.chunks_exact(n).zip(rows()) {
-                for (a, b) in square.chunks_exact(4).zip(row.chunks_exact(4)) {
-                    for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-                        *sum += a * b;
-                    }
-                }
-            }
-            let dot: f32 = sums.iter().sum();
+            let dot = match self.size {
+                2 => dot::<4>(square, place),
+                3 => dot::<8>(square, place),
+                4 => dot::<16>(square, place),
+                _ => dot::<32>(square, place),
+            };
             let contrast = (dot / energy).clamp(-1.0, 1.0);
             let gain = 2.0 * contrast * dot - contrast * contrast * energy;
             best.offer(Candidate::new(gain, &Domain { isometry, ..domain }));
