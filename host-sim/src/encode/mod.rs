@@ -13,6 +13,8 @@ mod rounded;
 mod samples;
 mod search;
 mod settled;
+mod target;
+mod trials;
 
 use std::io::Write as _;
 
@@ -22,8 +24,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 pub(crate) use file::Plan;
 pub(crate) use partition::Without;
 use quality::ms_ssim;
-pub(crate) use rate::{Encoded, Target, meet};
+pub(crate) use rate::meet;
 pub(crate) use search::Effort;
+pub(crate) use target::{Encoded, Target};
 
 use crate::cli::{Encode, EncodeEffort, EncodePart, EncodeProfile};
 use crate::decode::decoded;

@@ -4,8 +4,6 @@
 //! target and narrow it down. Domains are looked for once, when the step is roughly known: of large pictures
 //! from some bands alone.
 
-use std::cell::Cell;
-
 use attractor::Error;
 use attractor::codec::shared::crc32;
 use attractor::codec::{Planes, Profile, Step, check};
@@ -15,108 +13,36 @@ use super::file::{At, Known, Plan, Pool, Source};
 use super::quality::decibels;
 use super::range_encoder::Counts;
 use super::search::Effort;
+use super::target::{Encoded, Target};
+use super::trials::Trials;
 use crate::decode::{decoded, decoded_with_planes};
 use crate::still::Still;
-
-/// What is asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Target {
-    Bytes(f64),
-    Decibels(f64),
-}
-
-/// A stream and what it is worth.
-#[derive(Clone, Debug)]
-pub(crate) struct Encoded {
-    pub(crate) bytes: Vec<u8>,
-    pub(crate) psnr: f64,
-    pub(crate) step: u16,
-}
-
-/// How an encoding was made: its step, what a bit was worth more than it should be, what was known of bins;
-/// and what came of it.
-struct Fit {
-    psnr: f64,
-    miss: f64,
-    step: u16,
-    thrift: f32,
-    counts: Counts,
-}
 
 /// Where a header says how many sweeps.
 const REACH: usize = 12;
 
-/// A step to begin with.
+/// A step to begin with, one that is tried beside it; how much finer and coarser the first with domains are.
 const FIRST: u16 = 0x900;
+const OCTAVE: u16 = 256;
+const CHEAPER: u16 = 6;
+const DEARER: u16 = 20;
 /// Bytes grow about as fast as the step shrinks, of which 256 are an octave.
 const STEPS: f64 = 300.0;
 /// The most encodings, at different steps: rough ones, and all.
-const ROUGH: usize = 5;
+const ROUGH: usize = 6;
 const PASSES: usize = 12;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
 const FINER: [u16; 8] = [0, 2, 7, 19, 4, 11, 14, 29];
 const BETWEEN: usize = 6;
 /// Logarithm of the bytes that a step takes.
 const PER_STEP: f64 = 0.0035;
-/// How many encodings there are side by side that differ by little, until one fills this part of the bytes.
+/// How many encodings there are in a round that differ by little, until one fills this part of the bytes.
 const ASIDE: u16 = 4;
 const FULL: f64 = 0.9992;
+/// Below this step, in `2^-8`, an encoding takes so long that there is one round of them.
+const FINE: u32 = 10 << 8;
 /// What part of the bytes is enough where what is wanted is not met soon.
 const ENOUGH: f64 = 0.992;
-
-impl Target {
-    /// How far an encoding of so many bytes and decibels is on the wrong side: above 0 if the step is too
-    /// fine.
-    fn miss(self, bytes: f64, psnr: f64) -> f64 {
-        match self {
-            Self::Bytes(target) => (bytes / target).ln(),
-            Self::Decibels(decibels) => (psnr - decibels) * 0.12,
-        }
-    }
-
-    /// The same of a whole one.
-    fn missed(self, encoded: &Encoded) -> f64 {
-        self.miss(encoded.bytes.len() as f64, encoded.psnr)
-    }
-
-    /// Whether it is met: a part of the bytes or more, and not above them; within 0.05 dB and not below.
-    fn is_met(self, encoded: &Encoded, part: f64) -> bool {
-        match self {
-            Self::Bytes(bytes) => {
-                let length = encoded.bytes.len() as f64;
-                length <= bytes && (length >= bytes * part || length + 1.0 > bytes)
-            }
-            Self::Decibels(decibels) => (0.0..0.05).contains(&(encoded.psnr - decibels)),
-        }
-    }
-
-    /// Whether decibels are so near that nothing is tried between two steps: of bytes each counts.
-    fn is_near(self, encoded: &Encoded) -> bool {
-        matches!(self, Self::Decibels(decibels) if (0.0..0.2).contains(&(encoded.psnr - decibels)))
-    }
-
-    /// Whether an encoding is allowed at all.
-    fn allows(self, encoded: &Encoded) -> bool {
-        match self {
-            Self::Bytes(bytes) => encoded.bytes.len() as f64 <= bytes,
-            Self::Decibels(decibels) => encoded.psnr >= decibels,
-        }
-    }
-
-    /// Of those that are allowed and within 1 per cent the one of most decibels, or of least bytes; else the
-    /// nearest that is allowed, or the nearest of all.
-    fn best(self, tried: &[Encoded]) -> Option<&Encoded> {
-        let off = |e: &Encoded| self.missed(e).abs();
-        let worth = |e: &Encoded| match self {
-            Self::Bytes(_) => e.psnr,
-            Self::Decibels(_) => -(e.bytes.len() as f64),
-        };
-        let allowed = || tried.iter().filter(|e| self.allows(e));
-        let closest = |a: &&Encoded, b: &&Encoded| off(a).total_cmp(&off(b));
-        let best = allowed().filter(|e| off(e) < 0.01).max_by(|a, b| worth(a).total_cmp(&worth(b)));
-        best.or_else(|| allowed().min_by(closest)).or_else(|| tried.iter().min_by(closest))
-    }
-}
 
 /// Encodes a picture. `said` hears of every encoding.
 pub(crate) fn meet(
@@ -162,63 +88,47 @@ pub(crate) fn meet(
         let miss = target.miss((encoded.bytes.len() * every as usize) as f64, encoded.psnr);
         Ok::<_, Error>((encoded.step, miss, counts))
     };
-    let mut roughly = vec![rough(FIRST)?];
-    while roughly.len() < ROUGH && !roughly.iter().any(|(_, miss, _)| miss.abs() < 0.03) {
+    let mut roughly: Vec<(u16, f64, Counts)> = Vec::new();
+    let mut ats = vec![FIRST, FIRST - OCTAVE];
+    while !ats.is_empty() {
+        roughly.extend(ats.par_iter().map(|step| rough(*step)).collect::<Result<Vec<_>, _>>()?);
         let tried: Vec<_> = roughly.iter().map(|(step, miss, _)| (*step, *miss)).collect();
-        let Some(step) = next(target, &tried, 0.0, STEPS) else { break };
-        roughly.push(rough(step)?);
+        let near = roughly.len() >= ROUGH || tried.iter().any(|(_, miss)| miss.abs() < 0.03);
+        ats = if near { Vec::new() } else { pair(target, &tried, 0.0) };
     }
-    let steps = slope(&roughly.iter().map(|(step, miss, _)| (*step, *miss)).collect::<Vec<_>>());
+    let tried: Vec<_> = roughly.iter().map(|(step, miss, _)| (*step, *miss)).collect();
     let nearest = roughly.into_iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let Some((near, _, mut counts)) = nearest else {
+    let Some((near, _, counts)) = nearest else {
         return Err(Error::Degenerate { what: "number of encodings" });
     };
+    let near = next(target, &tried, 0.0).unwrap_or(near);
     let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
-    let (mut pool, mut passes): (Option<Vec<Pool>>, u32) = (None, 0);
-    let learns = Cell::new(true);
-    // how the best so far was made
-    let mut fit = None::<Fit>;
-    let mut one = |(step, thrift): (u16, f32)| {
-        let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift, every: 1 };
-        let known = Known { candidates: &candidates, pools: pool.as_deref(), counts: Some(&counts) };
-        let (encoded, pools, now) = encode(at, known)?;
-        // the next ones take their domains from what this one looks like; then the pool stays, or no step
-        // would meet the target
-        if passes < 2 && sweeps {
-            pool = Some(pools);
-        }
-        let miss = target.missed(&encoded);
-        let better = fit.as_ref().is_none_or(|fit| encoded.psnr > fit.psnr);
-        if target.allows(&encoded) && miss > -0.01 && better {
-            fit = Some(Fit { psnr: encoded.psnr, step, thrift, miss, counts });
-        }
-        // prices of bins are those of the one before, but while bits are weighed at the nearest step
-        if learns.get() {
-            counts = now;
-        }
-        passes += 1;
-        said(&encoded);
-        Ok::<_, Error>(encoded)
-    };
+    let mut trials = Trials::new(encode, target, &candidates, counts, said);
     // in the middle of what is enough
     let aim = match target {
         Target::Bytes(_) => -0.5 * (1.0 - effort.filled),
         Target::Decibels(_) => 0.003,
     };
-    let mut tried: Vec<Encoded> = vec![one((near, 1.0))?];
     // the more of them there are, the sooner it is enough
-    let filled = |tries: usize| (effort.filled - 0.0007 * tries as f64).max(ENOUGH);
-    while tried.len() < PASSES && !tried.iter().any(|e| target.is_met(e, filled(tried.len() - 1))) {
-        let points: Vec<_> = tried.iter().map(|e| (e.step, target.missed(e))).collect();
-        let Some(step) = next(target, &points, aim, steps) else { break };
-        tried.push(one((step, 1.0))?);
+    let met = |e: &Encoded, tries: usize| {
+        target.is_met(e, (effort.filled - 0.0007 * (tries - 1) as f64).max(ENOUGH))
+    };
+    // with domains a picture takes a little less at the same step, or more
+    let coarser = near.saturating_add(DEARER).min(Step::MAX.to_bits());
+    trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, 1.0)))?;
+    while trials.tried.len() < PASSES && !trials.any(|e| met(e, trials.tried.len())) {
+        let ats = pair(target, &trials.points(), aim);
+        if ats.is_empty() {
+            break;
+        }
+        trials.round(&ats.into_iter().map(|step| (step, 1.0)).collect::<Vec<_>>())?;
     }
     // where bytes are no straight line at all: ever further off, until a step is allowed
     let mut stride = 4;
-    while !tried.iter().any(|e| target.allows(e)) {
+    while !trials.any(|e| target.allows(e)) {
         stride *= 2;
-        let coarsest = tried.iter().map(|e| e.step).max().unwrap_or(near);
-        let finest = tried.iter().map(|e| e.step).min().unwrap_or(near);
+        let coarsest = trials.tried.iter().map(|e| e.step).max().unwrap_or(near);
+        let finest = trials.tried.iter().map(|e| e.step).min().unwrap_or(near);
         let step = match target {
             Target::Bytes(_) => (coarsest + stride).min(Step::MAX.to_bits()),
             Target::Decibels(_) => finest.saturating_sub(stride),
@@ -226,79 +136,71 @@ pub(crate) fn meet(
         if step == coarsest || step == finest {
             break;
         }
-        tried.push(one((step, 1.0))?);
+        trials.round(&[(step, 1.0)])?;
     }
     // between two steps: bits a little dearer at the coarsest step that is too fine
-    let finest = tried.iter().filter(|e| target.missed(e) > 0.0).map(|e| e.step).max();
-    let finest = finest.filter(|_| tried.iter().any(|e| target.missed(e) <= 0.0));
-    if let Some(step) = finest.filter(|_| !tried.iter().any(|e| target.is_near(e))) {
+    let finest = trials.points().into_iter().filter(|(_, miss)| *miss > 0.0).max_by_key(|(step, _)| *step);
+    let finest =
+        finest.filter(|_| trials.any(|e| target.missed(e) <= 0.0) && !trials.any(|e| target.is_near(e)));
+    if let Some((step, missed)) = finest {
         for finer in FINER {
             // of small pictures bytes may jump past what is enough while the prices stay
-            learns.set(finer > 0);
+            trials.learns = finer > 0;
             // logarithms of what a bit is worth, and what is missed
-            let (mut over, mut under) = ((0.0, f64::from(finer) * PER_STEP), None::<(f64, f64)>);
-            if finer == 0 {
-                let there = tried.iter().find(|e| e.step == step);
-                over.1 = there.map_or(0.0, |e| target.missed(e));
-            }
-            for turn in 0..BETWEEN {
-                let enough = |e: &Encoded| target.is_near(e) || target.is_met(e, filled(tried.len() - 1));
-                if tried.iter().any(enough) {
+            let there = if finer == 0 { missed } else { f64::from(finer) * PER_STEP };
+            let (mut over, mut under) = ((0.0, there), None::<(f64, f64)>);
+            for _ in 0..BETWEEN {
+                if trials.any(|e| target.is_near(e) || met(e, trials.tried.len())) {
                     break;
                 }
-                let thrift = match under {
+                let thrifts = match under {
                     Some((dear, below)) => {
-                        // a straight line, and in turn the middle: there are pictures whose bytes jump
+                        // a straight line, and the middle: there are pictures whose bytes jump
                         let straight = (over.1 - aim) / (over.1 - below).max(1e-9);
-                        let share = if turn % 2 == 0 { straight } else { 0.5 };
-                        over.0 + (dear - over.0) * share.clamp(0.05, 0.95)
+                        [straight.clamp(0.05, 0.95), 0.5].map(|share| over.0 + (dear - over.0) * share)
                     }
-                    None => over.0 + 2.0 * (over.1 - aim),
+                    None => [2.0, 3.0].map(|part| over.0 + part * (over.1 - aim)),
                 };
-                let at = (step.saturating_sub(finer), thrift.exp() as f32);
-                let encoded = one(at)?;
-                let miss = target.missed(&encoded);
-                if miss > 0.0 {
-                    over = (thrift, miss);
-                } else {
-                    under = Some((thrift, miss));
+                let at = |thrift: f64| (step.saturating_sub(finer), thrift.exp() as f32);
+                let misses = trials.round(&thrifts.map(at))?;
+                for (thrift, miss) in thrifts.into_iter().zip(misses) {
+                    let within = thrift > over.0 && under.is_none_or(|(dear, _)| thrift < dear);
+                    if within && miss > 0.0 {
+                        over = (thrift, miss);
+                    } else if within {
+                        under = Some((thrift, miss));
+                    }
                 }
-                tried.push(encoded);
             }
         }
     }
     // what is decided early in a picture changes what all else costs, so that bytes are no smooth function
-    // of anything: a few more encodings that differ by little, side by side, until one fills what is asked
-    // for
-    if let (Target::Bytes(_), Some(fit)) = (target, &fit) {
+    // of anything: a few more encodings that differ by little, until one fills what is asked for
+    if let (Target::Bytes(_), Some(fit)) = (target, trials.fit) {
+        trials.stay(&fit);
         // how much less it is to take, and how that changes what it takes, as far as is known
         let (mut lean, mut slope, mut seen) = (fit.miss - aim, 1.0, None::<(f64, f64)>);
-        for turn in 0..effort.again {
-            if tried.iter().any(|e| target.is_met(e, FULL)) {
+        let fine = Step::from_bits(fit.step).is_some_and(|step| step.value() < FINE);
+        for turn in 0..if fine { effort.again.min(1) } else { effort.again } {
+            if (turn > 0 || fine) && trials.any(|e| target.is_met(e, FULL)) {
                 break;
             }
-            let others = (0..ASIDE).into_par_iter().map(|i| {
+            let others = (0..ASIDE).map(|i| {
                 let step = (fit.step + ASIDE / 2).saturating_sub(turn * ASIDE + i);
                 let step = step.min(Step::MAX.to_bits());
                 let finer = f64::from(fit.step) - f64::from(step);
-                let thrift = fit.thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32;
-                let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift, every: 1 };
-                let counts = Some(&fit.counts);
-                let known = Known { candidates: &candidates, pools: pool.as_deref(), counts };
-                encode(at, known).map(|(encoded, ..)| encoded)
+                (step, fit.thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32)
             });
-            let others = others.collect::<Result<Vec<_>, _>>()?;
-            let over = others.iter().map(|e| target.missed(e) - aim).sum::<f64>() / f64::from(ASIDE);
+            let misses = trials.round(&others.collect::<Vec<_>>())?;
+            let over = misses.iter().map(|miss| miss - aim).sum::<f64>() / f64::from(ASIDE);
             if let Some((less, before)) = seen.filter(|(less, _)| *less != lean) {
                 slope = ((before - over) / (lean - less)).clamp(1.0, 8.0);
             }
             seen = Some((lean, over));
             lean += over / slope;
-            others.iter().for_each(&mut *said);
-            tried.extend(others);
         }
     }
-    let best = target.best(&tried).cloned();
+    let best = target.best(&trials.tried).cloned();
     let best = best.ok_or(Error::Degenerate { what: "number of encodings" })?;
     if sweeps { settled(best, still, target) } else { Ok(best) }
 }
@@ -325,20 +227,35 @@ fn settled(best: Encoded, truth: &Still, target: Target) -> Result<Encoded, Erro
     Ok(best)
 }
 
-/// How many steps it takes to have as much again, from the two last ones tried.
+/// The steps to try next, side by side: the most likely one, and one a little further, or else nearer; none
+/// where there is none between those tried.
+fn pair(target: Target, tried: &[(u16, f64)], aim: f64) -> Vec<u16> {
+    let Some(step) = next(target, tried, aim) else { return Vec::new() };
+    let far = tried.iter().map(|(other, _)| other.abs_diff(step)).min().unwrap_or(0);
+    let by = (far / 4).max(1);
+    let mut beside = [step.saturating_add(by).min(Step::MAX.to_bits()), step.saturating_sub(by)];
+    if tried.iter().all(|(other, _)| *other > step) {
+        beside.reverse();
+    }
+    let free = |other: &u16| *other != step && !tried.iter().any(|(step, _)| step == other);
+    [step].into_iter().chain(beside.into_iter().find(free)).collect()
+}
+
+/// How many steps it takes to have as much again, from those tried.
 fn slope(tried: &[(u16, f64)]) -> f64 {
-    match tried {
-        [.., (a, above), (b, below)] if (above - below).abs() < 100.0 => {
-            ((f64::from(*b) - f64::from(*a)) / (above - below)).clamp(0.5 * STEPS, STEPS)
+    let finest = tried.iter().min_by_key(|(step, _)| *step);
+    match (finest, tried.iter().max_by_key(|(step, _)| *step)) {
+        (Some((a, above)), Some((b, below))) if a < b && (above - below).abs() < 100.0 => {
+            (f64::from(b - a) / (above - below)).clamp(0.5 * STEPS, 1.5 * STEPS)
         }
         // a flat picture has infinite decibels
         _ => STEPS,
     }
 }
 
-/// The step to try next, from those tried and how far they missed; none where there is none between. On one
-/// side of the target it takes so many `steps` to have as much again.
-fn next(target: Target, tried: &[(u16, f64)], aim: f64, steps: f64) -> Option<u16> {
+/// The step to try next, from those tried and how far they missed; none where there is none between.
+fn next(target: Target, tried: &[(u16, f64)], aim: f64) -> Option<u16> {
+    let steps = slope(tried);
     // 256 an octave: nearly a logarithm
     let points = || tried.iter().map(|(step, miss)| (f64::from(*step), *miss));
     let fine = points().filter(|e| e.1 > 0.0).max_by(|a, b| a.0.total_cmp(&b.0));
