@@ -15,7 +15,7 @@ use super::samples::Samples;
 use super::search::{Candidates, Effort};
 use super::settled::Settled;
 
-/// The exchange rate of squared error and bits, in squares of the step.
+/// The exchange rate of squared error and bits, in squares of the step and of one grey level.
 const LAMBDA: f32 = 0.12;
 const LAMBDA_PURE: f32 = 0.14;
 
@@ -137,7 +137,7 @@ impl<'a> Source<'a> {
             };
             let q = header.step_of(index) as f32 / 256.0;
             // what would not pay for its domain's bins is not looked for
-            Candidates::find(shape, original, &original.halved(), effort, 6.0 * self.lambda() * q * q)
+            Candidates::find(shape, original, &original.halved(), effort, 6.0 * self.lambda(q))
         };
         (0..).zip(self.shapes(step).iter().zip(&self.originals)).map(find).collect()
     }
@@ -153,8 +153,11 @@ impl<'a> Source<'a> {
         }
     }
 
-    const fn lambda(&self) -> f32 {
-        if matches!(self.plan.profile, Profile::Pure) { LAMBDA_PURE } else { LAMBDA }
+    /// The squared error that a bit is worth at a step. It grows with the error that there is: that of the
+    /// step, and that of samples which are rounded.
+    const fn lambda(&self, step: f32) -> f32 {
+        let rate = if matches!(self.plan.profile, Profile::Pure) { LAMBDA_PURE } else { LAMBDA };
+        rate * (step * step + 1.0)
     }
 
     /// How many bands there are for each of which a rough encoding needs to see one.
@@ -202,7 +205,7 @@ impl<'a> Source<'a> {
                     prices: &self.prices,
                     profile: self.plan.profile,
                     step: q,
-                    lambda: thrift * self.lambda() * q * q,
+                    lambda: thrift * self.lambda(q),
                     late: self.late(),
                     without: self.plan.without,
                     effort: Effort { polish: self.effort.polish && every == 1, ..self.effort },

@@ -54,7 +54,7 @@ impl Effort {
         polish: true,
         whole: 0.85,
         filled: 0.998,
-        again: 3,
+        again: 2,
     };
 }
 

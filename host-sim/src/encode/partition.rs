@@ -25,6 +25,9 @@ const WEIGHED: usize = 5;
 /// Of pairs of changes at the end, so many first ones are weighed.
 const AHEAD: usize = 8;
 
+/// What a leaf may cost more than the best so far, in bits, before its levels are weighed again.
+const LIKELY: f32 = 6.0;
+
 /// A square.
 enum Node {
     Leaf(Box<Leaf>),
@@ -271,13 +274,14 @@ impl<S: Sample> Partition<'_, '_, S> {
                 let late = self.lambda * late;
                 other.domain = Some(domain);
                 let mut with = late + self.cost(&rest, energy, &setting, 0, &mut other);
-                // other contrasts of it change little
-                if eighths == nearest && with > least + 12.0 * self.lambda {
-                    break;
+                if with > least + LIKELY * self.lambda {
+                    // other contrasts of it change little
+                    if eighths == nearest {
+                        break;
+                    }
+                    continue;
                 }
-                if with < least + 4.0 * self.lambda {
-                    with = late + self.cost(&rest, energy, &setting, self.effort.rounds, &mut other);
-                }
+                with = late + self.cost(&rest, energy, &setting, self.effort.rounds, &mut other);
                 if with < least {
                     least = with;
                     std::mem::swap(&mut best, &mut other);

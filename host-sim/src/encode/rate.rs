@@ -14,7 +14,7 @@ use super::quality::decibels;
 use super::range_encoder::Counts;
 use super::search::Effort;
 use super::target::{Encoded, Target};
-use super::trials::Trials;
+use super::trials::{Encode, Trials};
 use crate::decode::{decoded, decoded_with_planes};
 use crate::still::Still;
 
@@ -28,8 +28,9 @@ const CHEAPER: u16 = 6;
 const DEARER: u16 = 20;
 /// Bytes grow about as fast as the step shrinks, of which 256 are an octave.
 const STEPS: f64 = 300.0;
-/// The most encodings, at different steps: rough ones, and all.
+/// The most encodings, at different steps: rough ones, until one is so near, and all.
 const ROUGH: usize = 6;
+const NEAR: f64 = 0.03;
 const PASSES: usize = 12;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
 const FINER: [u16; 8] = [0, 2, 7, 19, 4, 11, 14, 29];
@@ -39,11 +40,8 @@ const PER_STEP: f64 = 0.0035;
 /// How many encodings there are in a round that differ by little, until one fills this part of the bytes.
 const ASIDE: u16 = 4;
 const FULL: f64 = 0.9992;
-/// Below this step, in `2^-8`, an encoding takes so long that there is one round of them.
-const FINE: u32 = 10 << 8;
-/// What part of the bytes is enough where what is wanted is not met soon.
-const ENOUGH: f64 = 0.992;
-
+/// With more bits a pixel an encoding takes so long that there are half as many, once.
+const DENSE: f64 = 0.4;
 /// Encodes a picture. `said` hears of every encoding.
 pub(crate) fn meet(
     still: &Still,
@@ -76,48 +74,63 @@ pub(crate) fn meet(
         Ok::<_, Error>((encoded, pools, pass.counts))
     };
     // first without domains: fast, and not far from what is wanted. Decibels of colour are those of a picture
-    let none = source.candidates(None, Step::MAX);
     let every = match target {
         Target::Decibels(_) if sweeps || kind != Planes::Grey => 1,
         _ => source.sparse(),
     };
+    let none = source.candidates(None, Step::MAX);
     let rough = |step: u16| {
-        let step = Step::from_bits(step).unwrap_or(Step::MAX);
-        let at = At { step, thrift: 1.0, every };
+        let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift: 1.0, every };
         let (encoded, _, counts) = encode(at, Known { candidates: &none, pools: None, counts: None })?;
         let miss = target.miss((encoded.bytes.len() * every as usize) as f64, encoded.psnr);
         Ok::<_, Error>((encoded.step, miss, counts))
     };
-    let mut roughly: Vec<(u16, f64, Counts)> = Vec::new();
+    let (near, counts) = roughly(target, rough)?;
+    let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
+    let mut trials = Trials::new(encode, (target, effort), &candidates, counts, said);
+    steps(&mut trials, near)?;
+    if !trials.any(|e| target.is_near(e)) {
+        between(&mut trials)?;
+    }
+    if let Target::Bytes(bytes) = target {
+        let pixels = f64::from(still.size.width) * f64::from(still.size.height);
+        match 8.0 * bytes > DENSE * pixels {
+            true if trials.any(|e| target.is_met(e, FULL)) => {}
+            true => aside(&mut trials, effort.again.min(1), ASIDE / 2)?,
+            false => aside(&mut trials, effort.again, ASIDE)?,
+        }
+    }
+    let best = target.best(&trials.tried).cloned();
+    let best = best.ok_or(Error::Degenerate { what: "number of encodings" })?;
+    if sweeps { settled(best, still, target) } else { Ok(best) }
+}
+
+/// The step that is most likely to meet the target, and what is known of bins there, from rough encodings.
+fn roughly(
+    target: Target,
+    rough: impl Fn(u16) -> Result<(u16, f64, Counts), Error> + Sync,
+) -> Result<(u16, Counts), Error> {
+    let (mut found, mut points): (Vec<(u16, f64, Counts)>, Vec<_>) = (Vec::new(), Vec::new());
     let mut ats = vec![FIRST, FIRST - OCTAVE];
     while !ats.is_empty() {
-        roughly.extend(ats.par_iter().map(|step| rough(*step)).collect::<Result<Vec<_>, _>>()?);
-        let tried: Vec<_> = roughly.iter().map(|(step, miss, _)| (*step, *miss)).collect();
-        let near = roughly.len() >= ROUGH || tried.iter().any(|(_, miss)| miss.abs() < 0.03);
-        ats = if near { Vec::new() } else { pair(target, &tried, 0.0) };
+        found.extend(ats.par_iter().map(|step| rough(*step)).collect::<Result<Vec<_>, _>>()?);
+        points = found.iter().map(|(step, miss, _)| (*step, *miss)).collect();
+        let enough = found.len() >= ROUGH || points.iter().any(|(_, miss)| miss.abs() < NEAR);
+        ats = if enough { Vec::new() } else { pair(target, &points, 0.0) };
     }
-    let tried: Vec<_> = roughly.iter().map(|(step, miss, _)| (*step, *miss)).collect();
-    let nearest = roughly.into_iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let Some((near, _, counts)) = nearest else {
-        return Err(Error::Degenerate { what: "number of encodings" });
-    };
-    let near = next(target, &tried, 0.0).unwrap_or(near);
-    let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
-    let mut trials = Trials::new(encode, target, &candidates, counts, said);
-    // in the middle of what is enough
-    let aim = match target {
-        Target::Bytes(_) => -0.5 * (1.0 - effort.filled),
-        Target::Decibels(_) => 0.003,
-    };
-    // the more of them there are, the sooner it is enough
-    let met = |e: &Encoded, tries: usize| {
-        target.is_met(e, (effort.filled - 0.0007 * (tries - 1) as f64).max(ENOUGH))
-    };
+    let nearest = found.into_iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let (near, _, counts) = nearest.ok_or(Error::Degenerate { what: "number of encodings" })?;
+    Ok((next(target, &points, 0.0).unwrap_or(near), counts))
+}
+
+/// Steps on both sides of the target, until one meets it or there is none between.
+fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<(), Error> {
+    let target = trials.target;
     // with domains a picture takes a little less at the same step, or more
     let coarser = near.saturating_add(DEARER).min(Step::MAX.to_bits());
     trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, 1.0)))?;
-    while trials.tried.len() < PASSES && !trials.any(|e| met(e, trials.tried.len())) {
-        let ats = pair(target, &trials.points(), aim);
+    while trials.tried.len() < PASSES && !trials.are_enough() {
+        let ats = pair(target, &trials.points(), trials.aim());
         if ats.is_empty() {
             break;
         }
@@ -138,71 +151,76 @@ pub(crate) fn meet(
         }
         trials.round(&[(step, 1.0)])?;
     }
-    // between two steps: bits a little dearer at the coarsest step that is too fine
-    let finest = trials.points().into_iter().filter(|(_, miss)| *miss > 0.0).max_by_key(|(step, _)| *step);
-    let finest =
-        finest.filter(|_| trials.any(|e| target.missed(e) <= 0.0) && !trials.any(|e| target.is_near(e)));
-    if let Some((step, missed)) = finest {
-        for finer in FINER {
-            // of small pictures bytes may jump past what is enough while the prices stay
-            trials.learns = finer > 0;
-            // logarithms of what a bit is worth, and what is missed
-            let there = if finer == 0 { missed } else { f64::from(finer) * PER_STEP };
-            let (mut over, mut under) = ((0.0, there), None::<(f64, f64)>);
-            for _ in 0..BETWEEN {
-                if trials.any(|e| target.is_near(e) || met(e, trials.tried.len())) {
-                    break;
+    Ok(())
+}
+
+/// Between two steps: bits a little dearer at the coarsest step that is too fine, if there is one that is not.
+fn between<F: Encode>(trials: &mut Trials<'_, F>) -> Result<(), Error> {
+    let (points, aim) = (trials.points(), trials.aim());
+    let fine = points.iter().filter(|(_, miss)| *miss > 0.0).max_by_key(|(step, _)| *step);
+    let Some((step, missed)) = fine.filter(|_| points.iter().any(|(_, miss)| *miss <= 0.0)) else {
+        return Ok(());
+    };
+    for finer in FINER {
+        // of small pictures bytes may jump past what is enough while the prices stay
+        trials.learns = finer > 0;
+        // logarithms of what a bit is worth, and what is missed
+        let there = if finer == 0 { *missed } else { f64::from(finer) * PER_STEP };
+        let (mut over, mut under) = ((0.0, there), None::<(f64, f64)>);
+        for _ in 0..BETWEEN {
+            if trials.are_enough() || trials.any(|e| trials.target.is_near(e)) {
+                return Ok(());
+            }
+            let thrifts = match under {
+                Some((dear, below)) => {
+                    // a straight line, and the middle: there are pictures whose bytes jump
+                    let straight = (over.1 - aim) / (over.1 - below).max(1e-9);
+                    [straight.clamp(0.05, 0.95), 0.5].map(|share| over.0 + (dear - over.0) * share)
                 }
-                let thrifts = match under {
-                    Some((dear, below)) => {
-                        // a straight line, and the middle: there are pictures whose bytes jump
-                        let straight = (over.1 - aim) / (over.1 - below).max(1e-9);
-                        [straight.clamp(0.05, 0.95), 0.5].map(|share| over.0 + (dear - over.0) * share)
-                    }
-                    None => [2.0, 3.0].map(|part| over.0 + part * (over.1 - aim)),
-                };
-                let at = |thrift: f64| (step.saturating_sub(finer), thrift.exp() as f32);
-                let misses = trials.round(&thrifts.map(at))?;
-                for (thrift, miss) in thrifts.into_iter().zip(misses) {
-                    let within = thrift > over.0 && under.is_none_or(|(dear, _)| thrift < dear);
-                    if within && miss > 0.0 {
-                        over = (thrift, miss);
-                    } else if within {
-                        under = Some((thrift, miss));
-                    }
+                None => [2.0, 3.0].map(|part| over.0 + part * (over.1 - aim)),
+            };
+            let at = |thrift: f64| (step.saturating_sub(finer), thrift.exp() as f32);
+            let misses = trials.round(&thrifts.map(at))?;
+            for (thrift, miss) in thrifts.into_iter().zip(misses) {
+                let within = thrift > over.0 && under.is_none_or(|(dear, _)| thrift < dear);
+                if within && miss > 0.0 {
+                    over = (thrift, miss);
+                } else if within {
+                    under = Some((thrift, miss));
                 }
             }
         }
     }
-    // what is decided early in a picture changes what all else costs, so that bytes are no smooth function
-    // of anything: a few more encodings that differ by little, until one fills what is asked for
-    if let (Target::Bytes(_), Some(fit)) = (target, trials.fit) {
-        trials.stay(&fit);
-        // how much less it is to take, and how that changes what it takes, as far as is known
-        let (mut lean, mut slope, mut seen) = (fit.miss - aim, 1.0, None::<(f64, f64)>);
-        let fine = Step::from_bits(fit.step).is_some_and(|step| step.value() < FINE);
-        for turn in 0..if fine { effort.again.min(1) } else { effort.again } {
-            if (turn > 0 || fine) && trials.any(|e| target.is_met(e, FULL)) {
-                break;
-            }
-            let others = (0..ASIDE).map(|i| {
-                let step = (fit.step + ASIDE / 2).saturating_sub(turn * ASIDE + i);
-                let step = step.min(Step::MAX.to_bits());
-                let finer = f64::from(fit.step) - f64::from(step);
-                (step, fit.thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32)
-            });
-            let misses = trials.round(&others.collect::<Vec<_>>())?;
-            let over = misses.iter().map(|miss| miss - aim).sum::<f64>() / f64::from(ASIDE);
-            if let Some((less, before)) = seen.filter(|(less, _)| *less != lean) {
-                slope = ((before - over) / (lean - less)).clamp(1.0, 8.0);
-            }
-            seen = Some((lean, over));
-            lean += over / slope;
+    Ok(())
+}
+
+/// What is decided early in a picture changes what all else costs, so that bytes are no smooth function of
+/// anything: a few more encodings that differ by little from the best, until one fills what is asked for.
+fn aside<F: Encode>(trials: &mut Trials<'_, F>, turns: u16, count: u16) -> Result<(), Error> {
+    let Some(fit) = trials.fit else { return Ok(()) };
+    trials.stay(&fit);
+    let (target, aim) = (trials.target, trials.aim());
+    // how much less it is to take, and how that changes what it takes, as far as is known
+    let (mut lean, mut slope, mut seen) = (fit.miss - aim, 1.0, None::<(f64, f64)>);
+    for turn in 0..turns {
+        if turn > 0 && trials.any(|e| target.is_met(e, FULL)) {
+            break;
         }
+        let others = (0..count).map(|i| {
+            let step = (fit.step + count / 2).saturating_sub(turn * count + i);
+            let step = step.min(Step::MAX.to_bits());
+            let finer = f64::from(fit.step) - f64::from(step);
+            (step, fit.thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32)
+        });
+        let misses = trials.round(&others.collect::<Vec<_>>())?;
+        let over = misses.iter().map(|miss| miss - aim).sum::<f64>() / f64::from(count);
+        if let Some((less, before)) = seen.filter(|(less, _)| *less != lean) {
+            slope = ((before - over) / (lean - less)).clamp(1.0, 8.0);
+        }
+        seen = Some((lean, over));
+        lean += over / slope;
     }
-    let best = target.best(&trials.tried).cloned();
-    let best = best.ok_or(Error::Degenerate { what: "number of encodings" })?;
-    if sweeps { settled(best, still, target) } else { Ok(best) }
+    Ok(())
 }
 
 /// Peak signal to noise of all samples.
@@ -277,4 +295,34 @@ fn next(target: Target, tried: &[(u16, f64)], aim: f64) -> Option<u16> {
     };
     let step = step.round().clamp(0.0, f64::from(Step::MAX.to_bits())) as u16;
     (!tried.iter().any(|(other, _)| *other == step)).then_some(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_tried_in_pairs_that_close_in_on_the_target() {
+        let target = Target::Bytes(1000.0);
+        for right in (40..5900_u16).step_by(37) {
+            // bytes by the step, with a grain of a per cent
+            let grain = |step: u16| f64::from((u32::from(step) * 40_503) >> 4 & 63) / 6400.0 - 0.005;
+            let miss = |step: u16| (f64::from(right) - f64::from(step)) * 0.0031 + grain(step);
+            let mut tried = vec![(FIRST, miss(FIRST)), (FIRST - OCTAVE, miss(FIRST - OCTAVE))];
+            for _ in 0..12 {
+                let now = pair(target, &tried, 0.0);
+                assert!(now.len() <= 2);
+                for step in now {
+                    assert!(step <= Step::MAX.to_bits() && tried.iter().all(|(other, _)| *other != step));
+                    tried.push((step, miss(step)));
+                }
+            }
+            let above = tried.iter().filter(|(_, miss)| *miss > 0.0).map(|(step, _)| *step).max();
+            let below = tried.iter().filter(|(_, miss)| *miss <= 0.0).map(|(step, _)| *step).min();
+            // the grain may turn two around
+            assert!(below.unwrap() <= above.unwrap() + 1, "{right}: {tried:?}");
+            // soon
+            assert!(tried.iter().take(10).any(|(_, miss)| miss.abs() < 0.01), "{right}: {tried:?}");
+        }
+    }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::file::{At, Known, Pool};
 use super::range_encoder::Counts;
-use super::search::Candidates;
+use super::search::{Candidates, Effort};
 use super::target::{Encoded, Target};
 
 /// An encoding, its planes as sweeps find them, and what it took of each bin.
@@ -23,10 +23,16 @@ pub(super) struct Fit {
     counts: Counts,
 }
 
+/// What encodes.
+pub(super) trait Encode: Fn(At, Known<'_>) -> Result<Trial, Error> + Sync {}
+
+impl<F: Fn(At, Known<'_>) -> Result<Trial, Error> + Sync> Encode for F {}
+
 /// All encodings so far.
 pub(super) struct Trials<'a, F> {
     encode: F,
-    target: Target,
+    pub(super) target: Target,
+    effort: Effort,
     candidates: &'a [Candidates],
     /// What domains of sweeps lie in; none: the picture itself.
     pools: Option<Vec<Pool>>,
@@ -43,18 +49,22 @@ pub(super) struct Trials<'a, F> {
 /// In so many rounds domains of sweeps come to lie in a picture as it is decoded: with other ones for ever,
 /// no step would meet the target.
 const SETTLING: u32 = 2;
+/// By what part of the bytes less is enough with each encoding, and what part is in the end.
+const SOONER: f64 = 0.0007;
+const ENOUGH: f64 = 0.992;
 
-impl<'a, F: Fn(At, Known<'_>) -> Result<Trial, Error> + Sync> Trials<'a, F> {
+impl<'a, F: Encode> Trials<'a, F> {
     /// None yet.
     pub(super) fn new(
         encode: F,
-        target: Target,
+        (target, effort): (Target, Effort),
         candidates: &'a [Candidates],
         counts: Counts,
         said: &'a mut dyn FnMut(&Encoded),
     ) -> Self {
-        let (pools, tried, fit) = (None, Vec::new(), None);
-        Self { encode, target, candidates, pools, counts, learns: true, rounds: 0, tried, fit, said }
+        let (pools, learns, rounds) = (None, true, 0);
+        let (tried, fit) = (Vec::new(), None);
+        Self { encode, target, effort, candidates, pools, counts, learns, rounds, tried, fit, said }
     }
 
     /// Encodes at each of some steps, with what a bit is worth there more than it should be, and tells how
@@ -97,6 +107,21 @@ impl<'a, F: Fn(At, Known<'_>) -> Result<Trial, Error> + Sync> Trials<'a, F> {
     /// From now on bins cost what they did when the best so far was made.
     pub(super) fn stay(&mut self, fit: &Fit) {
         (self.counts, self.learns) = (fit.counts, false);
+    }
+
+    /// What to miss the target by: the middle of what is enough.
+    pub(super) fn aim(&self) -> f64 {
+        match self.target {
+            Target::Bytes(_) => -0.5 * (1.0 - self.effort.filled),
+            Target::Decibels(_) => 0.003,
+        }
+    }
+
+    /// Whether one meets the target: the more of them there are, the sooner.
+    pub(super) fn are_enough(&self) -> bool {
+        let tries = self.tried.len().saturating_sub(1) as f64;
+        let part = (self.effort.filled - SOONER * tries).max(ENOUGH);
+        self.any(|encoded| self.target.is_met(encoded, part))
     }
 
     pub(super) fn any(&self, is: impl Fn(&Encoded) -> bool) -> bool {
