@@ -31,7 +31,9 @@ const STEPS: f64 = 300.0;
 /// The most encodings, at different steps: rough ones, until one is so near, and all.
 const ROUGH: usize = 6;
 const NEAR: f64 = 0.03;
-const PASSES: usize = 12;
+const PASSES: usize = 16;
+/// Between two steps bytes differ by no more, if prices of bins stay.
+const JUMP: f64 = 0.02;
 /// Then how much finer the step, and how often what a bit is worth is changed there at most.
 const FINER: [u16; 8] = [0, 2, 7, 19, 4, 11, 14, 29];
 const BETWEEN: usize = 6;
@@ -129,8 +131,16 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<(), Error> 
     // with domains a picture takes a little less at the same step, or more
     let coarser = near.saturating_add(DEARER).min(Step::MAX.to_bits());
     trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, 1.0)))?;
+    // those before are no longer true
+    let mut since = 0;
     while trials.tried.len() < PASSES && !trials.are_enough() {
-        let ats = pair(target, &trials.points(), trials.aim());
+        let points = &trials.points()[since..];
+        let mut ats = pair(target, points, trials.aim());
+        if ats.is_empty() && jump(points) > JUMP {
+            // prices have changed: the last round alone counts
+            since = trials.tried.len() - 2;
+            ats = pair(target, &points[points.len() - 2..], trials.aim());
+        }
         if ats.is_empty() {
             break;
         }
@@ -257,6 +267,15 @@ fn pair(target: Target, tried: &[(u16, f64)], aim: f64) -> Vec<u16> {
     }
     let free = |other: &u16| *other != step && !tried.iter().any(|(step, _)| step == other);
     [step].into_iter().chain(beside.into_iter().find(free)).collect()
+}
+
+/// By how much the misses next to the target differ, one on each side.
+fn jump(tried: &[(u16, f64)]) -> f64 {
+    let misses = || tried.iter().map(|(_, miss)| *miss);
+    let over = misses().filter(|miss| *miss > 0.0).fold(f64::INFINITY, f64::min);
+    let under = misses().filter(|miss| *miss <= 0.0).fold(f64::NEG_INFINITY, f64::max);
+    // all may be on one side
+    if (over - under).is_finite() { over - under } else { 0.0 }
 }
 
 /// How many steps it takes to have as much again, from those tried.

@@ -138,10 +138,10 @@ impl<'a> Rounded<'a> {
         let [columns, rows] = self.seen;
         let peak = ((1 << self.bits) - 1) as f32;
         let Some(across) = wave.across.first_chunk::<N>() else { return 0.0 };
-        let squares = [&self.truth, &self.still, &self.waves].map(|square| square.as_chunks::<N>().0);
-        let [truth, still, waves] = squares;
+        let [truth, still, waves] =
+            [&self.truth, &self.still, &self.waves].map(|square| rows_of::<N>(square));
         let mut sums = [0.0_f32; N];
-        for (((truth, still), waves), down) in truth.iter().zip(still).zip(waves).zip(&wave.down).take(rows) {
+        for (((truth, still), waves), down) in truth.zip(still).zip(waves).zip(&wave.down).take(rows) {
             for j in 0..N {
                 let wave = (waves[j] + down * across[j] + WHOLE) - WHOLE;
                 // halves up: a number of 7 fractional bits and a half is never between two samples
@@ -179,6 +179,12 @@ impl<'a> Rounded<'a> {
         let rest: Vec<f32> = self.truth.iter().zip(drawn).map(|(truth, drawn)| truth - drawn).collect();
         self.cosine.forward(self.size, &rest, into);
     }
+}
+
+/// Rows of `N`.
+#[inline(always)]
+pub(super) fn rows_of<const N: usize>(square: &[f32]) -> impl Iterator<Item = &[f32; N]> {
+    square.chunks_exact(N).filter_map(|row| row.first_chunk())
 }
 
 #[cfg(test)]

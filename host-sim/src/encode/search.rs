@@ -13,6 +13,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::cosine::{Coefficients, Cosine};
+use super::rounded::rows_of;
 use super::samples::Samples;
 
 /// How hard to look.
@@ -205,7 +206,7 @@ impl Index {
 fn dot<const N: usize>(square: &[f32], (samples, width): (&[f32], usize)) -> f32 {
     let mut sums = [0.0; N];
     let rows = samples.chunks(width).filter_map(|row| row.first_chunk::<N>());
-    for (a, b) in square.as_chunks::<N>().0.iter().zip(rows).take(N) {
+    for (a, b) in rows_of::<N>(square).zip(rows).take(N) {
         for j in 0..N {
             sums[j] += a[j] * b[j];
         }
