@@ -5,7 +5,7 @@
 //! from some bands alone.
 
 use attractor::Error;
-use attractor::codec::shared::crc32;
+use attractor::codec::shared::{context, crc32};
 use attractor::codec::{Planes, Profile, Step, check};
 use rayon::prelude::*;
 
@@ -87,7 +87,9 @@ pub(crate) fn meet(
         let miss = target.miss((encoded.bytes.len() * every as usize) as f64, encoded.psnr);
         Ok::<_, Error>((encoded.step, miss, counts))
     };
-    let (near, counts) = roughly(target, rough)?;
+    let (near, mut counts) = roughly(target, rough)?;
+    // whether a domain pays is not known without domains
+    counts[context::DOMAIN..context::NEAR].fill([0; 2]);
     let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
     let mut trials = Trials::new(encode, (target, effort), &candidates, counts, said);
     steps(&mut trials, near)?;

@@ -39,16 +39,18 @@ pub(super) struct Trials<'a, F> {
     counts: Counts,
     /// Whether bins cost what they did in the round before.
     pub(super) learns: bool,
-    rounds: u32,
+    /// In how many rounds more domains of sweeps come to lie in another picture.
+    settling: u32,
     pub(super) tried: Vec<Encoded>,
     /// How the best of those that are allowed was made.
     pub(super) fit: Option<Fit>,
     said: &'a mut dyn FnMut(&Encoded),
 }
 
-/// In so many rounds domains of sweeps come to lie in a picture as it is decoded: with other ones for ever,
-/// no step would meet the target.
+/// In so many rounds that come so near to the target domains of sweeps come to lie in a picture as it is
+/// decoded there: with other ones for ever, no step would meet the target.
 const SETTLING: u32 = 2;
+const NEAR: f64 = 0.1;
 /// By what part of the bytes less is enough with each encoding, and what part is in the end.
 const SOONER: f64 = 0.0007;
 const ENOUGH: f64 = 0.992;
@@ -62,9 +64,9 @@ impl<'a, F: Encode> Trials<'a, F> {
         counts: Counts,
         said: &'a mut dyn FnMut(&Encoded),
     ) -> Self {
-        let (pools, learns, rounds) = (None, true, 0);
+        let (pools, learns, settling) = (None, true, SETTLING);
         let (tried, fit) = (Vec::new(), None);
-        Self { encode, target, effort, candidates, pools, counts, learns, rounds, tried, fit, said }
+        Self { encode, target, effort, candidates, pools, counts, learns, settling, tried, fit, said }
     }
 
     /// Encodes at each of some steps, with what a bit is worth there more than it should be, and tells how
@@ -92,15 +94,15 @@ impl<'a, F: Encode> Trials<'a, F> {
             misses.push(miss);
             self.tried.push(encoded);
         }
-        if let Some((_, pools, now)) = nearest {
-            if self.rounds < SETTLING && !pools.is_empty() {
+        if let Some((miss, pools, now)) = nearest {
+            if self.settling > 0 && !pools.is_empty() {
                 self.pools = Some(pools);
+                self.settling -= u32::from(miss.abs() < NEAR);
             }
             if self.learns {
                 self.counts = now;
             }
         }
-        self.rounds += 1;
         Ok(misses)
     }
 
