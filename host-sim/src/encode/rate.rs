@@ -92,9 +92,9 @@ pub(crate) fn meet(
     counts[context::DOMAIN..context::NEAR].fill([0; 2]);
     let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
     let mut trials = Trials::new(encode, (target, effort), &candidates, counts, said);
-    steps(&mut trials, near)?;
+    let since = steps(&mut trials, near)?;
     if !trials.any(|e| target.is_near(e)) {
-        between(&mut trials)?;
+        between(&mut trials, since)?;
     }
     if let Target::Bytes(bytes) = target {
         let pixels = f64::from(still.size.width) * f64::from(still.size.height);
@@ -127,13 +127,13 @@ fn roughly(
     Ok((next(target, &points, 0.0).unwrap_or(near), counts))
 }
 
-/// Steps on both sides of the target, until one meets it or there is none between.
-fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<(), Error> {
+/// Steps on both sides of the target, until one meets it or there is none between. Tells how many of the
+/// first trials are no longer true, as prices of bins have changed.
+fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Error> {
     let target = trials.target;
     // with domains a picture takes a little less at the same step, or more
     let coarser = near.saturating_add(DEARER).min(Step::MAX.to_bits());
     trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, 1.0)))?;
-    // those before are no longer true
     let mut since = 0;
     while trials.tried.len() < PASSES && !trials.are_enough() {
         let points = &trials.points()[since..];
@@ -163,14 +163,16 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<(), Error> 
         }
         trials.round(&[(step, 1.0)])?;
     }
-    Ok(())
+    Ok(since)
 }
 
 /// Between two steps: bits a little dearer at the coarsest step that is too fine, if there is one that is not.
-fn between<F: Encode>(trials: &mut Trials<'_, F>) -> Result<(), Error> {
+fn between<F: Encode>(trials: &mut Trials<'_, F>, since: usize) -> Result<(), Error> {
     let (points, aim) = (trials.points(), trials.aim());
+    let both = |points: &[(u16, f64)]| jump(points) > 0.0;
+    let points = if both(&points[since..]) { &points[since..] } else { &points[..] };
     let fine = points.iter().filter(|(_, miss)| *miss > 0.0).max_by_key(|(step, _)| *step);
-    let Some((step, missed)) = fine.filter(|_| points.iter().any(|(_, miss)| *miss <= 0.0)) else {
+    let Some((step, missed)) = fine.filter(|_| both(points)) else {
         return Ok(());
     };
     for finer in FINER {
