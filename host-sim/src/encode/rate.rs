@@ -166,7 +166,8 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Erro
     Ok(since)
 }
 
-/// Between two steps: bits a little dearer at the coarsest step that is too fine, if there is one that is not.
+/// Between two steps: bits a little dearer at the coarsest step that is too fine, if there is one that is
+/// not. The first trials, up to `since`, had other prices.
 fn between<F: Encode>(trials: &mut Trials<'_, F>, since: usize) -> Result<(), Error> {
     let (points, aim) = (trials.points(), trials.aim());
     let both = |points: &[(u16, f64)]| jump(points) > 0.0;

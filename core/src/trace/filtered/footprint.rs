@@ -159,8 +159,8 @@ const fn within(v: i32, rest: i32) -> i32 {
     v.saturating_add(rest).saturating_sub(rest).saturating_sub(rest).saturating_add(rest)
 }
 
-/// A place on the plane that a pixel's rays meet: in parts of the domain, and how high; or the way from one to
-/// another.
+/// A place on the plane that a pixel's rays meet: in parts of the domain, and how high; or the way from one
+/// to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
     pub(super) at: [i32; 2],
