@@ -225,8 +225,9 @@ fn a_filtered_pixel_is_nearer_the_truth_than_many_samples() {
     assert_eq!((rough.len(), smooth.len()), (4, 3));
 }
 
-/// Pixels whose lower edge a ridge grazes: the first ray meets the ridge, all the pixel shows is what lies far
-/// behind. They are filtered there, within a fiftieth of 32 x 32 narrow rays over much finer leaves; 16 samples,
+/// Pixels whose lower edge a ridge grazes: the first ray meets the ridge, all the pixel shows is what lies
+/// far behind. They are filtered there, within a fiftieth of 32 x 32 narrow rays over much finer leaves; 16
+/// samples,
 /// for which the leaves hide more than the surface does, are off by more than a twentieth.
 #[test]
 fn a_ridge_that_grazes_a_pixel_hides_nothing_of_what_lies_behind() {

@@ -443,7 +443,8 @@ mod tests {
 
     const WHOLE: i32 = 1 << 30;
 
-    /// From `first` on, the integral of the function through (0, `knots[0]`), (1, `knots[1]`), (2, `knots[2]`).
+    /// From `first` on, the integral of the function through (0, `knots[0]`), (1, `knots[1]`), (2,
+    /// `knots[2]`).
     fn with_integral(first: f64, knots: [f64; 3], scalings: [f64; 2], then: impl FnOnce(&Sums<'_>)) {
         let knot = |(x, y): (i32, f64)| Knot::new(Wide::from_num(x), Wide::from_num(y));
         let knots = [(0, knots[0]), (1, knots[1]), (2, knots[2])].map(knot);
