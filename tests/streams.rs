@@ -138,7 +138,7 @@ fn payload<S: Sample>(header: &Header, random: &mut Random, sound: bool, memory:
             low: 0,
             range: u32::MAX,
             bytes: Vec::new(),
-            models: [Model::NEW; MODELS],
+            models: [Model::new(header.version); MODELS],
         };
         let drawn = walk(header, &mut writer, memory);
         if sound && !drawn {
@@ -187,6 +187,7 @@ pub fn stream_of(random: &mut Random, whole: bool, side: usize) -> Result<Vec<u8
     let profile = [Profile::Streaming, Profile::Iterated, Profile::Pure][random.below(3)];
     let [width, height] = if random.below(2) == 0 { [side / 3, 3 * side] } else { [side, side] };
     let mut header = Header {
+        version: if random.below(4) == 0 { 1 } else { Header::VERSION },
         size: Size::new(1 + random.below(width) as u32, 1 + random.below(height) as u32),
         profile,
         planes,

@@ -35,6 +35,13 @@ struct Counter {
     levels: bool,
 }
 
+impl Counter {
+    /// Nothing yet, of a stream of that version.
+    fn new(version: u8) -> Self {
+        Self { models: [Model::new(version); MODELS], shares: Shares::default(), levels: false }
+    }
+}
+
 impl Coder for Counter {
     fn bin(&mut self, context: usize, bin: bool) -> bool {
         let zero = f64::from(self.models[context].zero()) / 8192.0;
@@ -83,7 +90,7 @@ fn leaves<S: Sample + Default>(bytes: &[u8], counter: &mut Counter) -> Result<Ve
 pub(crate) fn run(args: &Inspect) -> Result<(), Fail> {
     let refused = |error: Error| Fail::new(format_args!("{}: {error}", args.file.display()));
     let (bytes, header) = decode::load(&args.file)?;
-    let mut counter = Counter { models: [Model::NEW; MODELS], shares: Shares::default(), levels: false };
+    let mut counter = Counter::new(header.version);
     let squares =
         if header.deep { leaves::<u16>(&bytes, &mut counter) } else { leaves::<u8>(&bytes, &mut counter) };
     let squares = squares.map_err(refused)?;
@@ -174,11 +181,13 @@ fn drawn(still: &Still, squares: &[Square]) -> Result<Vec<u8>, png::EncodingErro
 
 #[cfg(test)]
 mod tests {
+    use attractor::codec::Header;
+
     use super::*;
 
     #[test]
     fn a_counter_prices_each_kind() {
-        let mut counter = Counter { models: [Model::NEW; MODELS], shares: Shares::default(), levels: false };
+        let mut counter = Counter::new(Header::VERSION);
         counter.bin(context::DOMAIN, true);
         counter.bin(context::COLUMN, false);
         counter.raw(9, 5);

@@ -16,7 +16,7 @@ const MOST: usize = 600;
 type Bytes<'a> = Copied<Iter<'a, u8>>;
 
 const _: () = {
-    assert!(size_of::<Stream<'_, u8, Bytes<'_>>>() <= 2150);
+    assert!(size_of::<Stream<'_, u8, Bytes<'_>>>() <= 3770);
     assert!(size_of::<Sweeps<'_, u8, Bytes<'_>>>() <= 512);
     assert!(size_of::<Refined<'_, 4, 12>>() <= MOST && size_of::<Refined<'_, 4, 12>>() == 32 * 12 + 72);
     assert!(size_of::<CopiedPath<'_, 4, 12>>() <= MOST && size_of::<CopiedPath<'_, 4, 12>>() == 40 * 12 + 72);

@@ -39,6 +39,8 @@ pub enum Planes {
 /// The first bytes of a stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Header {
+    /// 2, or 1 for a file whose models learn as those of the first version: docs/IMAGE-FORMAT.md.
+    pub version: u8,
     /// Width and height.
     pub size: Size,
     /// How it is decoded.
@@ -86,8 +88,8 @@ impl Step {
 impl Header {
     /// What a stream begins with.
     pub const MAGIC: [u8; 4] = *b"ATFI";
-    /// The version that this code reads and writes.
-    pub const VERSION: u8 = 1;
+    /// The version that is written. The one before it is read as well.
+    pub const VERSION: u8 = 2;
     /// Bytes before the payload's length.
     const FIXED: usize = 14;
     /// The most bytes that a header has.
@@ -108,8 +110,8 @@ impl Header {
                 if Self::MAGIC.get(position).is_some_and(|letter| *letter != byte) {
                     return Err(wrong(position));
                 }
-                if position == 4 && byte != Self::VERSION {
-                    return Err(Error::Unsupported { what: "version of an image", allowed: "1" });
+                if position == 4 && !(1..=Self::VERSION).contains(&byte) {
+                    return Err(Error::Unsupported { what: "version of an image", allowed: "1 and 2" });
                 }
                 continue;
             }
@@ -121,7 +123,7 @@ impl Header {
                 return Err(wrong(position));
             }
         }
-        let [_, _, _, _, _, flags, w0, w1, h0, h1, s0, s1, reach, chroma] = fixed;
+        let [_, _, _, _, version, flags, w0, w1, h0, h1, s0, s1, reach, chroma] = fixed;
         let profile = match flags & 3 {
             0 => Profile::Streaming,
             1 => Profile::Iterated,
@@ -147,7 +149,7 @@ impl Header {
             return Err(wrong(13));
         }
         let deep = flags >> 4 & 1 == 1;
-        Ok((Self { size, profile, planes, deep, step, reach, chroma, payload }, crc))
+        Ok((Self { version, size, profile, planes, deep, step, reach, chroma, payload }, crc))
     }
 
     /// Writes the header into `bytes` and says how many it took.
@@ -179,7 +181,7 @@ impl Header {
             m1,
             m2,
             m3,
-            Self::VERSION,
+            self.version,
             flags,
             w[0],
             w[1],

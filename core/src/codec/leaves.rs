@@ -26,7 +26,7 @@ impl<I: Iterator<Item = u8>> Opened<I> {
         let (header, crc, source) = self.into_parts();
         let mut planes = Planes::new(header, 0, &mut Cell::from_mut(memory).as_slice_of_cells());
         let mut decoder = RangeDecoder::new(source, header.payload, crc);
-        decoder.begin();
+        decoder.begin(header.version);
         let mut row = 0;
         while row < header.size.height {
             let mut shown = |plane, leaf: &_, setting: &_, at, _| seen(plane, leaf, setting, at);

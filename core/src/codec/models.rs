@@ -1,38 +1,56 @@
 //! Adaptive probabilities of binary decisions, and what they are asked about.
 //!
-//! A model is the probability that the next bin is 0. It learns from each bin: with the rate `1/4` at first,
-//! ever slower down to `1/64`, so that a short stream is not spent on learning.
+//! A model is the probability that the next bin is 0. It learns from each bin by counting them: the `n`th moves
+//! it by `1/(n + 2)` of the way, as a mean does, and by `1/96` from the 94th on, so that it forgets.
 //!
-//! Format: 13 bits of probability, 3 bits that count the first bins.
+//! Those of version 1 learn with a rate of `1/4` at first, slower down to `1/32` from the sixth bin on, in 13
+//! bits.
+//!
+//! Format: 16 bits of probability, a bit of the version, 15 bits that count.
 
 use super::rolled::rounds;
 
-/// The probability that a bin is 0. Size: 2 bytes.
+/// The probability that a bin is 0. Size: 4 bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Model(u16);
+pub struct Model(u32);
 
-/// How many bins a model counts: then its rate does not change any more.
-const COUNTED: u16 = 6;
+/// Which of the two ways a model learns.
+const FIRST: u32 = 1 << 15;
+/// How far a model counts, from 2; those of version 1 from 0.
+const COUNTED: u32 = 95;
+const COUNTED_FIRST: u32 = 6;
+/// The most that a probability comes near to in 16 bits: none of 13 bits is 8192.
+const TOP: u32 = 65_528;
 
 impl Model {
     /// Memory before a model is in it: zeros, which need no copy.
     pub(super) const BLANK: Self = Self(0);
-    /// Nothing known: 1/2.
-    pub const NEW: Self = Self(0x8000);
 
-    /// The probability of a 0 in 13 bits, from 31 to 8160 of 8192: the slowest rate stops there.
-    #[inline]
-    pub const fn zero(self) -> u32 {
-        (self.0 >> 3) as u32
+    /// Nothing known: 1/2. Any version but the first is taken for the second.
+    pub const fn new(version: u8) -> Self {
+        Self(1 << 31 | if version == 1 { FIRST } else { 2 })
     }
 
-    /// What it is after a bin. Rates, as shifts, are 2, 3, 3, 4, 4, and 5 from then on.
+    /// The probability of a 0 in 13 bits, from 12 to 8179 of 8192: the slowest rate stops there.
+    #[inline]
+    pub const fn zero(self) -> u32 {
+        self.0 >> 19
+    }
+
+    /// What it is after a bin.
     #[inline]
     pub const fn learn(self, bin: bool) -> Self {
-        let (p, count) = (self.0 >> 3, self.0 & 7);
-        let rate = (count + 5) >> 1;
-        let counted = self.0 + (count < COUNTED) as u16;
-        Self(if bin { counted - (p >> rate << 3) } else { counted + ((8191 - p) >> rate << 3) })
+        let count = self.0 & (FIRST - 1);
+        let goal = if bin { 0 } else { TOP as i32 };
+        let left = goal - (self.0 >> 16) as i32;
+        let (by, most) = if self.0 & FIRST == 0 {
+            (left / (count as i32 + 1), COUNTED)
+        } else {
+            // rates, as shifts, are 2, 3, 3, 4, 4 and 5 from then on
+            ((left / (8 << (((count & 7) + 5) >> 1))) << 3, COUNTED_FIRST)
+        };
+        let counted = self.0 + (count < most) as u32;
+        Self(counted.wrapping_add((by as u32) << 16))
     }
 }
 

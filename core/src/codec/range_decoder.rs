@@ -33,10 +33,10 @@ impl<I: Iterator<Item = u8>> RangeDecoder<I> {
         Self { source, range: u32::MAX, code: 0, payload, left: payload, ended: false, crc, models }
     }
 
-    /// Reads what the first bin is found by; no model knows anything.
+    /// Reads what the first bin is found by; no model knows anything, and each learns as in that version.
     #[inline(never)]
-    pub(super) fn begin(&mut self) {
-        self.models.fill(Model::NEW);
+    pub(super) fn begin(&mut self, version: u8) {
+        self.models.fill(Model::new(version));
         for _ in 0..4 {
             self.code = self.code << 8 | self.byte();
         }
@@ -143,15 +143,15 @@ mod tests {
 
     /// Bins, raw where there is no context, of which the last is 1, and the least number that says so: by the
     /// format's page, in integers that hold all of it. A decoder's `code` is its `bound` there.
-    fn least(seed: u32, bins: &[Option<usize>]) -> (std::vec::Vec<bool>, u128, usize) {
+    fn least(version: u8, seed: u32, bins: &[Option<usize>]) -> (std::vec::Vec<bool>, u128, usize) {
         let (mut low, mut range, mut bytes) = (0_u128, u128::from(u32::MAX), 4);
-        let mut models = [(4096_u128, 0_usize); 8];
+        let mut models = [(32768_u128, 0_usize); 8];
         let mut said = std::vec::Vec::new();
         for (i, bin) in bins.iter().enumerate() {
             let one = i + 1 == bins.len() || seed >> i & 1 == 1;
             let bound = match bin {
                 None => range / 2,
-                Some(context) => range / 8192 * models[*context].0,
+                Some(context) => range / 8192 * (models[*context].0 / 8),
             };
             // half of an odd range leaves one out
             range = match (one, bin) {
@@ -161,9 +161,13 @@ mod tests {
             low += if one { bound } else { 0 };
             if let Some(context) = bin {
                 let (p, count) = &mut models[*context];
-                let rate = [2, 3, 3, 4, 4, 5, 5, 5][*count];
-                *p = if one { *p - (*p >> rate) } else { *p + ((8191 - *p) >> rate) };
-                *count = (*count + 1).min(7);
+                let left = if one { *p } else { 65528 - *p };
+                let by = match version {
+                    1 => (left >> [2, 3, 3, 4, 4, 5, 5, 5][(*count).min(7)]) / 8 * 8,
+                    _ => left / (*count as u128 + 3).min(96),
+                };
+                *p = if one { *p - by } else { *p + by };
+                *count += 1;
             }
             while range < 1 << 24 {
                 (low, range, bytes) = (low << 8, range << 8, bytes + 1);
@@ -173,11 +177,11 @@ mod tests {
         (said, low, bytes)
     }
 
-    fn heard(number: u128, bytes: usize, bins: &[Option<usize>]) -> std::vec::Vec<bool> {
+    fn heard(version: u8, number: u128, bytes: usize, bins: &[Option<usize>]) -> std::vec::Vec<bool> {
         let all = number.to_be_bytes();
         let source = all[16 - bytes..].iter().copied();
         let mut decoder = RangeDecoder::new(source, bytes as u32, Crc::NEW);
-        decoder.begin();
+        decoder.begin(version);
         let mut hear = |bin: &Option<usize>| match bin {
             Some(context) => decoder.bin(*context, false),
             None => decoder.raw(1, 0) == 1,
@@ -187,19 +191,20 @@ mod tests {
 
     #[test]
     fn a_code_word_at_the_bound_is_a_1_and_the_one_below_it_a_0() {
-        assert_eq!(least(0, &[Some(0)]), (std::vec![true], 0x7fff_f000, 4));
-        assert_eq!(least(0, &[None]), (std::vec![true], 0x7fff_ffff, 4));
+        assert_eq!(least(1, 0, &[Some(0)]), (std::vec![true], 0x7fff_f000, 4));
+        assert_eq!(least(2, 0, &[None]), (std::vec![true], 0x7fff_ffff, 4));
         let (mut tried, mut longest) = (0, 0);
         for seed in 1..2000_u32 {
             let seed = seed.wrapping_mul(0x9e37_79b9);
             let length = 1 + seed as usize % 31;
             let kind = |i: usize| (seed.rotate_left(i as u32) % 5 != 0).then_some((seed as usize >> i) % 8);
             let bins: std::vec::Vec<_> = (0..length).map(kind).collect();
-            let (mut said, number, bytes) = least(seed, &bins);
-            assert_eq!(heard(number, bytes, &bins), said, "{seed:x}");
+            let version = 1 + (seed >> 31) as u8;
+            let (mut said, number, bytes) = least(version, seed, &bins);
+            assert_eq!(heard(version, number, bytes, &bins), said, "{seed:x}");
             // one less lies below the bound, and says the same until there
             *said.last_mut().unwrap() = false;
-            assert_eq!(heard(number - 1, bytes, &bins), said, "{seed:x}, one below");
+            assert_eq!(heard(version, number - 1, bytes, &bins), said, "{seed:x}, one below");
             (tried, longest) = (tried + 1, longest.max(bytes));
         }
         assert!(tried == 1999 && longest >= 7, "{tried} {longest}");

@@ -69,7 +69,7 @@ impl<'a, S: Sample, I: Iterator<Item = u8>> Stream<'a, S, I> {
     pub fn next_band(&mut self) -> Result<Option<Part<'a, S>>, Error> {
         if !self.over {
             if self.next == 0 {
-                self.decoder.begin();
+                self.decoder.begin(self.planes.header().version);
             }
             if self.next >= self.planes.header().size.height {
                 self.stated = Planes::<S>::end(&mut self.decoder);

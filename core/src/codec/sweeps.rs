@@ -13,6 +13,7 @@ use core::cell::Cell;
 use embedded_graphics_core::geometry::Size;
 
 use super::crc::Crc;
+use super::header::Header;
 use super::kept::Kept;
 use super::opened::Opened;
 use super::planes::{BAND, Part, Planes};
@@ -78,9 +79,9 @@ impl<'a, S: Sample, I: Iterator<Item = u8> + Clone> Sweeps<'a, S, I> {
     /// A sweep over the stream, which keeps what it leaves to the next.
     #[inline(never)]
     fn read(&mut self) -> Result<(), Error> {
-        let payload = self.planes.header().payload;
+        let Header { version, payload, .. } = *self.planes.header();
         let mut decoder = RangeDecoder::new(self.source.clone(), payload, self.crc);
-        decoder.begin();
+        decoder.begin(version);
         let kept = &mut self.kept;
         kept.clear();
         let mut row = 0;

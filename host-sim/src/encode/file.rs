@@ -113,6 +113,7 @@ impl<'a> Source<'a> {
         let chroma = if self.planes == Planes::Grey { 0 } else { self.plan.chroma };
         let Plan { profile, reach, .. } = self.plan;
         Header {
+            version: Header::VERSION,
             size: self.size,
             profile,
             planes: self.planes,

@@ -1,10 +1,11 @@
 //! What writes bins: a binary range coder whose carry waits behind bytes of 255, as in I. Pavlov's LZMA, and
 //! what only counts them.
 
+use attractor::codec::Header;
 use attractor::codec::shared::{Coder, MODELS, Model, NUMBER, context, number};
 
 /// All models as a stream begins.
-pub(super) const NEW: [Model; MODELS] = [Model::NEW; MODELS];
+pub(super) const NEW: [Model; MODELS] = [Model::new(Header::VERSION); MODELS];
 
 /// Writes bins. The first byte of the coder is always 0 and left out.
 #[derive(Clone)]

@@ -207,6 +207,7 @@ mod tests {
         for turn in 0..400_u32 {
             let size = 2 + turn % 4;
             let header = Header {
+                version: Header::VERSION,
                 size: Size::new(1 + below(40) as u32, 1 + below(40) as u32),
                 profile: Profile::Streaming,
                 planes: Planes::Grey,

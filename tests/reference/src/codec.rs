@@ -28,6 +28,7 @@ struct Reader<'a> {
     bytes: &'a [u8],
     range: u64,
     code: u64,
+    version: u8,
     models: std::collections::HashMap<(&'static str, usize, usize), (u32, u32)>,
 }
 
@@ -47,8 +48,8 @@ impl Reader<'_> {
 
     /// A bin under the model named so.
     fn bin(&mut self, what: &'static str, of: usize, index: usize) -> bool {
-        let (p, count) = *self.models.entry((what, of, index)).or_insert((4096, 0));
-        let bound = self.range / 8192 * u64::from(p);
+        let (p, count) = *self.models.entry((what, of, index)).or_insert((32768, 0));
+        let bound = self.range / 8192 * u64::from(p / 8);
         let one = self.code >= bound;
         if one {
             self.code -= bound;
@@ -57,9 +58,12 @@ impl Reader<'_> {
             self.range = bound;
         }
         self.fill();
-        let rate = [2, 3, 3, 4, 4, 5, 5, 5][count as usize];
-        let p = if one { p - (p >> rate) } else { p + ((8191 - p) >> rate) };
-        self.models.insert((what, of, index), (p, (count + 1).min(7)));
+        let left = if one { p } else { 65528 - p };
+        let by = match self.version {
+            1 => left / 8 / [4, 8, 8, 16, 16, 32][count.min(5) as usize] * 8,
+            _ => left / (count + 3).min(96),
+        };
+        self.models.insert((what, of, index), (if one { p - by } else { p + by }, count + 1));
         one
     }
 
@@ -499,7 +503,8 @@ pub fn decode(file: &[u8]) -> Decoded {
 /// # Panics
 /// For any other bytes.
 pub fn decode_scaled(file: &[u8], scale: i32) -> Decoded {
-    assert_eq!(&file[..5], b"ATFI\x01");
+    let version = file[4];
+    assert!(file.starts_with(b"ATFI") && (1..=2).contains(&version));
     let pair = |at: usize| usize::from(file[at]) + 256 * usize::from(file[at + 1]);
     let flags = file[5];
     let (width, height, q8) = (pair(6), pair(8), ((256 + u64::from(file[10])) << file[11]) >> 4);
@@ -543,7 +548,8 @@ pub fn decode_scaled(file: &[u8], scale: i32) -> Decoded {
             }
         })
         .collect();
-    let mut reader = Reader { bytes: payload, range: (1 << 32) - 1, code: 0, models: Default::default() };
+    let mut reader =
+        Reader { bytes: payload, range: (1 << 32) - 1, code: 0, version, models: Default::default() };
     for _ in 0..4 {
         reader.code = 256 * reader.code + reader.next();
     }

@@ -13,7 +13,7 @@ use embedded_graphics::prelude::*;
 
 attractor_cortex_m::never_panics!();
 
-static FLAT: &[u8] = include_bytes!("../../../../tests/vectors/flat-8.atfi");
+static FLAT: &[u8] = include_bytes!("../../../../tests/vectors/version-2/flat-8.atfi");
 
 #[entry]
 fn main() -> ! {

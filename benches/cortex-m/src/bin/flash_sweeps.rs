@@ -13,7 +13,7 @@ use embedded_graphics::prelude::*;
 
 attractor_cortex_m::never_panics!();
 
-static ITERATED: &[u8] = include_bytes!("../../../../tests/vectors/iterated.atfi");
+static ITERATED: &[u8] = include_bytes!("../../../../tests/vectors/version-2/iterated.atfi");
 
 #[entry]
 fn main() -> ! {

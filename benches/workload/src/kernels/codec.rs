@@ -5,9 +5,9 @@ use attractor::plane::Field;
 
 use super::watch::{Tally, Watch};
 
-static STREAMING: &[u8] = include_bytes!("../../../../tests/vectors/camera-streaming.atfi");
-static TWO_SWEEPS: &[u8] = include_bytes!("../../../../tests/vectors/camera-two-sweeps.atfi");
-static SWEEPS: &[u8] = include_bytes!("../../../../tests/vectors/camera-iterated.atfi");
+static STREAMING: &[u8] = include_bytes!("../../../../tests/vectors/version-2/camera-streaming.atfi");
+static TWO_SWEEPS: &[u8] = include_bytes!("../../../../tests/vectors/version-2/camera-two-sweeps.atfi");
+static SWEEPS: &[u8] = include_bytes!("../../../../tests/vectors/version-2/camera-iterated.atfi");
 
 /// What `Opened::samples` asks for in one pass.
 const WINDOW: usize = 13_760;
