@@ -43,12 +43,15 @@ const BAND: u32 = 32;
 /// Of how many bands a rough encoding sees at least.
 const FEW: u32 = 6;
 
-/// At what step, how much more a bit is worth than it should be, and how many bands there are for each one
-/// that is encoded: where that is not each, the bytes are no stream, but let expect what it takes.
+/// How much more a bit is worth than it should be, in each eighth of the rows.
+pub(super) type Thrift = [f32; 8];
+
+/// At what step, with what thrift, and how many bands there are for each one that is encoded: where that is
+/// not each, the bytes are no stream, but let expect what it takes.
 #[derive(Clone, Copy)]
 pub(super) struct At {
     pub(super) step: Step,
-    pub(super) thrift: f32,
+    pub(super) thrift: Thrift,
     pub(super) every: u32,
 }
 
@@ -194,6 +197,7 @@ impl<'a> Source<'a> {
         let streaming = self.plan.profile == Profile::Streaming;
         let (mut error, mut seen, mut target) = (0, 0, Target::none());
         for row in (0..self.size.height).step_by((BAND * every) as usize) {
+            let thrift = thrift[(8 * row / self.size.height) as usize];
             for (index, plane) in (0..).zip(&mut planes) {
                 let band = row >> header.halved(index);
                 plane.begin(band, 0);

@@ -9,12 +9,12 @@ use attractor::codec::shared::{context, crc32};
 use attractor::codec::{Planes, Profile, Step, check};
 use rayon::prelude::*;
 
-use super::file::{At, Known, Plan, Pool, Source};
+use super::file::{At, Known, Plan, Pool, Source, Thrift};
 use super::quality::decibels;
 use super::range_encoder::Counts;
 use super::search::Effort;
 use super::target::{Encoded, Target};
-use super::trials::{Encode, Trials};
+use super::trials::{Encode, Fit, Trials};
 use crate::decode::{decoded, decoded_with_planes};
 use crate::still::Still;
 
@@ -42,6 +42,14 @@ const PER_STEP: f64 = 0.0035;
 /// How many encodings there are in a round that differ by little, until one fills this part of the bytes.
 const ASIDE: u16 = 4;
 const FULL: f64 = 0.9992;
+/// Bits as dear as they should be.
+const AS_IT_IS: Thrift = [1.0; 8];
+/// In the end: from these eighths of the rows on bits become dearer or cheaper, by these parts of what seems
+/// right, to take so much less than is allowed; and how far an encoding may miss to be mended so.
+const FROM: [u32; 3] = [4, 6, 7];
+const OTHERS: [f64; 2] = [0.8, 1.25];
+const FILLED: f64 = -0.0003;
+const LOOSE: f64 = 0.04;
 /// With more bits a pixel an encoding takes so long that there are half as many, once.
 const DENSE: f64 = 0.4;
 /// Encodes a picture. `said` hears of every encoding.
@@ -82,7 +90,7 @@ pub(crate) fn meet(
     };
     let none = source.candidates(None, Step::MAX);
     let rough = |step: u16| {
-        let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift: 1.0, every };
+        let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift: AS_IT_IS, every };
         let (encoded, _, counts) = encode(at, Known { candidates: &none, pools: None, counts: None })?;
         let miss = target.miss((encoded.bytes.len() * every as usize) as f64, encoded.psnr);
         Ok::<_, Error>((encoded.step, miss, counts))
@@ -102,6 +110,9 @@ pub(crate) fn meet(
             true if trials.any(|e| target.is_met(e, FULL)) => {}
             true => aside(&mut trials, effort.again.min(1), ASIDE / 2)?,
             false => aside(&mut trials, effort.again, ASIDE)?,
+        }
+        if effort.again > 0 {
+            fill(&mut trials, still.size.height)?;
         }
     }
     let best = target.best(&trials.tried).cloned();
@@ -133,7 +144,7 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Erro
     let target = trials.target;
     // with domains a picture takes a little less at the same step, or more
     let coarser = near.saturating_add(DEARER).min(Step::MAX.to_bits());
-    trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, 1.0)))?;
+    trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, AS_IT_IS)))?;
     let mut since = 0;
     while trials.tried.len() < PASSES && !trials.are_enough() {
         let points = &trials.points()[since..];
@@ -146,7 +157,7 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Erro
         if ats.is_empty() {
             break;
         }
-        trials.round(&ats.into_iter().map(|step| (step, 1.0)).collect::<Vec<_>>())?;
+        trials.round(&ats.into_iter().map(|step| (step, AS_IT_IS)).collect::<Vec<_>>())?;
     }
     // where bytes are no straight line at all: ever further off, until a step is allowed
     let mut stride = 4;
@@ -161,7 +172,7 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Erro
         if step == coarsest || step == finest {
             break;
         }
-        trials.round(&[(step, 1.0)])?;
+        trials.round(&[(step, AS_IT_IS)])?;
     }
     Ok(since)
 }
@@ -194,7 +205,7 @@ fn between<F: Encode>(trials: &mut Trials<'_, F>, since: usize) -> Result<(), Er
                 }
                 None => [2.0, 3.0].map(|part| over.0 + part * (over.1 - aim)),
             };
-            let at = |thrift: f64| (step.saturating_sub(finer), thrift.exp() as f32);
+            let at = |thrift: f64| (step.saturating_sub(finer), [thrift.exp() as f32; 8]);
             let misses = trials.round(&thrifts.map(at))?;
             for (thrift, miss) in thrifts.into_iter().zip(misses) {
                 let within = thrift > over.0 && under.is_none_or(|(dear, _)| thrift < dear);
@@ -212,7 +223,7 @@ fn between<F: Encode>(trials: &mut Trials<'_, F>, since: usize) -> Result<(), Er
 /// What is decided early in a picture changes what all else costs, so that bytes are no smooth function of
 /// anything: a few more encodings that differ by little from the best, until one fills what is asked for.
 fn aside<F: Encode>(trials: &mut Trials<'_, F>, turns: u16, count: u16) -> Result<(), Error> {
-    let Some(fit) = trials.fit else { return Ok(()) };
+    let Some(fit) = trials.best(0.01, true) else { return Ok(()) };
     trials.stay(&fit);
     let (target, aim) = (trials.target, trials.aim());
     // how much less it is to take, and how that changes what it takes, as far as is known
@@ -225,7 +236,7 @@ fn aside<F: Encode>(trials: &mut Trials<'_, F>, turns: u16, count: u16) -> Resul
             let step = (fit.step + count / 2).saturating_sub(turn * count + i);
             let step = step.min(Step::MAX.to_bits());
             let finer = f64::from(fit.step) - f64::from(step);
-            (step, fit.thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32)
+            (step, fit.thrift.map(|thrift| thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32))
         });
         let misses = trials.round(&others.collect::<Vec<_>>())?;
         let over = misses.iter().map(|miss| miss - aim).sum::<f64>() / f64::from(count);
@@ -234,6 +245,36 @@ fn aside<F: Encode>(trials: &mut Trials<'_, F>, turns: u16, count: u16) -> Resul
         }
         seen = Some((lean, over));
         lean += over / slope;
+    }
+    Ok(())
+}
+
+/// The best encoding so far, whatever it misses by, with bits dearer or cheaper in the last rows: ever fewer
+/// of them, so that less and less is missed.
+fn fill<F: Encode>(trials: &mut Trials<'_, F>, height: u32) -> Result<(), Error> {
+    let Some(mut fit) = trials.best(LOOSE, false) else { return Ok(()) };
+    trials.stay(&fit);
+    let worth = trials.worth();
+    for (from, next) in FROM.into_iter().zip(FROM.into_iter().skip(1).chain([8])) {
+        // in a picture of few bands there may be none
+        if fit.miss <= 0.0 && fit.miss > FULL.ln() || 8 * ((height - 1) / 32 * 32) / height < from {
+            break;
+        }
+        let part = |from: u32| f64::from(8 - from) / 8.0;
+        let dearer = 2.0 * (fit.miss - FILLED) / part(from);
+        let others = OTHERS.map(|share| {
+            let mut thrift = fit.thrift;
+            let last = thrift.iter_mut().skip(from as usize);
+            last.for_each(|thrift| *thrift *= (share * dearer.clamp(-0.5, 0.5)).exp() as f32);
+            (fit.step, thrift)
+        });
+        trials.round(&others)?;
+        let last = trials.fits.iter().skip(trials.fits.len() - OTHERS.len()).copied();
+        let within = |fit: &Fit| (fit.miss - FILLED).abs() < LOOSE * part(next);
+        let both: Vec<_> = last.chain([fit]).collect();
+        let best = both.iter().filter(|fit| within(fit)).max_by(|a, b| worth(a).total_cmp(&worth(b)));
+        let nearest = both.iter().min_by(|a, b| (a.miss - FILLED).abs().total_cmp(&(b.miss - FILLED).abs()));
+        fit = *best.or(nearest).unwrap_or(&fit);
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use attractor::Error;
 use attractor::codec::Step;
 use rayon::prelude::*;
 
-use super::file::{At, Known, Pool};
+use super::file::{At, Known, Pool, Thrift};
 use super::range_encoder::Counts;
 use super::search::{Candidates, Effort};
 use super::target::{Encoded, Target};
@@ -16,10 +16,10 @@ pub(super) type Trial = (Encoded, Vec<Pool>, Counts);
 /// and what came of it.
 #[derive(Clone, Copy)]
 pub(super) struct Fit {
-    psnr: f64,
+    pub(super) psnr: f64,
     pub(super) miss: f64,
     pub(super) step: u16,
-    pub(super) thrift: f32,
+    pub(super) thrift: Thrift,
     counts: Counts,
 }
 
@@ -42,8 +42,8 @@ pub(super) struct Trials<'a, F> {
     /// In how many rounds more domains of sweeps come to lie in another picture.
     settling: u32,
     pub(super) tried: Vec<Encoded>,
-    /// How the best of those that are allowed was made.
-    pub(super) fit: Option<Fit>,
+    /// How each of them was made.
+    pub(super) fits: Vec<Fit>,
     said: &'a mut dyn FnMut(&Encoded),
 }
 
@@ -51,6 +51,9 @@ pub(super) struct Trials<'a, F> {
 /// decoded there: with other ones for ever, no step would meet the target.
 const SETTLING: u32 = 2;
 const NEAR: f64 = 0.1;
+/// Decibels of a logarithm of bytes, by encodings that miss by less; where there are none.
+const NEARBY: f64 = 0.12;
+const SLOPE: f64 = 4.0;
 /// By what part of the bytes less is enough with each encoding, and what part is in the end.
 const SOONER: f64 = 0.0007;
 const ENOUGH: f64 = 0.992;
@@ -65,17 +68,17 @@ impl<'a, F: Encode> Trials<'a, F> {
         said: &'a mut dyn FnMut(&Encoded),
     ) -> Self {
         let (pools, learns, settling) = (None, true, SETTLING);
-        let (tried, fit) = (Vec::new(), None);
-        Self { encode, target, effort, candidates, pools, counts, learns, settling, tried, fit, said }
+        let (tried, fits) = (Vec::new(), Vec::new());
+        Self { encode, target, effort, candidates, pools, counts, learns, settling, tried, fits, said }
     }
 
     /// Encodes at each of some steps, with what a bit is worth there more than it should be, and tells how
     /// far each is on the wrong side.
-    pub(super) fn round(&mut self, ats: &[(u16, f32)]) -> Result<Vec<f64>, Error> {
+    pub(super) fn round(&mut self, ats: &[(u16, Thrift)]) -> Result<Vec<f64>, Error> {
         let counts = self.counts;
         let known =
             Known { candidates: self.candidates, pools: self.pools.as_deref(), counts: Some(&counts) };
-        let encode = |(step, thrift): &(u16, f32)| {
+        let encode = |(step, thrift): &(u16, Thrift)| {
             let step = Step::from_bits(*step).unwrap_or(Step::MAX);
             (self.encode)(At { step, thrift: *thrift, every: 1 }, known)
         };
@@ -83,10 +86,7 @@ impl<'a, F: Encode> Trials<'a, F> {
         let (mut misses, mut nearest) = (Vec::new(), None::<(f64, Vec<Pool>, Counts)>);
         for ((encoded, pools, now), (step, thrift)) in trials.into_iter().zip(ats) {
             let (miss, psnr) = (self.target.missed(&encoded), encoded.psnr);
-            let better = self.fit.is_none_or(|fit| psnr > fit.psnr);
-            if self.target.allows(&encoded) && miss > -0.01 && better {
-                self.fit = Some(Fit { psnr, miss, step: *step, thrift: *thrift, counts });
-            }
+            self.fits.push(Fit { psnr, miss, step: *step, thrift: *thrift, counts });
             if nearest.as_ref().is_none_or(|(other, ..)| miss.abs() < other.abs()) {
                 nearest = Some((miss, pools, now));
             }
@@ -106,7 +106,7 @@ impl<'a, F: Encode> Trials<'a, F> {
         Ok(misses)
     }
 
-    /// From now on bins cost what they did when the best so far was made.
+    /// From now on bins cost what they did when that one was made.
     pub(super) fn stay(&mut self, fit: &Fit) {
         (self.counts, self.learns) = (fit.counts, false);
     }
@@ -128,6 +128,29 @@ impl<'a, F: Encode> Trials<'a, F> {
 
     pub(super) fn any(&self, is: impl Fn(&Encoded) -> bool) -> bool {
         self.tried.iter().any(is)
+    }
+
+    /// What an encoding is worth: decibels, less those that come of the bytes that it misses by.
+    pub(super) fn worth(&self) -> impl Fn(&Fit) -> f64 + use<F> {
+        // a straight line through those nearby
+        let near: Vec<_> = self.fits.iter().filter(|fit| fit.miss.abs() < NEARBY).collect();
+        let mean = |of: fn(&Fit) -> f64| near.iter().map(|fit| of(fit)).sum::<f64>() / near.len() as f64;
+        let (miss, psnr) = (mean(|fit| fit.miss), mean(|fit| fit.psnr));
+        let spread: f64 = near.iter().map(|fit| (fit.miss - miss).powi(2)).sum();
+        let both: f64 = near.iter().map(|fit| (fit.miss - miss) * (fit.psnr - psnr)).sum();
+        let slope = if spread > 1e-5 { both / spread } else { SLOPE };
+        let slope = slope.clamp(0.5, 8.0);
+        move |fit| fit.psnr - slope * fit.miss
+    }
+
+    /// The encoding of most worth that misses by less, and is allowed if it has to be.
+    pub(super) fn best(&self, miss: f64, allowed: bool) -> Option<Fit> {
+        let worth = self.worth();
+        let fits = self.fits.iter().zip(&self.tried);
+        let near = fits.filter(|(fit, encoded)| {
+            fit.miss.abs() < miss && (!allowed || self.target.allows(encoded))
+        });
+        near.map(|(fit, _)| fit).max_by(|a, b| worth(a).total_cmp(&worth(b))).copied()
     }
 
     /// Steps, and how far each missed.
