@@ -125,7 +125,7 @@ pub(crate) const STREAMS: [(&str, &[u8]); 5] = [
     ("camera-streaming", include_bytes!("../../tests/vectors/version-2/camera-streaming.atfi")),
     ("camera-iterated", include_bytes!("../../tests/vectors/version-2/camera-iterated.atfi")),
     ("camera-pure", include_bytes!("../../tests/vectors/version-2/pure.atfi")),
-    ("camera-colour", include_bytes!("../../tests/vectors/version-2/colour-halved.atfi")),
+    ("cat", include_bytes!("../../tests/vectors/version-2/colour-halved.atfi")),
     ("jacksboro", include_bytes!("../data/jacksboro-elevation-m.atfi")),
 ];
 

@@ -198,8 +198,17 @@ fn any_header_is_written_and_read() {
         let profile = [Profile::Streaming, Profile::Iterated, Profile::Pure][usize::from(profile)];
         let planes = [Planes::Grey, Planes::Colour, Planes::ColourHalved][usize::from(planes)];
         let chroma = if planes == Planes::Grey { 0 } else { chroma };
-        let header =
-            Header { version, size: Size::new(width, height), profile, planes, deep, step, reach, chroma, payload };
+        let header = Header {
+            version,
+            size: Size::new(width, height),
+            profile,
+            planes,
+            deep,
+            step,
+            reach,
+            chroma,
+            payload,
+        };
         let mut bytes = [0; Header::LONGEST];
         let length = header.write(&mut bytes).unwrap();
         assert_eq!(*open(bytes[..length].iter().copied()).unwrap().header(), header);

@@ -43,15 +43,15 @@ const BAND: u32 = 32;
 /// Of how many bands a rough encoding sees at least.
 const FEW: u32 = 6;
 
-/// How much more a bit is worth than it should be, in each eighth of the rows.
-pub(super) type Thrift = [f32; 8];
+/// How much more a bit is worth than it should be: from some rows on, the first of them 0.
+pub(super) type Thrift = Vec<(u32, f32)>;
 
 /// At what step, with what thrift, and how many bands there are for each one that is encoded: where that is
 /// not each, the bytes are no stream, but let expect what it takes.
 #[derive(Clone, Copy)]
-pub(super) struct At {
+pub(super) struct At<'a> {
     pub(super) step: Step,
-    pub(super) thrift: Thrift,
+    pub(super) thrift: &'a [(u32, f32)],
     pub(super) every: u32,
 }
 
@@ -72,6 +72,8 @@ pub(super) struct Pass {
     /// By the first sweep.
     pub(super) settled: Vec<Settled>,
     pub(super) counts: Counts,
+    /// Rows at which bands begin, and the bytes before them.
+    pub(super) starts: Vec<(u32, usize)>,
 }
 
 /// A picture ready to be encoded.
@@ -171,11 +173,11 @@ impl<'a> Source<'a> {
     }
 
     /// Encodes. Domains of sweeps lie in the pools, the planes as they will be decoded, or else the picture.
-    pub(super) fn encode(&self, at: At, known: Known<'_>) -> Result<Pass, Error> {
+    pub(super) fn encode(&self, at: At<'_>, known: Known<'_>) -> Result<Pass, Error> {
         if self.deep { self.encode_as::<u16>(at, known) } else { self.encode_as::<u8>(at, known) }
     }
 
-    fn encode_as<S: Sample + Default>(&self, at: At, known: Known<'_>) -> Result<Pass, Error> {
+    fn encode_as<S: Sample + Default>(&self, at: At<'_>, known: Known<'_>) -> Result<Pass, Error> {
         let At { step, thrift, every } = at;
         let Known { candidates, pools, counts } = known;
         let header = self.header(step, 0);
@@ -193,11 +195,12 @@ impl<'a> Source<'a> {
         let padded = |shape: &Shape| (shape.padded(), shape.height.next_multiple_of(shape.side()));
         let mut settled: Vec<Settled> =
             shapes.iter().map(padded).map(|(width, height)| Settled::new(width, height)).collect();
-        let mut out = RangeEncoder::new();
+        let (mut out, mut starts) = (RangeEncoder::new(), Vec::new());
         let streaming = self.plan.profile == Profile::Streaming;
         let (mut error, mut seen, mut target) = (0, 0, Target::none());
         for row in (0..self.size.height).step_by((BAND * every) as usize) {
-            let thrift = thrift[(8 * row / self.size.height) as usize];
+            starts.push((row, out.length()));
+            let thrift = thrift.iter().rfind(|(from, _)| *from <= row).map_or(1.0, |(_, thrift)| *thrift);
             for (index, plane) in (0..).zip(&mut planes) {
                 let band = row >> header.halved(index);
                 plane.begin(band, 0);
@@ -231,6 +234,7 @@ impl<'a> Source<'a> {
                 }
             }
         }
+        starts.push((self.size.height, out.length()));
         let now = out.counts;
         let payload = out.finish();
         let mut start = [0; Header::LONGEST];
@@ -238,7 +242,7 @@ impl<'a> Source<'a> {
         let mut bytes = [&start[..length], &payload].concat();
         bytes.extend(crc32(&bytes).to_le_bytes());
         let decibels = (seen > 0).then(|| decibels(error as f64, seen as usize, (1 << S::BITS) - 1));
-        Ok(Pass { bytes, decibels, settled, counts: now })
+        Ok(Pass { bytes, decibels, settled, counts: now, starts })
     }
 }
 

@@ -3,6 +3,7 @@
 mod bins;
 mod cosine;
 mod file;
+mod fill;
 mod partition;
 mod polish;
 mod quality;
@@ -44,7 +45,7 @@ impl Effort {
         polish: false,
         whole: 0.7,
         filled: 0.995,
-        again: 0,
+        again: false,
     };
     pub(crate) const BEST: Self = Self {
         isometries: 8,
@@ -52,9 +53,9 @@ impl Effort {
         far: true,
         rounds: 2,
         polish: true,
-        whole: 0.85,
+        whole: 0.95,
         filled: 0.998,
-        again: 2,
+        again: true,
     };
 }
 

@@ -49,6 +49,11 @@ impl RangeEncoder {
         self.low = (self.low & 0x00ff_ffff) << 8;
     }
 
+    /// Bytes so far.
+    pub(super) const fn length(&self) -> usize {
+        self.bytes.len()
+    }
+
     fn normalise(&mut self) {
         while self.range < 1 << 24 {
             self.range <<= 8;

@@ -1,7 +1,7 @@
 //! The step that meets a target: so many bytes at most, or so many decibels at least.
 //!
 //! Bytes and decibels are nearly straight lines over the logarithm of the step; a few encodings bracket the
-//! target and narrow it down. Domains are looked for once, when the step is roughly known: of large pictures
+//! target and narrow it down, and `fill` does the rest. Domains are looked for once, when the step is roughly known: of large pictures
 //! from some bands alone.
 
 use attractor::Error;
@@ -10,11 +10,12 @@ use attractor::codec::{Planes, Profile, Step, check};
 use rayon::prelude::*;
 
 use super::file::{At, Known, Plan, Pool, Source, Thrift};
+use super::fill::fill;
 use super::quality::decibels;
 use super::range_encoder::Counts;
 use super::search::Effort;
 use super::target::{Encoded, Target};
-use super::trials::{Encode, Fit, Trials};
+use super::trials::{Encode, Trial, Trials};
 use crate::decode::{decoded, decoded_with_planes};
 use crate::still::Still;
 
@@ -34,24 +35,14 @@ const NEAR: f64 = 0.03;
 const PASSES: usize = 16;
 /// Between two steps bytes differ by no more, if prices of bins stay.
 const JUMP: f64 = 0.02;
-/// Then how much finer the step, and how often what a bit is worth is changed there at most.
+/// The part of the bytes that is promised: where all else has missed it, how much finer the step is, and how often
+/// what a bit is worth is changed there at most.
+const MET: f64 = 0.99;
 const FINER: [u16; 8] = [0, 2, 7, 19, 4, 11, 14, 29];
 const BETWEEN: usize = 6;
 /// Logarithm of the bytes that a step takes.
 const PER_STEP: f64 = 0.0035;
-/// How many encodings there are in a round that differ by little, until one fills this part of the bytes.
-const ASIDE: u16 = 4;
-const FULL: f64 = 0.9992;
-/// Bits as dear as they should be.
-const AS_IT_IS: Thrift = [1.0; 8];
-/// In the end: from these eighths of the rows on bits become dearer or cheaper, by these parts of what seems
-/// right, to take so much less than is allowed; and how far an encoding may miss to be mended so.
-const FROM: [u32; 3] = [4, 6, 7];
-const OTHERS: [f64; 2] = [0.8, 1.25];
-const FILLED: f64 = -0.0003;
-const LOOSE: f64 = 0.04;
-/// With more bits a pixel an encoding takes so long that there are half as many, once.
-const DENSE: f64 = 0.4;
+
 /// Encodes a picture. `said` hears of every encoding.
 pub(crate) fn meet(
     still: &Still,
@@ -64,7 +55,7 @@ pub(crate) fn meet(
     let (kind, values) = still.planes(halved);
     let source = Source::new(still.size, kind, still.peak() > 255, &values, plan, effort);
     let sweeps = plan.profile != Profile::Streaming;
-    let encode = |at: At, known: Known<'_>| {
+    let encode = |at: At<'_>, known: Known<'_>| {
         let pass = source.encode(at, known)?;
         let mut pools = Vec::new();
         let psnr = match pass.decibels {
@@ -81,7 +72,7 @@ pub(crate) fn meet(
             }
         };
         let encoded = Encoded { bytes: pass.bytes, psnr, step: at.step.to_bits() };
-        Ok::<_, Error>((encoded, pools, pass.counts))
+        Ok::<_, Error>(Trial { encoded, pools, counts: pass.counts, starts: pass.starts })
     };
     // first without domains: fast, and not far from what is wanted. Decibels of colour are those of a picture
     let every = match target {
@@ -90,8 +81,9 @@ pub(crate) fn meet(
     };
     let none = source.candidates(None, Step::MAX);
     let rough = |step: u16| {
-        let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift: AS_IT_IS, every };
-        let (encoded, _, counts) = encode(at, Known { candidates: &none, pools: None, counts: None })?;
+        let at = At { step: Step::from_bits(step).unwrap_or(Step::MAX), thrift: &[], every };
+        let Trial { encoded, counts, .. } =
+            encode(at, Known { candidates: &none, pools: None, counts: None })?;
         let miss = target.miss((encoded.bytes.len() * every as usize) as f64, encoded.psnr);
         Ok::<_, Error>((encoded.step, miss, counts))
     };
@@ -101,19 +93,9 @@ pub(crate) fn meet(
     let candidates = source.candidates(Some(effort), Step::from_bits(near).unwrap_or(Step::MAX));
     let mut trials = Trials::new(encode, (target, effort), &candidates, counts, said);
     let since = steps(&mut trials, near)?;
-    if !trials.any(|e| target.is_near(e)) {
+    fill(&mut trials, f64::from(still.size.width) * f64::from(still.size.height))?;
+    if !trials.any(|e| target.is_met(e, MET) || target.is_near(e)) {
         between(&mut trials, since)?;
-    }
-    if let Target::Bytes(bytes) = target {
-        let pixels = f64::from(still.size.width) * f64::from(still.size.height);
-        match 8.0 * bytes > DENSE * pixels {
-            true if trials.any(|e| target.is_met(e, FULL)) => {}
-            true => aside(&mut trials, effort.again.min(1), ASIDE / 2)?,
-            false => aside(&mut trials, effort.again, ASIDE)?,
-        }
-        if effort.again > 0 {
-            fill(&mut trials, still.size.height)?;
-        }
     }
     let best = target.best(&trials.tried).cloned();
     let best = best.ok_or(Error::Degenerate { what: "number of encodings" })?;
@@ -144,7 +126,7 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Erro
     let target = trials.target;
     // with domains a picture takes a little less at the same step, or more
     let coarser = near.saturating_add(DEARER).min(Step::MAX.to_bits());
-    trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, AS_IT_IS)))?;
+    trials.round(&[near.saturating_sub(CHEAPER), coarser].map(|step| (step, Thrift::new())))?;
     let mut since = 0;
     while trials.tried.len() < PASSES && !trials.are_enough() {
         let points = &trials.points()[since..];
@@ -157,7 +139,7 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Erro
         if ats.is_empty() {
             break;
         }
-        trials.round(&ats.into_iter().map(|step| (step, AS_IT_IS)).collect::<Vec<_>>())?;
+        trials.round(&ats.into_iter().map(|step| (step, Thrift::new())).collect::<Vec<_>>())?;
     }
     // where bytes are no straight line at all: ever further off, until a step is allowed
     let mut stride = 4;
@@ -172,7 +154,7 @@ fn steps<F: Encode>(trials: &mut Trials<'_, F>, near: u16) -> Result<usize, Erro
         if step == coarsest || step == finest {
             break;
         }
-        trials.round(&[(step, AS_IT_IS)])?;
+        trials.round(&[(step, Thrift::new())])?;
     }
     Ok(since)
 }
@@ -205,7 +187,7 @@ fn between<F: Encode>(trials: &mut Trials<'_, F>, since: usize) -> Result<(), Er
                 }
                 None => [2.0, 3.0].map(|part| over.0 + part * (over.1 - aim)),
             };
-            let at = |thrift: f64| (step.saturating_sub(finer), [thrift.exp() as f32; 8]);
+            let at = |thrift: f64| (step.saturating_sub(finer), vec![(0, thrift.exp() as f32)]);
             let misses = trials.round(&thrifts.map(at))?;
             for (thrift, miss) in thrifts.into_iter().zip(misses) {
                 let within = thrift > over.0 && under.is_none_or(|(dear, _)| thrift < dear);
@@ -216,65 +198,6 @@ fn between<F: Encode>(trials: &mut Trials<'_, F>, since: usize) -> Result<(), Er
                 }
             }
         }
-    }
-    Ok(())
-}
-
-/// What is decided early in a picture changes what all else costs, so that bytes are no smooth function of
-/// anything: a few more encodings that differ by little from the best, until one fills what is asked for.
-fn aside<F: Encode>(trials: &mut Trials<'_, F>, turns: u16, count: u16) -> Result<(), Error> {
-    let Some(fit) = trials.best(0.01, true) else { return Ok(()) };
-    trials.stay(&fit);
-    let (target, aim) = (trials.target, trials.aim());
-    // how much less it is to take, and how that changes what it takes, as far as is known
-    let (mut lean, mut slope, mut seen) = (fit.miss - aim, 1.0, None::<(f64, f64)>);
-    for turn in 0..turns {
-        if turn > 0 && trials.any(|e| target.is_met(e, FULL)) {
-            break;
-        }
-        let others = (0..count).map(|i| {
-            let step = (fit.step + count / 2).saturating_sub(turn * count + i);
-            let step = step.min(Step::MAX.to_bits());
-            let finer = f64::from(fit.step) - f64::from(step);
-            (step, fit.thrift.map(|thrift| thrift * (2.0 * (lean + PER_STEP * finer)).exp() as f32))
-        });
-        let misses = trials.round(&others.collect::<Vec<_>>())?;
-        let over = misses.iter().map(|miss| miss - aim).sum::<f64>() / f64::from(count);
-        if let Some((less, before)) = seen.filter(|(less, _)| *less != lean) {
-            slope = ((before - over) / (lean - less)).clamp(1.0, 8.0);
-        }
-        seen = Some((lean, over));
-        lean += over / slope;
-    }
-    Ok(())
-}
-
-/// The best encoding so far, whatever it misses by, with bits dearer or cheaper in the last rows: ever fewer
-/// of them, so that less and less is missed.
-fn fill<F: Encode>(trials: &mut Trials<'_, F>, height: u32) -> Result<(), Error> {
-    let Some(mut fit) = trials.best(LOOSE, false) else { return Ok(()) };
-    trials.stay(&fit);
-    let worth = trials.worth();
-    for (from, next) in FROM.into_iter().zip(FROM.into_iter().skip(1).chain([8])) {
-        // in a picture of few bands there may be none
-        if fit.miss <= 0.0 && fit.miss > FULL.ln() || 8 * ((height - 1) / 32 * 32) / height < from {
-            break;
-        }
-        let part = |from: u32| f64::from(8 - from) / 8.0;
-        let dearer = 2.0 * (fit.miss - FILLED) / part(from);
-        let others = OTHERS.map(|share| {
-            let mut thrift = fit.thrift;
-            let last = thrift.iter_mut().skip(from as usize);
-            last.for_each(|thrift| *thrift *= (share * dearer.clamp(-0.5, 0.5)).exp() as f32);
-            (fit.step, thrift)
-        });
-        trials.round(&others)?;
-        let last = trials.fits.iter().skip(trials.fits.len() - OTHERS.len()).copied();
-        let within = |fit: &Fit| (fit.miss - FILLED).abs() < LOOSE * part(next);
-        let both: Vec<_> = last.chain([fit]).collect();
-        let best = both.iter().filter(|fit| within(fit)).max_by(|a, b| worth(a).total_cmp(&worth(b)));
-        let nearest = both.iter().min_by(|a, b| (a.miss - FILLED).abs().total_cmp(&(b.miss - FILLED).abs()));
-        fit = *best.or(nearest).unwrap_or(&fit);
     }
     Ok(())
 }

@@ -33,8 +33,8 @@ pub(crate) struct Effort {
     pub(super) whole: f32,
     /// What part of the bytes asked for is filled at least.
     pub(super) filled: f64,
-    /// How often there are more encodings, which differ by little, once the bytes are met.
-    pub(super) again: u16,
+    /// Whether there are more encodings, which differ by little, once the bytes are met.
+    pub(super) again: bool,
 }
 
 /// A domain and what it takes off the error, in little room: there are more of them than pixels.

@@ -9,30 +9,39 @@ use super::range_encoder::Counts;
 use super::search::{Candidates, Effort};
 use super::target::{Encoded, Target};
 
-/// An encoding, its planes as sweeps find them, and what it took of each bin.
-pub(super) type Trial = (Encoded, Vec<Pool>, Counts);
+/// An encoding.
+pub(super) struct Trial {
+    pub(super) encoded: Encoded,
+    /// Planes as sweeps find them.
+    pub(super) pools: Vec<Pool>,
+    /// What it took of each bin.
+    pub(super) counts: Counts,
+    /// Where its bands begin.
+    pub(super) starts: Vec<(u32, usize)>,
+}
 
 /// How an encoding was made: its step, what a bit was worth more than it should be, what was known of bins;
 /// and what came of it.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Fit {
     pub(super) psnr: f64,
     pub(super) miss: f64,
     pub(super) step: u16,
     pub(super) thrift: Thrift,
+    pub(super) starts: Vec<(u32, usize)>,
     counts: Counts,
 }
 
 /// What encodes.
-pub(super) trait Encode: Fn(At, Known<'_>) -> Result<Trial, Error> + Sync {}
+pub(super) trait Encode: Fn(At<'_>, Known<'_>) -> Result<Trial, Error> + Sync {}
 
-impl<F: Fn(At, Known<'_>) -> Result<Trial, Error> + Sync> Encode for F {}
+impl<F: Fn(At<'_>, Known<'_>) -> Result<Trial, Error> + Sync> Encode for F {}
 
 /// All encodings so far.
 pub(super) struct Trials<'a, F> {
     encode: F,
     pub(super) target: Target,
-    effort: Effort,
+    pub(super) effort: Effort,
     candidates: &'a [Candidates],
     /// What domains of sweeps lie in; none: the picture itself.
     pools: Option<Vec<Pool>>,
@@ -80,13 +89,13 @@ impl<'a, F: Encode> Trials<'a, F> {
             Known { candidates: self.candidates, pools: self.pools.as_deref(), counts: Some(&counts) };
         let encode = |(step, thrift): &(u16, Thrift)| {
             let step = Step::from_bits(*step).unwrap_or(Step::MAX);
-            (self.encode)(At { step, thrift: *thrift, every: 1 }, known)
+            (self.encode)(At { step, thrift, every: 1 }, known)
         };
         let trials = ats.par_iter().map(encode).collect::<Result<Vec<_>, _>>()?;
         let (mut misses, mut nearest) = (Vec::new(), None::<(f64, Vec<Pool>, Counts)>);
-        for ((encoded, pools, now), (step, thrift)) in trials.into_iter().zip(ats) {
+        for (Trial { encoded, pools, counts: now, starts }, (step, thrift)) in trials.into_iter().zip(ats) {
             let (miss, psnr) = (self.target.missed(&encoded), encoded.psnr);
-            self.fits.push(Fit { psnr, miss, step: *step, thrift: *thrift, counts });
+            self.fits.push(Fit { psnr, miss, step: *step, thrift: thrift.clone(), starts, counts });
             if nearest.as_ref().is_none_or(|(other, ..)| miss.abs() < other.abs()) {
                 nearest = Some((miss, pools, now));
             }
@@ -143,14 +152,17 @@ impl<'a, F: Encode> Trials<'a, F> {
         move |fit| fit.psnr - slope * fit.miss
     }
 
-    /// The encoding of most worth that misses by less, and is allowed if it has to be.
-    pub(super) fn best(&self, miss: f64, allowed: bool) -> Option<Fit> {
+    /// Of encodings that miss by less, and are such, that of most worth.
+    pub(super) fn best(&self, miss: f64, such: &dyn Fn(&Encoded) -> bool) -> Option<Fit> {
         let worth = self.worth();
         let fits = self.fits.iter().zip(&self.tried);
-        let near = fits.filter(|(fit, encoded)| {
-            fit.miss.abs() < miss && (!allowed || self.target.allows(encoded))
-        });
-        near.map(|(fit, _)| fit).max_by(|a, b| worth(a).total_cmp(&worth(b))).copied()
+        let near = fits.filter(|(fit, encoded)| fit.miss.abs() < miss && such(encoded)).map(|(fit, _)| fit);
+        near.max_by(|a, b| worth(a).total_cmp(&worth(b))).cloned()
+    }
+
+    /// The one that misses least.
+    pub(super) fn nearest(&self) -> Option<Fit> {
+        self.fits.iter().min_by(|a, b| a.miss.abs().total_cmp(&b.miss.abs())).cloned()
     }
 
     /// Steps, and how far each missed.
