@@ -10,7 +10,7 @@ use attractor::codec::open;
 use attractor::plane::Field as _;
 use attractor_reference::codec::{Leaf, decode};
 
-const FILE: &[u8] = include_bytes!("vectors/pure.atfi");
+const FILE: &[u8] = include_bytes!("vectors/version-2/pure.atfi");
 
 /// Luma after many sweeps of the kernel's.
 fn fixed_point() -> (usize, Vec<f64>) {

@@ -31,14 +31,14 @@ struct Shares {
 struct Counter {
     models: [Model; MODELS],
     shares: Shares,
-    /// Whose raw bits come.
-    levels: bool,
+    /// The model of the last bin: whose raw bits come.
+    last: usize,
 }
 
 impl Counter {
     /// Nothing yet, of a stream of that version.
     fn new(version: u8) -> Self {
-        Self { models: [Model::new(version); MODELS], shares: Shares::default(), levels: false }
+        Self { models: [Model::new(version); MODELS], shares: Shares::default(), last: 0 }
     }
 }
 
@@ -47,7 +47,7 @@ impl Coder for Counter {
         let zero = f64::from(self.models[context].zero()) / 8192.0;
         let bits = -(if bin { 1.0 - zero } else { zero }).log2();
         self.models[context] = self.models[context].learn(bin);
-        self.levels = context >= context::LAST;
+        self.last = context;
         let share = match context {
             _ if context < context::DOMAIN => &mut self.shares.choice,
             _ if context < context::NEAR => &mut self.shares.choice,
@@ -61,8 +61,12 @@ impl Coder for Counter {
     }
 
     fn raw(&mut self, count: u32, bits: u32) -> u32 {
-        // of a place far away there are none before the first coefficient
-        *(if self.levels { &mut self.shares.levels } else { &mut self.shares.domain }) += f64::from(count);
+        let share = match self.last {
+            context::MEAN..context::LAST => &mut self.shares.mean,
+            context::LAST.. => &mut self.shares.levels,
+            _ => &mut self.shares.domain,
+        };
+        *share += f64::from(count);
         self.shares.count += f64::from(count);
         bits
     }
@@ -192,9 +196,10 @@ mod tests {
         counter.bin(context::COLUMN, false);
         counter.raw(9, 5);
         counter.bin(context::MEAN, false);
+        counter.raw(2, 1);
         counter.bin(context::SIGNIFICANT, false);
         counter.raw(1, 1);
         let Shares { choice, domain, mean, levels, count } = counter.shares;
-        assert_eq!((choice, domain, mean, levels, count), (1.0, 10.0, 1.0, 2.0, 14.0));
+        assert_eq!((choice, domain, mean, levels, count), (1.0, 10.0, 3.0, 2.0, 16.0));
     }
 }

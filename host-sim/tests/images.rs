@@ -5,10 +5,10 @@ use std::path::Path;
 
 use crate::common::{bad, decode, good};
 
-const STREAMING: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/streaming.atfi");
-const ITERATED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/iterated.atfi");
-const COLOUR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/colour.atfi");
-const HEIGHTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/heights.atfi");
+const STREAMING: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/version-2/streaming.atfi");
+const ITERATED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/version-2/iterated.atfi");
+const COLOUR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/version-2/colour.atfi");
+const HEIGHTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/vectors/version-2/heights.atfi");
 
 /// Draws a scene with these keys on a display of this size.
 fn drawn(directory: &Path, keys: &str, size: &str) -> Vec<u8> {
