@@ -122,10 +122,10 @@ pub(crate) fn nearest(name: &str) -> Option<&'static str> {
 
 /// Built-in streams of images, by name.
 pub(crate) const STREAMS: [(&str, &[u8]); 5] = [
-    ("camera-streaming", include_bytes!("../../tests/vectors/version-2/camera-streaming.atfi")),
-    ("camera-iterated", include_bytes!("../../tests/vectors/version-2/camera-iterated.atfi")),
-    ("camera-pure", include_bytes!("../../tests/vectors/version-2/pure.atfi")),
-    ("cat", include_bytes!("../../tests/vectors/version-2/colour-halved.atfi")),
+    ("camera-streaming", include_bytes!("../../tests/vectors/version-1/camera-streaming.atfi")),
+    ("camera-iterated", include_bytes!("../../tests/vectors/version-1/camera-iterated.atfi")),
+    ("camera-pure", include_bytes!("../../tests/vectors/version-1/pure.atfi")),
+    ("camera-colour", include_bytes!("../../tests/vectors/version-1/colour-halved.atfi")),
     ("jacksboro", include_bytes!("../data/jacksboro-elevation-m.atfi")),
 ];
 

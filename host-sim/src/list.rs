@@ -49,7 +49,7 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
   texture      [texture] kind = \"checker\" | \"noise\" | \"turbulence\" | \"wood\" | \"marble\" | \"facets\" | \"image\", [colors], [knots], [grain], [octaves], [seed], ...;
                [centre], [width = 4], [height = 0: the third coordinate, time]
   image        file = \"picture.atfi\" or \"picture.png\" (relative to the scene) or stream = \"camera-streaming\" | \"camera-iterated\" | \"camera-pure\" |
-               \"cat\" | \"jacksboro\"; [sweeps = 0 to 8, or [0, 1, 2, 3, 4]: frames from black], [palette], [range = [darkest, brightest]]
+               \"camera-colour\" | \"jacksboro\"; [sweeps = 0 to 8, or [0, 1, 2, 3, 4]: frames from black], [palette], [range = [darkest, brightest]]
 Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
 ";
 
