@@ -1,7 +1,7 @@
 //! Adaptive probabilities of binary decisions, and what they are asked about.
 //!
-//! A model is the probability that the next bin is 0. It learns from each bin by counting them: the `n`th moves
-//! it by `1/(n + 2)` of the way, as a mean does, and by `1/96` from the 94th on, so that it forgets.
+//! A model is the probability that the next bin is 0. It learns from each bin by counting them: the `n`th
+//! moves it by `1/(n + 2)` of the way, as a mean does, and by `1/96` from the 94th on, so that it forgets.
 //!
 //! Those of version 1 learn with a rate of `1/4` at first, slower down to `1/32` from the sixth bin on, in 13
 //! bits.
@@ -31,7 +31,7 @@ impl Model {
         Self(1 << 31 | if version == 1 { FIRST } else { 2 })
     }
 
-    /// The probability of a 0 in 13 bits, from 12 to 8179 of 8192: the slowest rate stops there.
+    /// The probability of a 0 in 13 bits, from 11 to 8179 of 8192 (version 1: 31 to 8160): the slowest rate stops there.
     #[inline]
     pub const fn zero(self) -> u32 {
         self.0 >> 19

@@ -35,8 +35,8 @@ const NEAR: f64 = 0.03;
 const PASSES: usize = 16;
 /// Between two steps bytes differ by no more, if prices of bins stay.
 const JUMP: f64 = 0.02;
-/// The part of the bytes that is promised: where all else has missed it, how much finer the step is, and how often
-/// what a bit is worth is changed there at most.
+/// The part of the bytes that is promised: where all else has missed it, how much finer the step is, and
+/// how often what a bit is worth is changed there at most.
 const MET: f64 = 0.99;
 const FINER: [u16; 8] = [0, 2, 7, 19, 4, 11, 14, 29];
 const BETWEEN: usize = 6;
