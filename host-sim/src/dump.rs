@@ -1,11 +1,13 @@
 //! `attractor dump`: scenes as PNG files.
 
+use std::cell::Cell;
 use std::collections::HashSet;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 
 use embedded_graphics_simulator::SimulatorDisplay;
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 
 use crate::builtin;
 use crate::canvas;
@@ -17,6 +19,11 @@ use crate::scene::{self, Request, Scene};
 
 /// Where files go unless said otherwise.
 const DIRECTORY: &str = "out";
+/// Pictures that are drawn side by side before the first of them is written: so many that a slow one keeps
+/// the other processors waiting for little.
+const TOGETHER: usize = 32;
+/// Of the progress bar, for a picture.
+const STEPS: u64 = 1000;
 
 /// Draws the scenes named, or all built-in ones, and prints the path of each file.
 pub(crate) fn run(args: &Dump) -> Result<(), Fail> {
@@ -40,40 +47,50 @@ pub(crate) fn run(args: &Dump) -> Result<(), Fail> {
     // every scene is read before the first is drawn
     let scenes = names.iter().map(|name| scene::load(name)).collect::<Result<Vec<_>, _>>()?;
     let goal = goal(args, &scenes)?;
-    let bar = ProgressBar::new(scenes.len() as u64 * 1000);
+    let bar = ProgressBar::new(scenes.len() as u64 * STEPS);
     // not a terminal: indicatif stays silent
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos:>5.dim} {msg}") {
         bar.set_style(style.progress_chars("=> "));
     }
     let mut out = std::io::stdout().lock();
-    for (i, scene) in scenes.iter().enumerate() {
-        bar.set_message(scene.name.clone());
-        let start = bar.position();
-        let progress =
-            |done: u32, all: u32| bar.set_position(start + 1000 * u64::from(done) / u64::from(all.max(1)));
-        let bytes = with_depth!(look.color, drawn, scene, look, &progress)?;
-        bar.set_position(start + 1000);
-        let path = match &goal {
-            Goal::StandardOutput => {
-                bar.suspend(|| out.write_all(&bytes))?;
-                continue;
+    for (group, scenes) in scenes.chunks(TOGETHER).enumerate() {
+        let pictures: Vec<_> = scenes.par_iter().map(|scene| picture(scene, look, &bar)).collect();
+        // those before one that fails are kept
+        for (i, bytes) in pictures.into_iter().enumerate() {
+            let bytes = bytes?;
+            let path = match &goal {
+                Goal::StandardOutput => {
+                    bar.suspend(|| out.write_all(&bytes))?;
+                    continue;
+                }
+                Goal::Device(path) => {
+                    output::write(path, &bytes)?;
+                    continue;
+                }
+                Goal::Files { paths, .. } => paths.get(group * TOGETHER + i),
+            };
+            let Some(path) = path else { continue };
+            output::write(path, &bytes)?;
+            match bar.suspend(|| writeln!(out, "{}", path.display())).map_err(Fail::from) {
+                // the files are wanted all the same
+                Ok(()) | Err(Fail::ClosedPipe) => {}
+                Err(fail) => return Err(fail),
             }
-            Goal::Device(path) => {
-                output::write(path, &bytes)?;
-                continue;
-            }
-            Goal::Files { paths, .. } => paths.get(i),
-        };
-        let Some(path) = path else { continue };
-        output::write(path, &bytes)?;
-        match bar.suspend(|| writeln!(out, "{}", path.display())).map_err(Fail::from) {
-            // the files are wanted all the same
-            Ok(()) | Err(Fail::ClosedPipe) => {}
-            Err(fail) => return Err(fail),
         }
     }
     bar.finish_and_clear();
     Ok(())
+}
+
+/// The PNG file of a scene, and how far it is on the bar of all.
+fn picture(scene: &Scene, look: &Look, bar: &ProgressBar) -> Result<Vec<u8>, Fail> {
+    bar.set_message(scene.name.clone());
+    let shown = Cell::new(0);
+    let show = |steps: u64| bar.inc(steps.saturating_sub(shown.replace(steps.max(shown.get()))));
+    let progress = |done: u32, all: u32| show(STEPS * u64::from(done) / u64::from(all.max(1)));
+    let bytes = with_depth!(look.color, drawn, scene, look, &progress)?;
+    show(STEPS);
+    Ok(bytes)
 }
 
 /// The PNG file of a scene on a display of colour `C`.
