@@ -91,3 +91,70 @@ pub(super) fn fill<F: Encode>(trials: &mut Trials<'_, F>, pixels: f64) -> Result
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::file::{At, Known};
+    use super::super::search::Effort;
+    use super::super::target::Encoded;
+    use super::super::trials::Trial;
+    use super::*;
+    use attractor::codec::shared::MODELS;
+
+    const BANDS: u32 = 8;
+    const ROWS: u32 = 64;
+    const PIXELS: f64 = 512.0 * 512.0;
+
+    /// A picture whose bands take bytes as coded ones do: fewer where steps are coarser or bits dearer, and a
+    /// grain, other in each band and for all that is encoded above it.
+    fn encoded(picture: u64, at: At<'_>) -> Trial {
+        let step = at.step.to_bits();
+        let (mut bytes, mut starts, mut above) = (0.0_f64, Vec::new(), picture);
+        for band in 0..BANDS {
+            starts.push((band * ROWS, bytes as usize));
+            let last = at.thrift.iter().rfind(|(row, _)| *row <= band * ROWS);
+            let thrift = last.map_or(1.0, |(_, thrift)| *thrift);
+            for word in [u64::from(step), u64::from(thrift.to_bits())] {
+                above = (above ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+            }
+            let grain = 1.0 + 0.02 * ((above >> 40) as f64 / f64::from(1 << 24) - 0.5);
+            let dearer = f64::from(thrift).powf(-0.6);
+            bytes += 1000.0 * (-0.003 * f64::from(step)).exp() * dearer * grain;
+        }
+        starts.push((BANDS * ROWS, bytes as usize));
+        let encoded = Encoded { bytes: vec![0; bytes as usize], psnr: 8.0 * bytes.ln(), step };
+        Trial { encoded, pools: Vec::new(), counts: [[0; 2]; MODELS], starts }
+    }
+
+    /// The bytes of the best encoding that is allowed, as a part of the target, and how many there were.
+    fn filled(picture: u64, bytes: f64) -> (f64, usize) {
+        let target = Target::Bytes(bytes);
+        let encode = |at: At<'_>, _: Known<'_>| Ok::<_, Error>(encoded(picture, at));
+        let mut said = |_: &Encoded| {};
+        let mut trials = Trials::new(encode, (target, Effort::BEST), &[], [[0; 2]; MODELS], &mut said);
+        // off by up to 3 per cent, as the steps before leave it
+        let near = -(bytes / 8000.0).ln() / 0.003 + (picture % 21) as f64 - 10.0;
+        let thrift = Vec::new();
+        trials.round(&[(near as u16, thrift)]).unwrap();
+        fill(&mut trials, PIXELS).unwrap();
+        let best = target.best(&trials.tried).unwrap();
+        assert!(best.bytes.len() as f64 <= bytes, "{picture}: more bytes than are allowed");
+        (best.bytes.len() as f64 / bytes, trials.tried.len())
+    }
+
+    #[test]
+    fn what_is_allowed_is_filled_but_for_a_five_hundredth_and_in_time() {
+        const PICTURES: u64 = 1000;
+        let mut short = 0;
+        for picture in 0..PICTURES {
+            let bytes = 2000.0 + 5.0 * picture as f64;
+            let (part, encodings) = filled(picture, bytes);
+            assert!(part >= 0.995, "{picture}: {part}");
+            short += u32::from(part < 0.998);
+            let most = (TIME / (PER_PIXEL * PIXELS + PER_BYTE * bytes)) as usize;
+            assert!(encodings <= most, "{picture}: {encodings} encodings, allowed {most}");
+        }
+        // the grain may be against one in each of its rounds
+        assert!(short <= 10, "{short} of {PICTURES}");
+    }
+}

@@ -31,7 +31,7 @@ pub(crate) struct Effort {
     pub(super) polish: bool,
     /// What part of a bin's price is that of the encoding before on the whole.
     pub(super) whole: f32,
-    /// What part of the bytes asked for is filled at least.
+    /// What part of the bytes asked for is enough.
     pub(super) filled: f64,
     /// Whether there are more encodings, which differ by little, once the bytes are met.
     pub(super) again: bool,
