@@ -20,8 +20,8 @@ use crate::scene::{self, Request, Scene};
 /// Where files go unless said otherwise.
 const DIRECTORY: &str = "out";
 /// Pictures that are drawn side by side before the first of them is written: so many that a slow one keeps
-/// the other processors waiting for little.
-const TOGETHER: usize = 32;
+/// the other processors waiting for little, but of no more pixels than the largest one, as they wait in memory.
+const TOGETHER: u64 = 32;
 /// Of the progress bar, for a picture.
 const STEPS: u64 = 1000;
 
@@ -53,7 +53,8 @@ pub(crate) fn run(args: &Dump) -> Result<(), Fail> {
         bar.set_style(style.progress_chars("=> "));
     }
     let mut out = std::io::stdout().lock();
-    for (group, scenes) in scenes.chunks(TOGETHER).enumerate() {
+    let together = (MAX_PIXELS / pixels.max(1)).clamp(1, TOGETHER) as usize;
+    for (group, scenes) in scenes.chunks(together).enumerate() {
         let pictures: Vec<_> = scenes.par_iter().map(|scene| picture(scene, look, &bar)).collect();
         // those before one that fails are kept
         for (i, bytes) in pictures.into_iter().enumerate() {
@@ -67,7 +68,7 @@ pub(crate) fn run(args: &Dump) -> Result<(), Fail> {
                     output::write(path, &bytes)?;
                     continue;
                 }
-                Goal::Files { paths, .. } => paths.get(group * TOGETHER + i),
+                Goal::Files { paths, .. } => paths.get(group * together + i),
             };
             let Some(path) = path else { continue };
             output::write(path, &bytes)?;
