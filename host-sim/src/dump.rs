@@ -20,7 +20,8 @@ use crate::scene::{self, Request, Scene};
 /// Where files go unless said otherwise.
 const DIRECTORY: &str = "out";
 /// Pictures that are drawn side by side before the first of them is written: so many that a slow one keeps
-/// the other processors waiting for little, but of no more pixels than the largest one, as they wait in memory.
+/// the other processors waiting for little, but of no more pixels than the largest one, as they wait in
+/// memory.
 const TOGETHER: u64 = 32;
 /// Of the progress bar, for a picture.
 const STEPS: u64 = 1000;

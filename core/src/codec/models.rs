@@ -31,7 +31,8 @@ impl Model {
         Self(1 << 31 | if version == 1 { FIRST } else { 2 })
     }
 
-    /// The probability of a 0 in 13 bits, from 11 to 8179 of 8192 (version 1: 31 to 8160): the slowest rate stops there.
+    /// The probability of a 0 in 13 bits, from 11 to 8179 of 8192 (version 1: 31 to 8160): the slowest rate
+    /// stops there.
     #[inline]
     pub const fn zero(self) -> u32 {
         self.0 >> 19
