@@ -2,8 +2,8 @@
 //!
 //! What is decided early in a picture changes what all else costs, so that bytes are no smooth function of
 //! anything: encodings that differ by little differ by more in bytes, and some are worth a little more than
-//! others. So a few of them are made first. Then bits become dearer or cheaper from some row on. What is above
-//! it stays as it is, and the fewer rows are left, the less can be missed.
+//! others. So a few of them are made first. Then bits become dearer or cheaper from some row on. What is
+//! above it stays as it is, and the fewer rows are left, the less can be missed.
 
 use attractor::Error;
 use attractor::codec::Step;

@@ -1,8 +1,8 @@
 //! The step that meets a target: so many bytes at most, or so many decibels at least.
 //!
 //! Bytes and decibels are nearly straight lines over the logarithm of the step; a few encodings bracket the
-//! target and narrow it down, and `fill` does the rest. Domains are looked for once, when the step is roughly known: of large pictures
-//! from some bands alone.
+//! target and narrow it down, and `fill` does the rest. Domains are looked for once, when the step is
+//! roughly known: of large pictures from some bands alone.
 
 use attractor::Error;
 use attractor::codec::shared::{context, crc32};
