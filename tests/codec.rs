@@ -8,11 +8,11 @@ use std::fmt::Debug;
 
 use attractor::Error;
 use attractor::codec::shared::crc32;
-use attractor::codec::{Luma, Profile, Sample, Streamed, check, open};
+use attractor::codec::{Header, Luma, Planes, Profile, Sample, Step, Streamed, check, open};
 use attractor::draw::{Grey, Picture};
 use attractor::plane::Field;
-use attractor_reference::codec::{decode, decode_scaled};
-use attractor_tests::streams::{Random, stream};
+use attractor_reference::codec::{Leaf, decode, decode_scaled};
+use attractor_tests::streams::{Random, stream, stream_that_says};
 use embedded_graphics::geometry::Size;
 
 /// Every file that is kept of a version. `vectors/*/checksums.txt` has the CRC-32 of each one's samples, luma,
@@ -294,6 +294,42 @@ fn other_sizes_are_those_of_the_format_and_as_near_to_its_formulas_as_their_roun
     }
 }
 
+/// In a window of any rows above a band, drawn in any size, domains take what was drawn before, and no more: also
+/// where the window's first row is no whole row of what is drawn (halved chroma, an odd number of 8 rows, a
+/// quarter of the size).
+#[test]
+fn any_window_is_that_of_the_format_in_any_size() {
+    let (mut random, mut highest) = (Random::new(21), 0);
+    for (reach, planes) in (0..=8).flat_map(|r| [Planes::Grey, Planes::ColourHalved].map(|planes| (r, planes))) {
+        for i in 0..12 {
+            let header = Header {
+                version: Header::VERSION,
+                size: Size::new(33 + random.below(40) as u32, 65 + random.below(64) as u32),
+                profile: Profile::Streaming,
+                planes,
+                deep: random.below(4) == 0,
+                step: Step::from_bits(random.below(12 * 256) as u16).unwrap(),
+                reach,
+                chroma: if planes == Planes::Grey { 0 } else { 16 },
+                payload: 0,
+            };
+            let bytes = stream_that_says(header, &mut random).unwrap();
+            // larger ones round nothing
+            for scale in -2..=if i == 0 { 2 } else { 0 } {
+                compared(&format!("{header:?}"), &bytes, scale);
+            }
+            // domains that begin in the window's first rows
+            let top = |leaf: &Leaf| (leaf.y / 32 * 16).checked_sub(usize::from(reach) * 4);
+            let begins = |leaf: &&Leaf| leaf.domain.is_some_and(|(_, y, ..)| top(leaf) == Some(y));
+            highest += decode(&bytes).leaves.iter().filter(begins).count();
+        }
+    }
+    println!("{highest} domains begin at the top of their windows");
+    assert!(highest > 50, "{highest}");
+    // found by `cargo xtask fuzz-codec --seed 15`: 48 x 39, reach 3
+    compared("odd window", include_bytes!("vectors/odd-window.atfi"), -2);
+}
+
 /// Bytes that are counted as they are taken.
 #[derive(Clone)]
 struct Counted<'a, I>(I, &'a Cell<u32>);
@@ -524,7 +560,7 @@ fn streams_that_no_encoder_wrote_decode_to_the_bits_of_the_format() {
         kinds.insert((bytes[5] >> 2 & 3 | 16, header.deep));
     }
     println!("{domains:?} domains below the first band, {} kinds", kinds.len());
-    assert!(domains.iter().all(|count| *count >= 15) && kinds.len() == 6 + 16 + 6, "{domains:?} {kinds:?}");
+    assert!(domains.iter().all(|count| *count >= 15) && kinds.len() == 6 + 17 + 6, "{domains:?} {kinds:?}");
 }
 
 /// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf

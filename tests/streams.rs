@@ -168,6 +168,31 @@ fn walk<S: Sample>(header: &Header, writer: &mut Writer<'_>, memory: &mut [S]) -
     })
 }
 
+fn payload_of(header: &Header, random: &mut Random, sound: bool) -> Vec<u8> {
+    if header.deep {
+        payload(header, random, sound, &mut vec![0_u16; 1 << 16])
+    } else {
+        payload(header, random, sound, &mut vec![0_u8; 1 << 16])
+    }
+}
+
+/// Header and payload.
+fn file_of(header: Header, payload: &[u8]) -> Result<Vec<u8>, Error> {
+    let mut start = [0; Header::LONGEST];
+    let length = Header { payload: payload.len() as u32, ..header }.write(&mut start)?;
+    Ok([&start[..length], payload].concat())
+}
+
+/// A stream that can be decoded and says this of itself, up to the length of its payload.
+///
+/// # Errors
+/// What no header can say.
+pub fn stream_that_says(header: Header, random: &mut Random) -> Result<Vec<u8>, Error> {
+    let mut bytes = file_of(header, &payload_of(&header, random, true))?;
+    bytes.extend(crc32(&bytes).to_le_bytes());
+    Ok(bytes)
+}
+
 /// A stream of up to 48 x 48 or 16 x 144 pixels: [`stream_of`].
 ///
 /// # Errors
@@ -186,33 +211,26 @@ pub fn stream_of(random: &mut Random, whole: bool, side: usize) -> Result<Vec<u8
     let planes = [Planes::Grey, Planes::Grey, Planes::Colour, Planes::ColourHalved][random.below(4)];
     let profile = [Profile::Streaming, Profile::Iterated, Profile::Pure][random.below(3)];
     let [width, height] = if random.below(2) == 0 { [side / 3, 3 * side] } else { [side, side] };
-    let mut header = Header {
+    let header = Header {
         version: if random.below(4) == 0 { 1 } else { Header::VERSION },
         size: Size::new(1 + random.below(width) as u32, 1 + random.below(height) as u32),
         profile,
         planes,
         deep: random.below(4) == 0,
         step: Step::from_bits(random.below(24 * 256) as u16).unwrap_or(Step::MAX),
-        reach: 1 + random.below(8) as u8,
+        reach: if profile == Profile::Streaming { random.below(9) } else { 1 + random.below(8) } as u8,
         chroma: if planes == Planes::Grey { 0 } else { 1 + random.below(255) as u8 },
         payload: 0,
     };
     let sound = whole || random.below(4) > 0;
-    let mut payload = if header.deep {
-        payload(&header, random, sound, &mut vec![0_u16; 1 << 16])
-    } else {
-        payload(&header, random, sound, &mut vec![0_u8; 1 << 16])
-    };
+    let mut payload = payload_of(&header, random, sound);
     if !whole && random.below(3) > 0 {
         for _ in 0..=random.below(3) {
             let at = random.below(payload.len());
             payload[at] = random.bits() as u8;
         }
     }
-    header.payload = payload.len() as u32;
-    let mut start = [0; Header::LONGEST];
-    let length = header.write(&mut start)?;
-    let mut bytes = [&start[..length], &payload].concat();
+    let mut bytes = file_of(header, &payload)?;
     let broken = if whole { 2 } else { random.below(8) };
     if broken == 0 {
         let at = random.below(bytes.len());

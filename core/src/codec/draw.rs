@@ -254,11 +254,10 @@ impl<'a, S: Sample> Plane<'a, S> {
         let count = n.min(width - x0);
         // of those rows whose lower one is there
         let high = (shape.rows() >> 1).saturating_sub(y0).min(n);
-        let above = shape.scaled(shape.half_rows()) - shape.scaled(shape.side() >> 1) + y0 - (band >> 1);
         let (start, down) = ((2 * y0 - band) * columns + 2 * x0, 2 * columns);
         let source = Source { samples: self.picture, start, down, lower: columns, isometry: 0 };
         for r in 0..high {
-            source.row([r, 0, count], self.half, self.half_row(above + r) * width + x0, 1);
+            source.row([r, 0, count], self.half, self.half_row(y0 + r) * width + x0, 1);
         }
     }
 
@@ -270,14 +269,13 @@ impl<'a, S: Sample> Plane<'a, S> {
         let Unsettled { column, row, isometry, contrast, .. } = *map;
         let shape = &self.shape;
         let columns = shape.columns();
-        let px = shape.scaled(column);
+        let (px, py) = (shape.scaled(column), shape.scaled(row));
         let source = if shape.window.is_some() {
-            let y = shape.scaled((row as i32 - self.half_top).max(0) as u32);
             let down = columns >> 1;
-            Source { samples: self.half, start: self.half_row(y) * down + px, down, lower: 0, isometry }
+            Source { samples: self.half, start: self.half_row(py) * down + px, down, lower: 0, isometry }
         } else {
             let down = 2 * columns;
-            let start = shape.scaled(row) * down + 2 * px;
+            let start = py * down + 2 * px;
             Source { samples: self.picture, start, down, lower: columns, isometry }
         };
         (source, contrast)

@@ -31,7 +31,7 @@ pub struct Plane<'a, S: Sample> {
     pub(super) picture: &'a [Cell<S>],
     /// Rows of the halved picture, round and round; none where all rows are there.
     pub(super) half: &'a [Cell<S>],
-    /// Of the halved picture, the first row of the window.
+    /// Of the halved picture as it is drawn, the first row of the window.
     pub(super) half_top: i32,
     /// Which of the rows in `half` it is.
     pub(super) half_first: u32,
@@ -64,7 +64,7 @@ impl<'a, S: Sample> Plane<'a, S> {
         let columns = shape.columns() as usize;
         let (rows, half, settled) = match shape.window {
             Some(_) => {
-                (shape.scaled(shape.side()), (columns >> 1) * shape.scaled(shape.half_rows()) as usize, 0)
+                (shape.scaled(shape.side()), (columns >> 1) * shape.scaled_up(shape.half_rows()) as usize, 0)
             }
             None => (shape.rows(), 0, Settled::<S>::samples(shape.width, shape.height)),
         };
@@ -126,20 +126,24 @@ impl<'a, S: Sample> Plane<'a, S> {
             }
         }
         if let Some(window) = self.shape.window {
+            // rounded down, as places of domains are
+            let top = self.shape.scaled(band >> 1) as i32 - self.shape.scaled_up(window >> 1) as i32;
             if band > 0 {
                 // what leaves the window makes room at its end
-                self.half_first = self.half_row(self.shape.scaled(self.shape.side() >> 1));
+                self.half_first = self.half_row(top as u32);
             }
-            self.half_top = (band >> 1) as i32 - (window >> 1) as i32;
+            self.half_top = top;
         }
         self.left_cells = [0; 8];
         self.band = band;
     }
 
-    /// Where row `r` of the window is in `half`, at most as many rows after its first as there are.
+    /// Where row `y` of the halved picture, as it is drawn, is in `half`: at most as many rows after the
+    /// window's first as there are.
     #[inline]
-    pub(super) const fn half_row(&self, r: u32) -> u32 {
-        let (row, rows) = (self.half_first + r, self.shape.scaled(self.shape.half_rows()));
+    pub(super) const fn half_row(&self, y: u32) -> u32 {
+        let r = y.wrapping_sub(self.half_top as u32);
+        let (row, rows) = (self.half_first + r, self.shape.scaled_up(self.shape.half_rows()));
         if row < rows { row } else { row - rows }
     }
 

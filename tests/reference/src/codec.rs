@@ -140,6 +140,8 @@ struct Plane {
     exact: Vec<i64>,
     /// By how much each may be off.
     off: Vec<f64>,
+    /// Whether each was drawn.
+    drawn: Vec<bool>,
     /// Base of what was decoded, in the integers of the format, as later means depend on it to the bit; the
     /// depth and whether there is a domain, by pixel.
     base: Vec<i64>,
@@ -277,6 +279,8 @@ impl Plane {
     /// A sample of the halved picture, by how much it is off, and the same in integers.
     fn halved(&self, x: usize, y: usize) -> (f64, f64, i64) {
         let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(a, b)| (2 * y + b) * self.wide + 2 * x + a);
+        let drawn = self.window.is_none() || four.iter().all(|at| self.drawn[*at]);
+        assert!(drawn, "one pass takes ({x}, {y}) of the halved picture before it was drawn");
         let sum: f64 = four.iter().map(|at| self.samples[*at]).sum();
         let off: f64 = four.iter().map(|at| self.off[*at]).sum();
         let exact: i64 = four.iter().map(|at| self.exact[*at]).sum();
@@ -290,17 +294,6 @@ impl Plane {
         (v << 2) >> (2 - self.scale)
     }
 
-    /// Where a domain lies in the halved picture as it is drawn: rows of a window count from its first.
-    fn drawn_place(&self, leaf: &Leaf, px: usize, py: usize) -> (usize, usize) {
-        let band = leaf.y / self.largest * self.largest;
-        let above = self.window.map_or(0, |window| window / 2);
-        let py = match self.window {
-            None => self.scaled(py),
-            Some(_) => self.scaled(band / 2) + self.scaled(py + above - band / 2) - self.scaled(above),
-        };
-        (self.scaled(px), py)
-    }
-
     /// Draws a leaf, with its domain or as if it had none.
     fn draw(&mut self, leaf: &Leaf, with_domain: bool) {
         let n = self.scaled(leaf.n);
@@ -308,7 +301,7 @@ impl Plane {
         // what is added, by how much that is off, and the same in the format's 2^-7
         let mut copy = vec![(0.0, 0.0, 0); n * n];
         if let Some((px, py, isometry, contrast)) = leaf.domain.filter(|_| with_domain) {
-            let (px, py) = self.drawn_place(leaf, px, py);
+            let (px, py) = (self.scaled(px), self.scaled(py));
             let square: Vec<_> = (0..n * n).map(|k| self.halved(px + k % n, py + k / n)).collect();
             let (mut sum, mut off, mut whole) = (0.0, 0.0, 0);
             for (d, e, exact) in &square {
@@ -340,6 +333,7 @@ impl Plane {
                 let (at, value) = (y * self.wide + x, leaf.mean + leaf.pixel(k / n, k % n, n) + copied);
                 self.samples[at] = (value + 0.5).floor().clamp(0.0, self.peak);
                 self.off[at] = self.rounded_off(value, off[k % n] + copied_off);
+                self.drawn[at] = true;
                 self.exact[at] = rounded(values[k] + whole, 7).clamp(0, self.peak as i64);
             }
         }
@@ -540,6 +534,7 @@ pub fn decode_scaled(file: &[u8], scale: i32) -> Decoded {
                 samples: vec![start; wide * high],
                 exact: vec![start as i64; wide * high],
                 off: vec![0.0; wide * high],
+                drawn: vec![false; wide * high],
                 base: vec![0; all],
                 seen: vec![None; all],
                 settled: vec![false; all / 16],
