@@ -300,7 +300,9 @@ fn other_sizes_are_those_of_the_format_and_as_near_to_its_formulas_as_their_roun
 #[test]
 fn any_window_is_that_of_the_format_in_any_size() {
     let (mut random, mut highest) = (Random::new(21), 0);
-    for (reach, planes) in (0..=8).flat_map(|r| [Planes::Grey, Planes::ColourHalved].map(|planes| (r, planes))) {
+    for (reach, planes) in
+        (0..=8).flat_map(|r| [Planes::Grey, Planes::ColourHalved].map(|planes| (r, planes)))
+    {
         for i in 0..12 {
             let header = Header {
                 version: Header::VERSION,

@@ -1,18 +1,19 @@
 //! `cargo xtask fuzz-codec`: small streams, many of which decode whole, until as many were tried as asked
 //! for. A panic, an overflow in a build with checks, a decoder that reads on for ever, and sweeps that show
-//! something else where they keep leaves are faults; so is, in one of 64 streams as it was made, a sample
-//! that is not the reference's.
+//! something else where they keep leaves are faults; so is, in one of 128 streams as it was made, a sample
+//! that is not the reference's, in any size. The first fault ends all threads, and its stream is printed.
 //!
 //! The streams are those of `tests/streams.rs`. Each is decoded as it is, then again and again with other
 //! bytes changed, at another scale, and with another checksum, so that the changed bins are read. Most have
-//! up to 12 x 12 or 4 x 36 pixels, one of 64 up to 48 x 48. An execution is one stream decoded, of profiles
-//! iterated and pure by two decoders in two sweeps, sometimes in all. Memory is lent once.
+//! up to 12 x 12 or 4 x 36 pixels, one of 128 up to 96 x 96 or 32 x 288. An execution is one stream decoded,
+//! of profiles iterated and pure by two decoders in two sweeps, sometimes in all. Memory is lent once.
 
 use std::hint::black_box;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Result, ensure};
+use anyhow::{Result, anyhow, ensure};
 use attractor::Error;
 use attractor::codec::shared::crc32;
 use attractor::codec::{Opened, Part, Planes, Profile, Sample, open};
@@ -35,11 +36,13 @@ pub(crate) struct Options {
 }
 
 /// How often each stream that was made is decoded.
-const TRIES: u64 = 128;
+const TRIES: usize = 128;
 /// Of as many streams that were made one is compared with the reference.
-const COMPARED: u64 = 64;
+const COMPARED: u64 = 128;
+/// As logarithms of the sizes that it is compared in.
+const SCALES: [i32; 5] = [-2, -1, 0, 1, 2];
 /// Samples that a decoder may borrow: 16 a pixel of the largest, of three planes, and leaves beyond.
-const MEMORY: usize = 1 << 17;
+const MEMORY: usize = 1 << 19;
 
 /// What came of how many.
 #[derive(Debug, Default)]
@@ -54,11 +57,14 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
         0 => std::thread::available_parallelism()?.get(),
         threads => threads,
     };
-    let (done, start) = (AtomicU64::new(0), Instant::now());
+    let (done, failed, start) = (AtomicU64::new(0), AtomicBool::new(false), Instant::now());
     let shares = std::thread::scope(|scope| {
         let share = |thread| {
-            let (share, done) = (options.executions.div_ceil(threads as u64), &done);
-            scope.spawn(move || fuzz(Random::new(options.seed << 8 | thread as u64), share, done))
+            let (share, done, failed) = (options.executions.div_ceil(threads as u64), &done, &failed);
+            let random = Random::new(options.seed << 8 | thread as u64);
+            scope.spawn(move || {
+                fuzz(random, share, done, failed).inspect_err(|_| failed.store(true, Ordering::Relaxed))
+            })
         };
         let shares: Vec<_> = (0..threads).map(share).collect();
         let mut said = start;
@@ -73,7 +79,7 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
     });
     let mut all = Tally::default();
     for share in shares {
-        let share = share.ok().context("a decoder panicked")??;
+        let share = share.map_err(|_| anyhow!("a stream could not be made"))??;
         (all.whole, all.compared) = (all.whole + share.whole, all.compared + share.compared);
         for (name, count) in share.refused {
             *all.refused.entry(name).or_default() += count;
@@ -93,14 +99,14 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
     Ok(true)
 }
 
-fn fuzz(mut random: Random, executions: u64, done: &AtomicU64) -> Result<Tally> {
+fn fuzz(mut random: Random, executions: u64, done: &AtomicU64, failed: &AtomicBool) -> Result<Tally> {
     let mut tally = Tally::default();
     let (mut small, mut deep) = ([(); 2].map(|()| vec![0_u8; MEMORY]), [(); 2].map(|()| vec![0_u16; MEMORY]));
     let (mut bytes, mut made, mut tried) = (Vec::new(), 0, 0);
-    while tried < executions {
+    while tried < executions && !failed.load(Ordering::Relaxed) {
         let compare = made % COMPARED == 0;
         // small ones are decoded faster, and come through more often
-        let side = if made % 64 == 0 { 48 } else { [4, 8, 12][random.below(3)] };
+        let side = if compare { 96 } else { [4, 8, 12][random.below(3)] };
         let whole = stream_of(&mut random, compare, side)?;
         made += 1;
         for again in 0..TRIES {
@@ -109,28 +115,39 @@ fn fuzz(mut random: Random, executions: u64, done: &AtomicU64) -> Result<Tally> 
             if again >= TRIES / 4 {
                 change(&mut random, &mut bytes);
             }
-            let scale = [0, 0, 0, 0, -2, -1, 1, 2][random.below(8)];
+            let scale = match SCALES.get(again) {
+                Some(scale) if compare => *scale,
+                _ => [0, 0, 0, 0, -2, -1, 1, 2][random.below(8)],
+            };
             let beyond = random.below(6) * random.below(200);
-            let compare = compare && again == 0;
+            let compare = compare && again < SCALES.len();
             // all sweeps of a few, pictures compared after each; two of the others, pictures after them
-            let all = again % 16 == 0;
-            let opened = open(bytes.iter().copied());
-            let result = opened.and_then(|opened| match opened.header().deep {
-                // what a changed header asks for beyond that is not lent
-                _ if opened.samples(scale) > MEMORY => {
-                    Err(Error::BufferLength { what: "samples", given: MEMORY, needed: opened.samples(scale) })
+            let all = compare || again % 16 == 0;
+            let drawn = || {
+                let opened = open(bytes.iter().copied())?;
+                match opened.header().deep {
+                    // what a changed header asks for beyond that is not lent
+                    _ if opened.samples(scale) > MEMORY => Err(Error::BufferLength {
+                        what: "samples",
+                        given: MEMORY,
+                        needed: opened.samples(scale),
+                    }),
+                    true => decoded(opened, scale, (beyond, all), compare.then_some(&bytes), &mut deep),
+                    false => decoded(opened, scale, (beyond, all), compare.then_some(&bytes), &mut small),
                 }
-                true => decoded(opened, scale, (beyond, all), compare.then_some(&bytes), &mut deep),
-                false => decoded(opened, scale, (beyond, all), compare.then_some(&bytes), &mut small),
-            });
+            };
+            let result = catch_unwind(AssertUnwindSafe(drawn)).map_err(|_| {
+                let hex: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+                anyhow!("a fault, drawn in 2^{scale} of its size, {beyond} samples beyond, all sweeps {all}: {hex}")
+            })?;
             tally.compared += u64::from(compare);
             match result {
                 Ok(()) => tally.whole += 1,
                 Err(error) => *tally.refused.entry(name(&error)).or_default() += 1,
             }
         }
-        tried += TRIES;
-        done.fetch_add(TRIES, Ordering::Relaxed);
+        tried += TRIES as u64;
+        done.fetch_add(TRIES as u64, Ordering::Relaxed);
     }
     Ok(tally)
 }
