@@ -43,7 +43,8 @@ fn pixels<S: Sample + Default + Debug>(
     sweeps: Option<u32>,
 ) -> Result<(Size, Vec<[S; 3]>), Error> {
     let opened = open(bytes)?;
-    let mut memory = vec![S::default(); opened.samples(scale)];
+    // what was there before is not seen
+    let mut memory = vec![S::cut(0x5a); opened.samples(scale)];
     let mut all = Vec::new();
     let size;
     if opened.header().profile == Profile::Streaming {
@@ -137,21 +138,25 @@ fn samples_are_those_of_the_format_and_as_near_to_its_formulas_as_their_rounding
 
 #[test]
 fn a_stream_is_a_field_whose_rows_come_in_any_order() {
-    for name in ["streaming", "camera-streaming", "flat-8", "colour-halved"] {
-        let bytes = file(name);
-        let (size, expected) = pixels::<u8>(bytes.iter().copied(), 0, None).unwrap();
-        let mut memory = vec![0_u8; open(bytes.iter().copied()).unwrap().samples(0)];
-        let field = Streamed::new(bytes, 0, &mut memory).unwrap();
+    let all = ["streaming", "camera-streaming", "flat-8", "colour-halved"].map(|name| (name, file(name)));
+    let odd: &[u8] = include_bytes!("vectors/odd-window.atfi");
+    let all = all.into_iter().chain([("odd-window", odd)]);
+    for (name, bytes, scale) in all.flat_map(|(name, bytes)| [0, -2, -1, 1].map(|scale| (name, bytes, scale)))
+    {
+        let (size, expected) = pixels::<u8>(bytes.iter().copied(), scale, None).unwrap();
+        let mut memory = vec![0_u8; open(bytes.iter().copied()).unwrap().samples(scale)];
+        let field = Streamed::new(bytes, scale, &mut memory).unwrap();
         assert_eq!(field.size(), size);
         let (width, height) = (size.width, size.height);
         let mut rows: Vec<u32> = (0..height).collect();
         rows.extend([height - 1, 0, height / 2, 0, height - 1]);
         for y in rows {
             let row: Vec<_> = field.row(y, 0..width).collect();
-            assert_eq!(row, expected[(y * width) as usize..][..width as usize], "{name}: row {y}");
+            assert_eq!(row, expected[(y * width) as usize..][..width as usize], "{name}, 2^{scale}: row {y}");
         }
         assert_eq!(field.at(width - 1, 0), expected[width as usize - 1]);
-        assert_eq!(field.row(0, 3..width + 9).nth(2), expected.get(5).copied());
+        let sixth = expected[..width as usize].get(5);
+        assert_eq!(field.row(0, 3..width + 9).nth(2), sixth.copied());
         assert_eq!(field.error(), None);
         // on a display, in part and dithered
         let picture = Picture::<_, _, embedded_graphics::pixelcolor::Gray8>::new(Luma(&field), Grey);
