@@ -332,7 +332,7 @@ fn any_window_is_that_of_the_format_in_any_size() {
         }
     }
     println!("{highest} domains begin at the top of their windows");
-    assert!(highest > 50, "{highest}");
+    assert!(highest > 200, "{highest}");
     // found by `cargo xtask fuzz-codec --seed 15`: 48 x 39, reach 3
     compared("odd window", include_bytes!("vectors/odd-window.atfi"), -2);
 }
@@ -567,7 +567,7 @@ fn streams_that_no_encoder_wrote_decode_to_the_bits_of_the_format() {
         kinds.insert((bytes[5] >> 2 & 3 | 16, header.deep));
     }
     println!("{domains:?} domains below the first band, {} kinds", kinds.len());
-    assert!(domains.iter().all(|count| *count >= 15) && kinds.len() == 6 + 17 + 6, "{domains:?} {kinds:?}");
+    assert!(domains.iter().all(|count| *count >= 40) && kinds.len() == 6 + 17 + 6, "{domains:?} {kinds:?}");
 }
 
 /// Payloads of noise with a right checksum: a domain is where nothing is, a contrast the largest, a leaf

@@ -36,8 +36,9 @@ impl Random {
 struct Writer<'a> {
     random: Random,
     coins: &'a Coins,
-    /// Which leaves may have no domain, and how many leaves there were.
-    plain: &'a [usize],
+    /// Leaves whose domain lay where none may, once for each time, in their order; and how many leaves there
+    /// were.
+    missed: &'a [usize],
     leaves: usize,
     low: u64,
     range: u32,
@@ -52,7 +53,14 @@ struct Coins {
     ones: usize,
     /// Column and row of most domains near their leaf, so that many lie where they may.
     near: [usize; 2],
+    /// Those that are tried after it: then a leaf has none.
+    others: &'static [[usize; 2]],
 }
+
+/// Above the leaf, or to the left of it.
+const EARLIER: &[[usize; 2]] = &[[8, 11], [8, 8], [5, 13], [4, 11], [8, 5], [2, 14], [8, 2], [8, 0]];
+/// Anywhere about it.
+const ABOUT: &[[usize; 2]] = &[[8, 2], [2, 8], [8, 13], [13, 8]];
 
 impl Writer<'_> {
     fn add(&mut self, bound: u32) {
@@ -84,14 +92,24 @@ impl Coder for Writer<'_> {
             let node = (context - of) % 16;
             if number >> (3 - node.ilog2()) & 1 == 1 { 240 } else { 16 }
         };
+        let leaf = self.leaves + usize::from((context::DOMAIN..context::NEAR).contains(&context));
+        let first = self.missed.partition_point(|missed| *missed < leaf);
+        let misses = self.missed[first..].iter().take_while(|missed| **missed == leaf).count();
+        // a domain that is moved is near, where it is to be
+        let other = misses.checked_sub(1).and_then(|miss| self.coins.others.get(miss));
+        let [column, row] = other.copied().unwrap_or(self.coins.near);
         let ones = match context {
             context::SPLIT..context::DOMAIN => self.coins.divided,
             context::DOMAIN..context::NEAR => {
-                self.leaves += 1;
-                if self.plain.contains(&self.leaves) { 0 } else { self.coins.domains }
+                self.leaves = leaf;
+                match misses {
+                    0 => self.coins.domains,
+                    _ => 256 * usize::from(other.is_some()),
+                }
             }
-            context::COLUMN..context::ROW => next(context::COLUMN, self.coins.near[0]),
-            context::ROW..context::SCALING => next(context::ROW, self.coins.near[1]),
+            context::NEAR..context::ISOMETRY if misses > 0 => 256,
+            context::COLUMN..context::ROW => next(context::COLUMN, column),
+            context::ROW..context::SCALING => next(context::ROW, row),
             _ => self.coins.ones,
         };
         let bin = self.random.below(256) < ones;
@@ -120,20 +138,24 @@ impl Coder for Writer<'_> {
     }
 }
 
-/// Payload of a picture in this memory. Where it is to be sound, a domain that lies where none may is taken
-/// back until none does.
+/// Payload of a picture in this memory. Where it is to be sound, a domain that lies where none may is moved
+/// elsewhere or taken back, until none does.
 fn payload<S: Sample>(header: &Header, random: &mut Random, sound: bool, memory: &mut [S]) -> Vec<u8> {
     let [divided, domains, ones] =
         [[40, 200, 230, 250], [4, 12, 40, 120], [20, 70, 128, 200]].map(|rates| rates[random.below(4)]);
     // above the leaf, or below where that may be
-    let rows: &[usize] = if header.profile == Profile::Streaming { &[5, 8, 9, 10] } else { &[0, 1, 2, 15] };
-    let coins = Coins { divided, domains, ones, near: [5 + random.below(7), rows[random.below(4)]] };
-    let (seed, mut plain) = (random.bits(), Vec::new());
+    let (rows, others) = match header.profile {
+        Profile::Streaming => ([5, 8, 9, 10], EARLIER),
+        _ => ([0, 1, 2, 15], ABOUT),
+    };
+    let near = [5 + random.below(7), rows[random.below(4)]];
+    let coins = Coins { divided, domains, ones, near, others };
+    let (seed, mut missed) = (random.bits(), Vec::new());
     loop {
         let mut writer = Writer {
             random: Random::new(seed),
             coins: &coins,
-            plain: &plain,
+            missed: &missed,
             leaves: 0,
             low: 0,
             range: u32::MAX,
@@ -143,7 +165,7 @@ fn payload<S: Sample>(header: &Header, random: &mut Random, sound: bool, memory:
         let drawn = walk(header, &mut writer, memory);
         if sound && !drawn {
             let last = writer.leaves;
-            plain.push(last);
+            missed.push(last);
             continue;
         }
         for shift in [24, 16, 8, 0] {
