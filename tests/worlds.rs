@@ -613,6 +613,14 @@ fn a_world_that_does_not_fit_together_is_refused() {
     let at = camera([4.0, 0.0, 0.0], [0.0; 3]);
     let narrow = WorldCaster::<_, _, _, 1, 2>::new(world, Rgb::WHITE, at, SIZE).map(|_| ());
     assert!(matches!(narrow, Err(Error::Capacity { needed: 2, capacity: 1, .. })));
+    for capacity in [0, 1] {
+        let world = World::new(&leaves, &objects, &matt).unwrap();
+        let few = match capacity {
+            0 => WorldCaster::<_, _, _, 2, 0>::new(world, Rgb::WHITE, at, SIZE).map(|_| ()),
+            _ => WorldCaster::<_, _, _, 2, 1>::new(world, Rgb::WHITE, at, SIZE).map(|_| ()),
+        };
+        assert_eq!(few, Err(Error::Capacity { what: "rays at a time", needed: 2, capacity }));
+    }
     let lamps = [Lamp::point(vector([9.0; 3]), Rgb::WHITE); 65];
     let lit = |count: usize| {
         let world = World::new(&leaves, &objects, &matt).unwrap().with_lamps(&lamps[..count]);

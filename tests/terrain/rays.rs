@@ -230,6 +230,27 @@ fn a_ray_from_below_comes_out_of_the_higher_of_land_and_plain() {
     });
 }
 
+/// A plain above the summit covers all, from below as from above, and is within the extent; so is one far below.
+#[test]
+fn a_plain_above_or_below_all_land_is_there() {
+    with_landscape(|heights, _| {
+        let mut memory = [HeightRange::default(); Terrain::ranges(33, 33)];
+        let (inner, _) = INNER[0];
+        let stored = Terrain::new(heights, inner, OVER, &mut memory).unwrap().with_plain(real(3.0));
+        for (from, towards) in [(2.7, 0.3), (-1.5, 1.0), (6.0, -1.0)] {
+            let ray = Ray::new(vector([0.3, 0.2, from]), vector([0.01, 0.02, towards]));
+            let all = crossings(&stored, &ray, Unit::ZERO);
+            let height = from + all[0].t.to_num::<f64>() * towards;
+            assert!((height - 3.0).abs() < 1e-5 && all[0].face == 1, "{from}: {all:?}");
+        }
+        assert!(stored.extent().high.z >= real(3.0));
+        let stored = Terrain::new(heights, inner, OVER, &mut memory).unwrap().with_plain(real(-5.0));
+        assert!(stored.extent().low.z <= real(-5.0));
+        let ray = Ray::new(vector([9.0, 0.2, 4.0]), vector([0.0, 0.0, -1.0]));
+        assert_eq!(crossings(&stored, &ray, Unit::ZERO).len(), 1);
+    });
+}
+
 /// Land on a plain is the higher of both: the first crossing, on which face it is, and the normal there,
 /// against a walk along the ray in f64.
 #[test]

@@ -75,7 +75,12 @@ impl<'a, S: Scheme<J>, const J: usize> PatchSurface<'a, S, J> {
     pub fn new(sheet: Sheet<'a, S, J>, depth: u32) -> Result<Self, Error> {
         let parts = S::BASE.checked_pow(depth).and_then(|parts| parts.checked_mul(sheet.cells()));
         if depth > MAX_DEPTH as u32 || parts.is_none_or(|parts| parts > 1 << 20) {
-            let (value, max) = (Wide::saturating_from_num(depth), Wide::from_num(MAX_DEPTH as u32));
+            let is_room = |depth: &u32| {
+                S::BASE.checked_pow(*depth).and_then(|parts| parts.checked_mul(sheet.cells()))
+                    <= Some(1 << 20)
+            };
+            let most = (0..=MAX_DEPTH as u32).take_while(is_room).last().unwrap_or(0);
+            let (value, max) = (Wide::saturating_from_num(depth), Wide::from_num(most));
             return Err(Error::OutOfRange { what: "depth", index: None, value, min: Wide::ZERO, max });
         }
         let mut heights = [i32::MAX, i32::MIN];

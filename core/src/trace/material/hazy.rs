@@ -34,7 +34,7 @@ impl<M> Hazy<M> {
         // halves: their squares fit, and so does the root
         let half = |a: Real, b: Real| ((i64::from(a.to_bits()) - i64::from(b.to_bits())) >> 1) as i32;
         let off = [half(at.x, self.eye.x), half(at.y, self.eye.y), half(at.z, self.eye.z)];
-        let distance = sqrt(square(off)).min(1 << 30) as i32;
+        let distance = sqrt(square(off)).min(i32::MAX as u32) as i32;
         let depth = product(distance, self.density.max(Unit::ZERO).to_bits()) >> 29;
         exp_minus(Real::from_bits(depth.min(i64::from(i32::MAX)) as i32))
     }
@@ -85,12 +85,13 @@ mod tests {
         let grey = |part: f64| Rgb::grey(Lumen::from_num(part));
         let (mut worst, mut clear, mut far) = (0.0_f64, 0.0_f64, 0);
         for k in 1..400_i32 {
-            let place = |step: i32| Real::from_bits(k.wrapping_mul(step) >> 2);
+            // up to 221 apart
+            let place = |step: i32| Real::from_bits(k.wrapping_mul(step) >> (1 + k % 2));
             let (at, eye) = (
                 Vec3::new(place(0x2545_f491), place(0x6c07_8965), place(0x1f12_3bb5)),
                 Vec3::new(place(0x4f6c_dd1d), place(0x3141_5927), place(0x2718_2819)),
             );
-            let density = Unit::from_bits(k << 21);
+            let density = Unit::from_bits((k << 21) >> (k % 8));
             let hazy = Hazy { material: Mixture::matt(grey(0.5)), eye, air: grey(0.75), density };
             let off = |a: Real, b: Real| a.to_num::<f64>() - b.to_num::<f64>();
             let distance =

@@ -21,7 +21,8 @@ use crate::num::{
 
 /// A function of space. Closures `Fn(Vec3<Near>) -> Near` are functions.
 pub trait Function {
-    /// Its value at a place of the box, below 0 inside. It must not wrap there.
+    /// Its value at a place of the box, or `2^-10` beyond it where no gradient is given, below 0 inside. It must
+    /// not wrap there.
     fn value(&self, place: Vec3<Near>) -> Near;
 
     /// Its gradient, of any length: by differences over `2^-9`.
@@ -197,10 +198,15 @@ impl<F: Function> Shape for Implicit<F> {
     fn value(&self, place: Vec3) -> Wide {
         let near = |c: Real| Near::saturating_from_num(c);
         let place = Vec3::new(near(place.x), near(place.y), near(place.z));
-        let value = Wide::from(self.function.value(place));
-        let [low, high] = self.bounds.map(words);
-        let inside = (0..3).all(|k| (low[k]..=high[k]).contains(&words(place)[k]));
-        if inside { value } else { value.max(Wide::DELTA) }
+        // the function is asked inside the box alone
+        let [low, high] = self.bounds;
+        let held = Vec3::new(
+            place.x.clamp(low.x, high.x),
+            place.y.clamp(low.y, high.y),
+            place.z.clamp(low.z, high.z),
+        );
+        let value = Wide::from(self.function.value(held));
+        if held == place { value } else { value.max(Wide::DELTA) }
     }
 
     /// The gradient, its greatest component brought to at least 1/2; upwards where it vanishes.
@@ -387,5 +393,21 @@ mod tests {
             let got = [got.x, got.y, got.z].map(|c| c.to_num::<f64>());
             assert!((0..3).all(|k| (got[k] - exact[k]).abs() < 1e-6), "{got:?} {exact:?}");
         }
+    }
+
+    /// A function is asked in its box, and by the gradient that it does not give itself a 1024th beyond it.
+    #[test]
+    fn a_function_is_asked_nowhere_else() {
+        let value = |p: Vec3<Near>| {
+            let beyond = [p.x, p.y, p.z].map(|c| c.abs() - Near::lit("1.25")).into_iter().max();
+            assert!(beyond <= Some(Near::ONE / 1024), "{p:?}");
+            p.x * p.x + p.y * p.y - p.z
+        };
+        let shape = Implicit::new(value, BOX, Real::lit("4")).unwrap();
+        for (at, inside) in [([5.0, 1.0, 1.0], false), ([0.0, 0.0, 1.0], true), ([-90.0, 70.0, 3.0], false)] {
+            let [x, y, z] = at.map(Real::from_num);
+            assert_eq!(shape.value(Vec3::new(x, y, z)) < Wide::ZERO, inside, "{at:?}");
+        }
+        let _ = shape.normal(near([1.25, -1.25, 1.25]), 0);
     }
 }

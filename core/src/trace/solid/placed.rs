@@ -187,6 +187,7 @@ impl<S: Shape> Surface for Placed<S> {
 mod tests {
     extern crate std;
     use super::super::super::exact::words;
+    use super::super::cube::Cube;
     use super::super::plane::Plane;
     use super::super::sphere::Sphere;
     use super::super::square::Square;
@@ -715,5 +716,55 @@ mod tests {
             }
         }
         assert!(met > 3_000 && worst < 1.0 && worst > 0.02, "{met} {worst}");
+    }
+
+    /// A map may make a direction longer than the world's: a ray of any length up to the longest meets a shape
+    /// where one of length 1 does.
+    #[test]
+    fn a_ray_meets_a_shape_in_one_place_however_long_its_direction_is() {
+        let mut word = words(23);
+        let (mut met, mut steep) = (0, 0);
+        for k in 0..300 {
+            // once as it was found
+            let (map, from, along) = if k == 0 {
+                let turn = Affine3::rotate(Vec3::Z, Angle::from_num(0.125)).unwrap();
+                let map = Affine3::scale(Vec3::lit("1.45", "1.45", "3")).then(&turn);
+                (map, Vec3::lit("-3", "-3", "0.5"), [0.7, 0.7, 0.0])
+            } else {
+                let size = Real::from_num(1.0 + f64::from(k % 25) / 25.0);
+                let turn = Affine3::rotate(vector(&mut word), Angle::from_bits(word() as u32)).unwrap();
+                let [from, to] = [vector(&mut word), vector(&mut word)];
+                let from = Vec3::new(from.x * 4, from.y * 4, from.z * 4);
+                let d = numbers_of(to.minus(from));
+                let length = dot(d, d).sqrt();
+                (Affine3::scale(Vec3::new(size, size, size)).then(&turn), from, d.map(|c| c / length))
+            };
+            let at = |length: f64| {
+                let [x, y, z] = along.map(|c| Real::from_num(c * length));
+                let ray = Ray::new(from, Vec3::new(x, y, z));
+                let cube = crossings(&Placed::new(Cube, &map).unwrap(), &ray);
+                let cylinder = crossings(&Placed::new(TaperedCylinder::CYLINDER, &map).unwrap(), &ray);
+                [cube, cylinder].map(|all| {
+                    let tell = |c: &Crossing| (c.t.to_num::<f64>() * length, c.enters);
+                    all.iter().map(tell).collect::<Vec<_>>()
+                })
+            };
+            let expected = at(1.0);
+            for step in 1..20 {
+                let length = 1.0 + f64::from(step) * 0.15;
+                for (got, want) in at(length).iter().zip(&expected) {
+                    // a corner may be met by one and missed by the other
+                    let is_thin = |all: &[(f64, bool)]| all.len() == 2 && all[1].0 - all[0].0 < 1e-4;
+                    if is_thin(got) || is_thin(want) {
+                        continue;
+                    }
+                    let same = got.iter().zip(want).all(|(a, b)| (a.0 - b.0).abs() < 1e-5 && a.1 == b.1);
+                    assert!(same && got.len() == want.len(), "{k}: {length} times: {got:?}, once: {want:?}");
+                    met += got.len();
+                    steep += usize::from(length > 1.41 && length < 2.0);
+                }
+            }
+        }
+        assert!(met > 3_000 && steep > 1_000, "{met} {steep}");
     }
 }

@@ -461,15 +461,16 @@ impl Site {
     pub(super) fn line(&self, way: [i32; 3], d: [Q30; 3]) -> (NearRay, i32) {
         // row by row: each is loaded once
         let [x, y, z] = self.inverse.map(|row| [d, way].map(|v| high_dot(row, v)));
-        // the direction's greatest component gets 29 bits
+        // the direction's greatest component gets 29 bits; a long ray's may have 30 of them before, as the
+        // inverse may make it longer
         let all = [x[0], y[0], z[0]].into_iter().fold(0, |all, c| all | (c ^ (c >> 31)));
-        let up = all.leading_zeros().wrapping_sub(3);
-        let along = |c: Q28| Near::from_bits(c << (up & 31));
+        let up = all.leading_zeros().wrapping_sub(2);
+        let along = |c: Q28| Near::from_bits((c << (up & 31)) >> 1);
         let direction = Vec3::new(along(x[0]), along(y[0]), along(z[0]));
         let place = |middle: i32, moved: i32| Near::from_bits(middle.wrapping_sub(moved << (self.left & 31)));
         let [a, b, c] = self.middle;
         let origin = Vec3::new(place(a, x[1]), place(b, y[1]), place(c, z[1]));
-        (NearRay { origin, direction }, self.exponent - up as i32)
+        (NearRay { origin, direction }, self.exponent + 1 - up as i32)
     }
 
     /// The same for a half-space, of which the height alone counts: its ray goes straight up or down.

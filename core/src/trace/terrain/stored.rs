@@ -101,6 +101,16 @@ impl<'a> Terrain<'a> {
         self
     }
 
+    /// The lowest and the highest of land and plain.
+    fn ends(&self) -> [Q24; 2] {
+        let [low, high] = self.frame.heights;
+        match self.plain {
+            Some(plain) if plain > high => [low, plain.saturating_add(MARGIN)],
+            Some(plain) => [low.min(plain), high],
+            None => [low, high],
+        }
+    }
+
     /// Where a ray crosses the plain.
     fn plain_crossing(&self, z: &Axis) -> Option<Crossing> {
         let t = z.crossing(self.plain?);
@@ -130,14 +140,15 @@ impl Surface for Terrain<'_> {
             return land;
         }
         let Extent { low: Vec3 { x, y, .. }, high } = Extent::SPACE;
-        Extent { low: Vec3::new(x, y, land.low.z), high: Vec3::new(high.x, high.y, land.high.z) }
+        let [bottom, top] = self.ends().map(Real::from_bits);
+        Extent { low: Vec3::new(x, y, bottom), high: Vec3::new(high.x, high.y, top) }
     }
 
-    /// With a plain what is below the summit.
+    /// With a plain what is below the highest place of both.
     fn ball(&self) -> Ball {
         match self.plain {
             None => self.land,
-            Some(_) => Ball { centre: [0, 0, self.frame.heights[1]], up: [0, 0, 1 << 30], ..Ball::SPACE },
+            Some(_) => Ball { centre: [0, 0, self.ends()[1]], up: [0, 0, 1 << 30], ..Ball::SPACE },
         }
     }
 

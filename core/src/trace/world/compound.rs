@@ -4,6 +4,9 @@
 //! compound is a surface like any other; the compiler sees through it, and no program is interpreted. A
 //! compound as data is an [`Object`](super::Object).
 //!
+//! A part that a ray may cross more than 16 times has no room in it, and a face tells its part apart only among
+//! 255: `most_crossings` is `u32::MAX` of such compounds, so that a caster refuses them.
+//!
 //! Source: the course unit V, section 5.10.
 
 use core::ops::ControlFlow;
@@ -28,6 +31,14 @@ pub struct Difference<A, B>(pub A, pub B);
 
 /// The most crossings of a part that a compound has room for.
 const CROSSINGS: usize = 16;
+
+/// The most crossings of a ray with a compound of two surfaces; more than any caster has room for where this is
+/// more than it has room for itself.
+fn most_crossings(a: &impl Surface, b: &impl Surface) -> u32 {
+    let [one, other] = [a.most_crossings(), b.most_crossings()];
+    let is_told = a.faces().checked_add(b.faces()).is_some();
+    if one.max(other) as usize <= CROSSINGS && is_told { one.saturating_add(other) } else { u32::MAX }
+}
 
 /// A part's crossings, and whether the ray begins inside it.
 struct Part {
@@ -88,8 +99,7 @@ fn merged(
                 if inside(a, b) != was {
                     let face =
                         if part == 0 { crossing.face } else { first_faces.saturating_add(crossing.face) };
-                    let memo = [crossing.memo[0] << 1 | part as u32, crossing.memo[1]];
-                    last = Some(Crossing { t: Real::from_bits(at_t), enters: !was, face, memo });
+                    last = Some(Crossing { t: Real::from_bits(at_t), enters: !was, face, ..*crossing });
                 }
             }
             if let Some(at) = place {
@@ -112,11 +122,11 @@ macro_rules! compound {
             }
 
             fn is_closed(&self) -> bool {
-                true
+                self.0.is_closed() && self.1.is_closed()
             }
 
             fn most_crossings(&self) -> u32 {
-                self.0.most_crossings().saturating_add(self.1.most_crossings())
+                most_crossings(&self.0, &self.1)
             }
 
             fn faces(&self) -> u8 {
@@ -140,13 +150,9 @@ macro_rules! compound {
             }
 
             fn point(&self, ray: &Ray, cone: Unit, crossing: &Crossing, charted: bool) -> SurfacePoint {
-                let [path, rest] = crossing.memo;
-                let mut own = Crossing { memo: [path >> 1, rest], ..*crossing };
-                let mut point = if path & 1 == 0 {
-                    self.0.point(ray, cone, &own, charted)
-                } else {
-                    own.face = crossing.face.saturating_sub(self.0.faces());
-                    self.1.point(ray, cone, &own, charted)
+                let mut point = match crossing.face.checked_sub(self.0.faces()) {
+                    None => self.0.point(ray, cone, crossing, charted),
+                    Some(face) => self.1.point(ray, cone, &Crossing { face, ..*crossing }, charted),
                 };
                 point.face = crossing.face;
                 point
@@ -158,3 +164,63 @@ macro_rules! compound {
 compound!(Union, |a, b| a || b, |a, b| a.hull(b), |a, b| a.min(b));
 compound!(Intersection, |a, b| a && b, |a, b| a.overlap(b), |a, b| a.max(b));
 compound!(Difference, |a, b| a && !b, |a, _| a, |a, b| a.max(b.saturating_neg()));
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::super::super::solid::{Cube, Placed, Square, TaperedCylinder, Torus};
+    use super::*;
+    use crate::num::{Affine3, Near};
+
+    fn first(surface: &impl Surface, ray: &Ray) -> (Crossing, SurfacePoint) {
+        let mut first = None;
+        surface.cross(ray, Unit::ZERO, &mut |crossing| {
+            first = Some(crossing);
+            ControlFlow::Break(())
+        });
+        let first = first.unwrap();
+        (first, surface.point(ray, Unit::ZERO, &first, true))
+    }
+
+    /// What a part says of a crossing is what it says alone, however deep it lies in a compound.
+    #[test]
+    fn a_point_of_a_compound_is_the_one_of_its_part() {
+        let cone = Placed::new(TaperedCylinder::CONE, &Affine3::IDENTITY).unwrap();
+        let aside = Affine3::translate(Vec3::lit("10", "0", "0"));
+        let cube = Placed::new(Cube, &aside).unwrap();
+        let (mut met, mut behind) = (0, 0);
+        for k in 0..40 {
+            let height = Real::from_num(f64::from(k) * 0.02 + 0.05);
+            let from = [Vec3::new(Real::from_num(-3), Real::from_num(0.1), height)];
+            for origin in from {
+                let ray = Ray::new(origin, Vec3::lit("1", "0", "0"));
+                let (crossing, alone) = first(&cone, &ray);
+                behind += u32::from(crossing.memo[0] >> 31);
+                let deep = Difference(Union(Union(cone, cube), cube), cube);
+                let others = [
+                    first(&Union(cone, cube), &ray),
+                    first(&Union(Union(cone, cube), cube), &ray),
+                    first(&deep, &ray),
+                ];
+                for (other, point) in others {
+                    assert_eq!((other.t, other.face, point), (crossing.t, crossing.face, alone));
+                    met += 1;
+                }
+                let (other, point) = first(&Union(cube, Union(cube, cone)), &ray);
+                assert_eq!((other.face, point.place), (crossing.face + 12, alone.place));
+                assert_eq!((point.normal, point.chart), (alone.normal, alone.chart));
+            }
+        }
+        assert!(met == 120 && behind > 10, "{met} {behind}");
+    }
+
+    #[test]
+    fn a_compound_without_room_for_its_parts_says_so() {
+        let torus = Placed::new(Torus::new(Near::ONE / 4).unwrap(), &Affine3::IDENTITY).unwrap();
+        let four = Union(Union(torus, torus), Union(torus, torus));
+        assert_eq!((four.most_crossings(), Union(four, torus).most_crossings()), (16, 20));
+        assert_eq!(Difference(torus, Union(four, torus)).most_crossings(), u32::MAX);
+        let square = Placed::new(Square, &Affine3::IDENTITY).unwrap();
+        assert!(four.is_closed() && !Union(square, torus).is_closed() && !Union(torus, square).is_closed());
+    }
+}

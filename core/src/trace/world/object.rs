@@ -82,7 +82,7 @@ impl<'a> Object<'a> {
             return Err(Error::BufferLength { what: "boxes of an object", given: memory.len(), needed });
         }
         if ops.len() >= 2 * LEAVES {
-            let needed = ops.len().div_ceil(2);
+            let needed = ops.len() / 2 + 1;
             return Err(Error::Capacity { what: "leaves of an object", needed, capacity: LEAVES });
         }
         let mut height = 0_usize;
@@ -555,7 +555,7 @@ mod tests {
         assert!(matches!(refused(&[a, Op::Leaf(2), Op::Union], 9), Error::OutOfRange { index: Some(1), .. }));
         assert!(matches!(refused(&[a, open, Op::Union], 9), Error::Unsupported { .. }));
         assert!(matches!(refused(&[a, a, Op::Union], 2), Error::BufferLength { given: 2, needed: 3, .. }));
-        assert!(matches!(refused(&[a; 128], 200), Error::Capacity { needed: 64, capacity: 64, .. }));
+        assert!(matches!(refused(&[a; 128], 200), Error::Capacity { needed: 65, capacity: 64, .. }));
         let (program, mut memory) = ([open], [Extent::NOTHING; 1]);
         let alone = Object::new(&program, |leaf| surfaces.get(leaf), &mut memory).unwrap();
         assert_eq!((alone.extent(), alone.only(), Object::extents(5)), (Extent::SPACE, Some(1), 5));
