@@ -43,7 +43,7 @@ impl<P: EscapeTime> Interior<P> {
     /// greatest dwell, but at least 4096 and never more than 65,536 steps, and for each doubling a few cycles
     /// of at most [`MAX_PERIOD`](crate::escape::MAX_PERIOD): fewer than 131,072 steps in every arithmetic
     /// (`a_period_takes_a_bounded_number_of_steps`, `perturbation_takes_a_bounded_number_of_steps`). Nothing
-    /// is iterated in the cardioid and the disc of period 2, except by perturbation.
+    /// is iterated in the cardioid and the disc of period 2, except by perturbation and for Julia sets.
     pub fn value_at(&self, point: P::Point) -> Option<Period> {
         self.0.period_at(point)
     }
@@ -137,5 +137,31 @@ mod tests {
         assert_eq!(inside().min(), Period::new(3));
         assert_eq!(inside().max(), Period::new(3));
         assert!(inside().count() > 100);
+    }
+
+    #[test]
+    fn a_start_that_escapes_has_no_period_whatever_the_constant() {
+        // constants in the cardioid and in the disc of period 2, where a formula tells the period of 0
+        let view = View::new(Complex::default(), Wide::from_num(4), Size::new(64, 64)).unwrap();
+        for (c, length) in [((0.0, 0.0), 1), ((0.1, 0.3), 1), ((-1.0, 0.0), 2), ((-0.95, 0.1), 2)] {
+            let julia =
+                Julia::new(view, Complex::new(Wide::from_num(c.0), Wide::from_num(c.1)), 1000).unwrap();
+            let (mut inside, mut outside, mut missed) = (0, 0, 0);
+            for (x, y) in (0..64).flat_map(|y| (0..64).map(move |x| (x, y))) {
+                let period = Interior(julia).at(x, y);
+                if julia.at(x, y).is_inside() {
+                    inside += 1;
+                    missed += u32::from(period != Period::new(length));
+                } else {
+                    outside += 1;
+                    assert_eq!(period, None, "{c:?} at {x}, {y}");
+                }
+            }
+            assert!(inside > 300 && outside > 1500 && missed == 0, "{c:?}: {missed} of {inside}, {outside}");
+            // the orbit of the constant is that of 0
+            assert_eq!(Interior(julia).value_at(julia.constant()), Period::new(length));
+        }
+        let disc = Julia::new(view, Complex::default(), 1000).unwrap();
+        assert_eq!(Interior(disc).value_at(Complex::new(Wide::lit("1.5"), Wide::ZERO)), None);
     }
 }

@@ -123,12 +123,14 @@ fn beyond(z: Complex<Wide>, c: Complex<Wide>, gain: BlockFloat) -> Ending {
     Ending { steps: 0, z: block(z), c: block(c), derivative: BlockFloat::<i32>::ONE, gain }
 }
 
-/// The cycle that an orbit is drawn to, by formula where there is one.
+/// The cycle that an orbit is drawn to, by formula where there is one: for the orbit of 0, which goes on from
+/// `c`. From elsewhere an orbit may escape whatever the constant.
 pub(crate) fn period(orbit: WordOrbit, max: u32) -> Option<u32> {
     if is_beyond(orbit.c) {
         return None;
     }
-    cardioid::period(orbit.c).or_else(|| cycle::period(orbit, max))
+    let by_formula = if orbit.z == orbit.c { cardioid::period(orbit.c) } else { None };
+    by_formula.or_else(|| cycle::period(orbit, max))
 }
 
 /// How the orbit of `z` under the constant `c` ends; none inside. Without an orbit the start is beyond 2
