@@ -7,7 +7,7 @@
 //!
 //! Formats: heights 24 fractional bits, `s` and `t` 30.
 
-use super::bilinear::between;
+use super::bilinear::{between_slopes, clamped};
 use crate::num::formats::{Q24, Q30};
 use crate::num::{product, product_u};
 
@@ -38,10 +38,11 @@ fn mean(heights: [Q24; 4], weights: [Q30; 4]) -> Q24 {
 }
 
 /// The value and three times the difference of the last two points: the derivative.
-fn cubic([a, b, c, d]: [Q24; 4], s: Q30) -> [Q24; 2] {
-    let [ab, bc, cd] = [between(a, b, s), between(b, c, s), between(c, d, s)];
-    let (first, last) = (between(ab, bc, s), between(bc, cd, s));
-    [between(first, last, s), last.wrapping_sub(first).saturating_mul(3)]
+fn cubic([a, b, c, d]: [i64; 4], s: Q30) -> [i64; 2] {
+    // points within 2^31, slopes within 6 times as much
+    let [ab, bc, cd] = [between_slopes(a, b, s), between_slopes(b, c, s), between_slopes(c, d, s)];
+    let (first, last) = (between_slopes(ab, bc, s), between_slopes(bc, cd, s));
+    [between_slopes(first, last, s), 3 * (last - first)]
 }
 
 impl Bicubic {
@@ -50,12 +51,12 @@ impl Bicubic {
         mean(self.points.map(|row| mean(row, along)), weights(t))
     }
 
-    /// `h_s` and `h_t`.
+    /// `h_s` and `h_t`, clamped to the format.
     pub(crate) fn slopes(&self, s: Q30, t: Q30) -> [Q24; 2] {
-        let rows = self.points.map(|row| cubic(row, s));
+        let rows = self.points.map(|row| cubic(row.map(i64::from), s));
         let [_, along_t] = cubic(rows.map(|[h, _]| h), t);
         let [along_s, _] = cubic(rows.map(|[_, slope]| slope), t);
-        [along_s, along_t]
+        [along_s, along_t].map(clamped)
     }
 
     /// Bounds of the heights.

@@ -24,6 +24,20 @@ pub(super) fn between(a: Q24, b: Q24, s: Q30) -> Q24 {
     a.wrapping_add((product(b.wrapping_sub(a), s).wrapping_add(1 << 29) >> 30) as i32)
 }
 
+/// The same for any two numbers: slopes may be as far apart as all of the format is wide, and twice as far
+/// before they are clamped to it.
+pub(super) fn between_slopes(a: i64, b: i64, s: Q30) -> i64 {
+    // below 2^41: in two parts, so that the product fits the word
+    let (difference, s) = (b.wrapping_sub(a), i64::from(s));
+    let low = (difference & 255).wrapping_mul(s).wrapping_add(1 << 29) >> 8;
+    a.wrapping_add((difference >> 8).wrapping_mul(s).wrapping_add(low) >> 22)
+}
+
+/// The nearest number of the format.
+pub(super) fn clamped(v: i64) -> Q24 {
+    v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+}
+
 impl Bilinear {
     /// The patch of a cell of these heights.
     #[inline(always)]
@@ -40,8 +54,9 @@ impl Bilinear {
 
     /// `h_s` and `h_t`.
     pub(crate) fn slopes(&self, s: Q30, t: Q30) -> [Q24; 2] {
-        let [a, b, c, d] = self.corners;
-        [between(b.wrapping_sub(a), d.wrapping_sub(c), t), between(c.wrapping_sub(a), d.wrapping_sub(b), s)]
+        let [a, b, c, d] = self.corners.map(i64::from);
+        let (along_s, along_t) = (between_slopes(b - a, d - c, t), between_slopes(c - a, d - b, s));
+        [clamped(along_s), clamped(along_t)]
     }
 
     /// The least and the greatest height.
@@ -55,7 +70,8 @@ impl Bilinear {
     #[inline(always)]
     pub(crate) fn twist(&self) -> u32 {
         let [a, b, c, d] = self.corners;
-        let twist = b.wrapping_sub(a).wrapping_add(c.wrapping_sub(d));
-        (twist.unsigned_abs() >> 8) + 1
+        // of heights within 64 at most 2^32, one bit more than a word of this format has
+        let twist = (i64::from(b) - i64::from(a)) + (i64::from(c) - i64::from(d));
+        (twist.unsigned_abs() >> 8) as u32 + 1
     }
 }

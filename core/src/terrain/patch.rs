@@ -91,7 +91,8 @@ impl Patch {
     /// `h_s` and `h_t` at `(s, t)`, each clamped to 0 .. 1: by how much the height grows when one of them
     /// grows by 1. The normal is `(-h_s / a, -h_t / b, 1)` for a cell of the sides `a` and `b`.
     ///
-    /// Error: below 16 units of `2^-24` (`a_patch_is_within_4_units`).
+    /// Result: clamped to the format where it is steeper than 128, as Ferguson's patches may be. Error: below
+    /// 16 units of `2^-24` (`a_patch_is_within_4_units`, `slopes_of_high_patches_do_not_wrap`).
     pub fn slopes(&self, s: Unit, t: Unit) -> [Real; 2] {
         let [s, t] = [s, t].map(|c| c.clamp(Unit::ZERO, Unit::ONE).to_bits());
         let slopes: [Q24; 2] = match &self.0 {
@@ -120,5 +121,76 @@ impl Patch {
             Form::BSpline(patch) => patch.range(),
         };
         range.map(Real::from_bits)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The derivatives of the cubic patch with these Bezier points.
+    fn slopes(points: [[Q24; 4]; 4], s: f64, t: f64) -> [f64; 2] {
+        let value =
+            |s: f64| [(1.0 - s).powi(3), 3.0 * s * (1.0 - s).powi(2), 3.0 * s * s * (1.0 - s), s.powi(3)];
+        let slope = |s: f64| {
+            let [a, b, c] = [(1.0 - s).powi(2), 2.0 * s * (1.0 - s), s * s].map(|w| 3.0 * w);
+            [-a, a - b, b - c, c]
+        };
+        let sum = |along: [f64; 4], across: [f64; 4]| -> f64 {
+            let row = |row: [Q24; 4]| row.iter().zip(along).map(|(h, w)| f64::from(*h) * w).sum::<f64>();
+            points.iter().zip(across).map(|(points, w)| row(*points) * w).sum()
+        };
+        [sum(slope(s), value(t)), sum(value(s), slope(t))]
+    }
+
+    /// Heights as far apart as they may be, where differences of slopes leave the format.
+    #[test]
+    fn slopes_of_high_patches_do_not_wrap() {
+        let saddle = [33, -33, -33, 33].map(Real::from_num);
+        let heights = Heights::new(2, 2, &saddle).unwrap();
+        let middle = InnerGeometry::Bilinear.patch(&heights, 0, 0).slopes(Unit::ONE / 2, Unit::ONE / 2);
+        assert_eq!(middle, [Real::ZERO; 2]);
+        let mut word = 1_u64;
+        let mut random = move || {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            word >> 33
+        };
+        let (mut steep, mut clamped) = ([0; 3], 0);
+        for k in 0..2000 {
+            // as high or as low as may be, or anything between
+            let knots: [Real; 16] = core::array::from_fn(|_| {
+                let any = (random() as i32).wrapping_sub(1 << 30);
+                let most = if any < 0 { 1 - (64 << 24) } else { (64 << 24) - 1 };
+                Real::from_bits(if random() & 1 == 0 { most } else { any })
+            });
+            let heights = Heights::new(4, 4, &knots).unwrap();
+            let [s, t] = [0; 2].map(|_| Unit::from_bits((random() >> 1) as i32));
+            let [s, t] = if k % 8 == 0 { [Unit::ZERO, t] } else { [s, t] };
+            for (inner, steep) in [InnerGeometry::Bilinear, InnerGeometry::Ferguson, InnerGeometry::BSpline]
+                .into_iter()
+                .zip(&mut steep)
+            {
+                let patch = inner.patch(&heights, k % 3, k / 3 % 3);
+                let exact = slopes(patch.points(), s.to_num(), t.to_num());
+                for (got, exact) in patch.slopes(s, t).into_iter().zip(exact) {
+                    let most = 2_f64.powi(31);
+                    let off = f64::from(got.to_bits()) - exact.clamp(-most, most - 1.0);
+                    assert!(off.abs() < 16.0, "{inner:?} {k}: {off}");
+                    *steep += i32::from(exact.abs() > 2_f64.powi(30));
+                    clamped += i32::from(exact.abs() > most);
+                }
+            }
+        }
+        assert!(steep.iter().all(|n| *n > 100) && clamped > 10, "{steep:?} {clamped}");
+    }
+
+    /// How much a patch bends between heights 128 apart.
+    #[test]
+    fn the_twist_of_a_high_saddle_does_not_wrap() {
+        let high = (64 << 24) - 1;
+        let twist = |corners: [Q24; 4]| Bilinear { corners }.twist();
+        assert_eq!(twist([high, -high, -high, high]), (4 * u64::from(high.unsigned_abs()) >> 8) as u32 + 1);
+        assert_eq!(twist([33 << 24, -33 << 24, -33 << 24, 33 << 24]), (132 << 16) + 1);
+        assert_eq!(twist([1 << 24, 0, 0, 1 << 24]), (2 << 16) + 1);
     }
 }
