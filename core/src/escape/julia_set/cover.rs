@@ -73,7 +73,7 @@ impl JuliaSet {
     /// (`a_disc_round_a_point_of_the_set_may_meet_it`). Cost: 10 to 100 steps as a rule.
     pub fn may_meet(&self, middle: Complex<Wide>, radius: Wide) -> bool {
         match point(middle) {
-            Some(z) => Discs::of(self).may_meet(z, up(radius)),
+            Some(z) => Discs::of(self).meets(z, up(radius)) == Meeting::May,
             None => {
                 let reach = radius.saturating_add(self.radius());
                 middle.re.saturating_abs() <= reach && middle.im.saturating_abs() <= reach
@@ -119,6 +119,17 @@ const fn half_diagonal(side: UQ27) -> UQ27 {
     ((side as u64 * 182) >> 8) as u32 + 1
 }
 
+/// What a disc tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Meeting {
+    /// It may meet the set.
+    May,
+    /// It does not, for certain.
+    Never,
+    /// Nothing was driven apart: of its parts some may meet the set.
+    Unknown,
+}
+
 /// What is needed of a set to carry discs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Discs {
@@ -135,6 +146,12 @@ impl Discs {
     }
 
     fn may_meet(&self, middle: Point27, radius: UQ27) -> bool {
+        self.meets(middle, radius) == Meeting::May
+    }
+
+    /// Whether the set meets a disc. What does not meet it has no part that may: the images of a disc's parts
+    /// lie in its own.
+    fn meets(&self, middle: Point27, radius: UQ27) -> Meeting {
         let (mut z, mut r) = (middle, radius);
         let mut first_order = radius;
         let mut is_large = false;
@@ -145,22 +162,22 @@ impl Discs {
         // what is large may take its time: at a parabolic point with two petals orbits part like 1 / sqrt(n)
         for step in 1..=4 * limit {
             if step > limit && !is_large {
-                return false;
+                return Meeting::Unknown;
             }
             // |z| < 9: the squares add up to less than 2^61
             let (x, y) = (i64::from(z.0), i64::from(z.1));
             let modulus = sqrt((x * x + y * y) as u64);
             if !is_large && modulus > r.saturating_add(self.bound) {
-                return false;
+                return Meeting::Never;
             }
             is_large |= r >= LARGE;
             if is_large {
                 if first_order >= stretched {
-                    return true;
+                    return Meeting::May;
                 }
                 // it escapes, or sinks into a petal
                 if modulus > FAR || first_order < radius / 64 {
-                    return false;
+                    return Meeting::Unknown;
                 }
             }
             // here |z| <= 5/2, or r < 1/2 and |z| <= r + bound
@@ -177,14 +194,14 @@ impl Discs {
             }
             r = ((u64::from(r) * (twice + 2 + u64::from(r))) >> FRACTION_Q27) as u32 + ROUNDING as u32;
             if is_within((z, r), saved) {
-                return false;
+                return Meeting::Never;
             }
             if step == next_save {
                 saved = (z, r);
                 next_save *= 2;
             }
         }
-        false
+        Meeting::Unknown
     }
 
     fn sixteenths(&self, middle: Point27, side: UQ27) -> u8 {
@@ -273,13 +290,14 @@ impl Field for JuliaCover {
     }
 }
 
-/// The counts of a row, from left to right. Runs of 8 or 9 pixels are decided together where the set is far.
+/// The counts of a row, from left to right. Runs of 8 or 9 pixels are decided together where the set is far
+/// for certain: each pixel has the count that it has by itself (`a_row_is_what_its_pixels_are_by_themselves`).
 struct JuliaCoverRow<'a> {
     cover: &'a JuliaCover,
     y: u32,
     next: u32,
     end: u32,
-    /// The run that was decided last, and whether the set may meet it.
+    /// The run that was decided last, and whether any of its pixels may have a count.
     run: Option<(i32, bool)>,
 }
 
@@ -321,7 +339,7 @@ impl Iterator for JuliaCoverRow<'_> {
                 let radius = u64::from(pitch) * 39 / 8 + 16;
                 let may_meet = match (i32::try_from(middle), u32::try_from(radius)) {
                     (Ok(x), Ok(r)) if x.unsigned_abs() < 8 * ONE_UQ27 && r < LARGE => {
-                        discs.may_meet((x, z.1), r)
+                        discs.meets((x, z.1), r) != Meeting::Never
                     }
                     _ => true,
                 };
@@ -345,3 +363,53 @@ impl Iterator for JuliaCoverRow<'_> {
 }
 
 impl ExactSizeIterator for JuliaCoverRow<'_> {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    fn cover(c: [f64; 2], centre: [f64; 2], width: f64, size: Size) -> JuliaCover {
+        let complex = |[re, im]: [f64; 2]| Complex::new(Wide::from_num(re), Wide::from_num(im));
+        let view = View::new(complex(centre), Wide::from_num(width), size).unwrap();
+        JuliaCover::new(view, JuliaSet::new(complex(c)).unwrap()).unwrap()
+    }
+
+    /// Where nothing is driven apart a run of pixels tells nothing of them: at parabolic points and in Siegel
+    /// discs.
+    #[test]
+    fn a_row_is_what_its_pixels_are_by_themselves() {
+        let constants = [
+            [-0.75, 0.0],
+            [-0.125, 0.649_519],
+            [-1.25, 0.0],
+            [0.25, 0.0],
+            [-0.390_540_870_218_4, -0.586_787_907_346_969],
+            [-0.8, 0.156],
+            [0.0, 0.0],
+            [-0.75, 0.000_01],
+        ];
+        let views = [
+            ([0.0, 0.0], 4.0, Size::new(64, 64), 1),
+            ([0.0, 0.0], 3.0, Size::new(97, 41), 1),
+            ([-0.5, 0.0], 0.2, Size::new(96, 96), 3),
+            ([0.5, 0.0], 0.1, Size::new(64, 48), 3),
+            ([0.3, 0.6], 0.05, Size::new(48, 48), 5),
+        ];
+        for c in constants {
+            let mut counted = 0;
+            for (centre, width, size, every) in views {
+                let cover = cover(c, centre, width, size);
+                for y in (0..size.height).step_by(every) {
+                    let row: Vec<u8> = cover.row(y, 0..size.width).collect();
+                    let alone: Vec<u8> = (0..size.width).map(|x| cover.at(x, y)).collect();
+                    assert_eq!(row, alone, "{c:?} round {centre:?}, {width} wide, row {y}");
+                    counted += row.iter().filter(|n| **n > 0).count();
+                }
+            }
+            assert!(counted > 100, "{c:?}: {counted}");
+        }
+        let cover = cover([-0.75, 0.0], [-0.5, 0.0], 0.2, Size::new(96, 96));
+        assert_eq!((cover.at(47, 39), cover.row(39, 0..96).nth(47)), (16, Some(16)));
+    }
+}
