@@ -21,7 +21,7 @@ use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
 use crate::num::formats::{Q21, Q22, Q24};
 use crate::num::{
-    Real, Wide, high, mul_high, mul_high_u, product, product_u, product_within, quotient, real_from,
+    Real, Wide, high, mul_high, mul_high_u, product, product_u, product_within, quotient, ratio, real_from,
     reciprocal_of, sqrt,
 };
 
@@ -129,8 +129,9 @@ pub struct Sums<'a> {
     even: Option<(NonZeroU32, i32)>,
     x0: i64,
     width: u64,
-    /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits.
-    per_domain: (i32, u32),
+    /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits; of a length
+    /// that does not fit them, fewer than none.
+    per_domain: (i32, i32),
     /// Fractional bits of areas and of squares, beyond 24; and twice what areas have more, as a factor.
     extra: [u32; 2],
     up: i32,
@@ -172,6 +173,16 @@ fn shifted(up: i32, factor: i32) -> (i32, i32) {
 fn over(v: i32, (up, factor): (i32, i32)) -> i32 {
     // a shift by a variable takes one more instruction
     high(v.wrapping_mul(up), factor)
+}
+
+/// The reciprocal of a domain's width of 48 fractional bits, as [`Sums::per_domain`] has it.
+fn per_domain(width: u64) -> (i32, i32) {
+    // 24 fractional bits, where these are a word of 22 bits at least; else what is nearest to them
+    let bits = 64 - width.leading_zeros();
+    let dropped = bits.saturating_sub(22).min(24).max(bits.saturating_sub(32));
+    let (mantissa, zeros) =
+        reciprocal_of(NonZeroU32::new((width >> dropped) as u32).unwrap_or(NonZeroU32::MIN));
+    (mantissa, (zeros + 24) as i32 - dropped as i32)
 }
 
 impl Sums<'static> {
@@ -260,8 +271,7 @@ impl<'a> Sums<'a> {
         let count = NonZeroU32::new((needed - 1).min(u32::MAX as usize) as u32);
         let even = count.filter(|_| (0..).zip(&fif.starts).all(even));
         let even = even.map(|count| (count, less((1_u32 << 31) / count)));
-        let domain = (fif.width >> 24).clamp(1, u64::from(u32::MAX)) as u32;
-        let per_domain = reciprocal_of(NonZeroU32::new(domain).unwrap_or(NonZeroU32::MIN));
+        let per_domain = per_domain(fif.width);
         let (x0, width) = (fif.x0, fif.width);
         let up = 2 << extra[0];
         Ok(Self { places, starts: &fif.starts, depth, even, x0, width, per_domain, extra, up })
@@ -277,12 +287,14 @@ impl<'a> Sums<'a> {
     ///
     /// Error: where the ends are those of cells and the interval is at least a 256th of the domain, `2^-18`
     /// of the largest of 1 and the squares of slope and value (`running_sums_tell_what_the_reference_says`);
-    /// elsewhere also what a cell at each end varies. Cost: two look-ups in one table.
+    /// elsewhere also what a cell at each end varies. As values have 24 fractional bits, slopes are no better
+    /// than `2^-23` over the interval's width, which is more in domains below 8 wide
+    /// (`domains_of_any_width_have_their_slopes`). Cost: two look-ups in one table.
     pub fn over(&self, from: Wide, to: Wide) -> Option<Trend> {
         let unit = |x: Wide| {
-            let distance = if x.to_bits() < self.x0 { 0 } else { x.to_bits().wrapping_sub(self.x0) };
-            let part = quotient(distance.min(self.width as i64), 32, self.width);
-            part.clamp(0, i64::from(u32::MAX)) as u32
+            // domains may be wider than half of the format
+            let distance = if x.to_bits() < self.x0 { 0 } else { x.to_bits().abs_diff(self.x0) };
+            ratio(distance.min(self.width), 32, self.width).min(u32::MAX.into()) as u32
         };
         let (from, to) = (unit(from.min(to)), unit(from.max(to)));
         let width = self.width_of(NonZeroU32::new(to.wrapping_sub(from))?);
@@ -297,8 +309,17 @@ impl<'a> Sums<'a> {
     /// as there are points, two, `f -+ s` with `F -+ c / s`, `s^2` the variance of the slope and `c` the
     /// covariance. An interval without any width inside the domain leaves `points` as they are.
     pub fn points(&self, from: Wide, to: Wide, points: &mut [[Real; 2]]) {
-        let step = quotient(to.to_bits().saturating_sub(from.to_bits()), 1, points.len().max(1) as u64);
-        let at = |k: i64| Wide::from_bits(from.to_bits().saturating_add(k.saturating_mul(step)));
+        let (start, end) = (from.to_bits(), to.to_bits());
+        let step = ratio(start.abs_diff(end), 1, points.len().max(1) as u64);
+        let at = |k: u64| {
+            let way = step.saturating_mul(k);
+            let reached = if end < start {
+                start.saturating_sub_unsigned(way)
+            } else {
+                start.saturating_add_unsigned(way)
+            };
+            Wide::from_bits(reached)
+        };
         for (k, pair) in (0..).zip(points.chunks_mut(2)) {
             let Some(trend) = self.over(at(k), at(k + 1)) else { continue };
             let [slope, value] = [trend.slope, trend.value].map(Real::to_bits);
@@ -321,7 +342,7 @@ impl<'a> Sums<'a> {
         // as far up as means that fit their formats allow
         let up = |less: u32| zeros.wrapping_sub(less) as i32;
         let [area, squares] = self.extra.map(|extra| shifted(up(extra), mantissa));
-        Width { slope: shifted(up(8).wrapping_add(more as i32), per_length), area, squares }
+        Width { slope: shifted(up(8).wrapping_add(more), per_length), area, squares }
     }
 
     /// In which cell a place lies, 32 fractional bits: there is one for each.
@@ -479,6 +500,70 @@ mod tests {
 
     fn x(u: i32) -> f64 {
         2.0 * f64::from(u) / f64::from(WHOLE)
+    }
+
+    /// Two straight parts over `[from, from + width]`, in units of `2^-48`, that rise by `rises`.
+    fn over_any_domain(from: i64, width: u64, rises: [f64; 2]) {
+        let half = from.saturating_add_unsigned(width / 2);
+        let ends = [from, half, from.saturating_add_unsigned(width)];
+        let values = [0.0, rises[0], rises[0] + rises[1]];
+        let knots = [0, 1, 2].map(|k: usize| Knot::new(Wide::from_bits(ends[k]), Wide::from_num(values[k])));
+        let f = Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap();
+        let mut memory: Vec<Sum> = std::vec![Sum::ZERO; Sums::places(2, 6)];
+        let sums = Sums::new(&f, 6, &mut memory).unwrap();
+        let domain = width as f64 / 2_f64.powi(48);
+        let slack = |v: f64| 2_f64.powi(-18) * (v * v).max(1.0);
+        let slope_slack = |slope: f64| slack(slope) + 2_f64.powi(-22) / domain;
+        let [a, b, c] = ends.map(Wide::from_bits);
+        let mut points = [[Real::ZERO; 2]; 4];
+        sums.points(a, c, &mut points);
+        let parts = [(a, b, rises[0], 0.5, 0), (b, c, rises[1], 0.5, 2), (a, c, values[2], 1.0, 4)];
+        for (from, to, rise, part, first) in parts {
+            let trend = sums.over(from, to).unwrap();
+            let slope = rise / (part * domain);
+            let off = trend.slope.to_num::<f64>() - slope;
+            assert!(off.abs() < slope_slack(slope), "{domain}: slope off by {off}");
+            let value = match first {
+                0 => values[1] / 2.0,
+                2 => (values[1] + values[2]) / 2.0,
+                _ => (2.0 * values[1] + values[2]) / 4.0,
+            };
+            let off = trend.value.to_num::<f64>() - value;
+            assert!(off.abs() < slack(value), "{domain}: value off by {off}");
+            for pair in points.chunks(2).skip(first / 2).take(usize::from(first < 4)) {
+                let [s, v] =
+                    [0, 1].map(|k: usize| (pair[0][k].to_num::<f64>() + pair[1][k].to_num::<f64>()) / 2.0);
+                assert!((s - slope).abs() < slope_slack(slope), "{domain}: points' slope {s}");
+                assert!((v - value).abs() < slack(value), "{domain}: {v}");
+            }
+        }
+    }
+
+    /// From the narrowest domains in which values have any bits to as wide as the format.
+    #[test]
+    fn domains_of_any_width_have_their_slopes() {
+        for half in [100, 127, 128, 129, 255, 256, 1000, 16383, 16384, 20000, 32767] {
+            let width = (2 * half as u64) << 48;
+            over_any_domain(-(half << 48), width, [60.0, -90.0]);
+            over_any_domain(-(half << 48) + 12345, width - 987_654_321, [-7.5, 1.0]);
+        }
+        over_any_domain(i64::MIN + 1, u64::MAX - 2, [30.0, -40.0]);
+        for bits in [(1 << 28) + (1 << 24) - 1, (1 << 32) - 12345, (1 << 35) / 3, (1 << 45) / 7] {
+            let domain = bits as f64 / 2_f64.powi(48);
+            over_any_domain(0, bits, [30.0 * domain, -20.0 * domain]);
+            over_any_domain(-(5 << 48), bits, [-1.5 * domain, 0.25 * domain]);
+        }
+    }
+
+    /// Between an eighth and 256 the reciprocal of a domain is that of its 24 fractional bits.
+    #[test]
+    fn the_reciprocal_of_an_ordinary_domain_has_24_fractional_bits() {
+        for width in
+            [1 << 45, (1 << 45) + 12345, 1 << 48, (3 << 48) / 7, 2 << 48, 99 << 48, (256 << 48) - 1_u64]
+        {
+            let (mantissa, zeros) = reciprocal_of(NonZeroU32::new((width >> 24) as u32).unwrap());
+            assert_eq!(per_domain(width), (mantissa, zeros as i32), "{width}");
+        }
     }
 
     /// A straight line goes on as it is, at both ends: value and mean value.
