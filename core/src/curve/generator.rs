@@ -70,6 +70,19 @@ impl Segment {
 }
 
 /// A generator of at most `S <= 127` segments. Size: 64 bytes a segment, and 16 on a 32-bit machine.
+///
+/// A program in which one for more is made does not compile, as a walk counts the segments of both directions
+/// in a byte:
+///
+/// ```compile_fail
+/// use attractor::curve::Generator;
+/// let _ = Generator::<128>::polyline(&[]);
+/// ```
+///
+/// ```
+/// use attractor::curve::Generator;
+/// let _ = Generator::<127>::polyline(&[]);
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Generator<const S: usize> {
     /// The segments in the order of a walk from start to end, and of a walk from end to start.
@@ -86,13 +99,16 @@ impl<const S: usize> Generator<S> {
     /// division by the segment, `2^-31` (`a_vertex_is_the_nearest_number`).
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` or 127 segments,
+    /// [`Error::TooFew`] for fewer than three points, [`Error::Capacity`] for more than `S` segments,
     /// [`Error::Degenerate`] when the first point is the last (within `2^-38`) or two neighbours coincide,
     /// [`Error::NotContractive`] with the first segment that is no shorter than the one it replaces,
     /// [`Error::OutOfRange`] for a vertex outside `-1 < x < 2, -2 < y < 2` in the frame of the segment.
     pub fn polyline(points: &[[Wide; 2]]) -> Result<Self, Error> {
         Self::oriented_polyline(points, &[])
     }
+
+    /// Checked where a program is compiled.
+    const FITS: () = assert!(S <= 127, "a generator has at most 127 segments");
 
     /// [`Generator::polyline`] with an orientation for each segment; those without one are plain.
     ///
@@ -131,7 +147,8 @@ impl<const S: usize> Generator<S> {
         vertices: impl Iterator<Item = [i64; 2]> + Clone,
         orientations: impl Iterator<Item = Orientation>,
     ) -> Result<Self, Error> {
-        let capacity = S.min(127);
+        const { Self::FITS };
+        let capacity = S;
         if segments < 2 {
             return Err(Error::TooFew { what: "vertices", given: segments + 1, at_least: 3 });
         }
@@ -276,6 +293,7 @@ impl<const S: usize> Generator<S> {
 
     /// A generator whose numbers are already in the frame of the segment: for constants.
     pub(super) const fn from_vertices(vertices: &[[Q30; 2]], ratios: &[UQ30; S]) -> Self {
+        const { Self::FITS };
         let mut segments = [[Segment::EMPTY; S]; 2];
         let mut i = 0;
         while i < S {
