@@ -323,7 +323,7 @@ pub(crate) struct Decode {
     /// The stream
     #[arg(value_name = "FILE.atfi")]
     pub(crate) file: PathBuf,
-    /// The picture [default: FILE.png]
+    /// The picture [default: FILE.png, if no such file is there]
     #[arg(short, long, value_name = "FILE.png")]
     pub(crate) output: Option<PathBuf>,
     /// How large: 1/4, 1/2, 1, 2 or 4

@@ -138,6 +138,9 @@ pub(crate) fn run(args: &Decode) -> Result<(), Fail> {
     if scaled(header.size.width) * scaled(header.size.height) > MAX_PIXELS {
         return Err(Fail::new(format_args!("--scale: more than {MAX_PIXELS} pixels")));
     }
+    if args.output.is_none() {
+        output::vacant(&goal)?;
+    }
     output::check(&goal)?;
     let picture = decoded(&bytes, args.scale, args.sweeps)
         .map_err(|error| Fail::new(format_args!("{}: {error}", args.file.display())))?;

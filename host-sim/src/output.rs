@@ -25,6 +25,18 @@ pub(crate) fn check(path: &Path) -> Result<(), Fail> {
     }
 }
 
+/// Whether nothing is there yet, of a name that nobody has given: what is there may be the only copy.
+pub(crate) fn vacant(path: &Path) -> Result<(), Fail> {
+    match fs::symlink_metadata(path) {
+        Ok(_) => {
+            let path = path.display();
+            let reason = "it is there already, and without --output nothing is replaced";
+            Err(Fail::new(format_args!("{path}: {reason}; -o FILE.png names what is written")))
+        }
+        Err(_) => Ok(()),
+    }
+}
+
 fn refused(path: &Path, error: &io::Error) -> Fail {
     Fail::new(format_args!("{}: cannot be written: {error}", path.display()))
 }

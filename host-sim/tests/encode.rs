@@ -91,8 +91,8 @@ fn flat_pictures_come_back_exactly_in_at_most_40_bytes() {
             grey(&dir.join("in.png"), width, height, &data);
             good(dir, &["encode", "in.png", "-o", "out.atfi", "--psnr", "99", "--effort", "fast"]);
             assert!(fs::metadata(dir.join("out.atfi")).unwrap().len() <= 40, "{value}");
-            good(dir, &["decode", "out.atfi"]);
-            assert!(decode(&dir.join("out.png")).data == data, "{value}");
+            good(dir, &["decode", "out.atfi", "-o", "back.png"]);
+            assert!(decode(&dir.join("back.png")).data == data, "{value}");
         }
     }
 }
@@ -181,8 +181,8 @@ fn colour_palettes_transparency_and_16_bits_are_encoded() {
     let rgb: Vec<u8> = luma.iter().flat_map(|v| [*v, 255 - v, v / 2]).collect();
     png(&dir.join("rgb.png"), (w, h), png::ColorType::Rgb, png::BitDepth::Eight, &rgb);
     good(dir, &["encode", "rgb.png", "-o", "rgb.atfi", "--psnr", "36", "--full-chroma"]);
-    good(dir, &["decode", "rgb.atfi"]);
-    let back = decode(&dir.join("rgb.png"));
+    good(dir, &["decode", "rgb.atfi", "-o", "back.png"]);
+    let back = decode(&dir.join("back.png"));
     assert!(back.color == png::ColorType::Rgb && psnr(&rgb, &back.data) > 35.9);
     // colours that change from pixel to pixel are gone where chroma is halved
     let dots: Vec<u8> = (0..w * h).flat_map(|i| [255 * (i % 3 == 0) as u8, 128, (i * 77) as u8]).collect();
@@ -264,4 +264,23 @@ fn what_is_no_picture_or_no_stream_is_refused_by_name() {
     }
     refused(&["decode", "fine.atfi", "-o", "out.png", "--scale", "3"], &["--scale", "1/4"]);
     refused(&["decode", "fine.atfi", "-o", "out.png", "--sweeps", "2"], &["--sweeps", "one pass"]);
+}
+
+/// A stream lies beside the photograph that it was made of.
+#[test]
+fn a_picture_that_is_there_is_replaced_only_where_it_was_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let dir = directory.path();
+    grey(&dir.join("photo.png"), 9, 9, &scene(9, 9));
+    good(dir, &["encode", "photo.png", "-o", "photo.atfi", "--psnr", "30"]);
+    let photograph = fs::read(dir.join("photo.png")).unwrap();
+    let said = bad(dir, &["decode", "photo.atfi"]);
+    assert!(said.contains("photo.png: it is there already") && said.contains("-o FILE.png"), "{said}");
+    assert_eq!(fs::read(dir.join("photo.png")).unwrap(), photograph);
+    assert_eq!(fs::read_dir(dir).unwrap().count(), 2);
+    good(dir, &["decode", "photo.atfi", "-o", "photo.png"]);
+    assert_ne!(fs::read(dir.join("photo.png")).unwrap(), photograph);
+    fs::remove_file(dir.join("photo.png")).unwrap();
+    good(dir, &["decode", "photo.atfi"]);
+    assert_eq!(decode(&dir.join("photo.png")).size, (9, 9));
 }
