@@ -50,7 +50,9 @@ impl Format {
 pub(crate) fn run(args: &Brdf) -> Result<(), Fail> {
     let scene = scene::load(&args.scene)?;
     let formats = args.output.iter().map(|path| Format::of(path)).collect::<Result<Vec<_>, _>>()?;
-    args.output.iter().try_for_each(|path| output::check(path))?;
+    // a built-in scene is no file, whatever lies there under its name
+    let read = crate::builtin::find(&args.scene).is_none().then(|| Path::new(&args.scene));
+    args.output.iter().try_for_each(|path| output::check_beside(path, read))?;
     let bar = ProgressBar::new(3);
     // not a terminal: indicatif stays silent
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}") {

@@ -141,7 +141,7 @@ pub(crate) fn run(args: &Decode) -> Result<(), Fail> {
     if args.output.is_none() {
         output::vacant(&goal)?;
     }
-    output::check(&goal)?;
+    output::check_beside(&goal, [&*args.file])?;
     let picture = decoded(&bytes, args.scale, args.sweeps)
         .map_err(|error| Fail::new(format_args!("{}: {error}", args.file.display())))?;
     let png = match args.color {

@@ -25,6 +25,19 @@ pub(crate) fn check(path: &Path) -> Result<(), Fail> {
     }
 }
 
+/// The same, and whether it is another file than all that are read: written over one, it would be lost.
+pub(crate) fn check_beside<'a>(path: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Fail> {
+    // two devices, such as a terminal, may be one
+    let goal = path.canonicalize().ok().filter(|goal| goal.is_file());
+    let is_goal = |input: &&Path| goal.is_some() && input.canonicalize().ok() == goal;
+    if let Some(input) = inputs.into_iter().find(is_goal) {
+        let (path, input) = (path.display(), input.display());
+        let reason = format!("it is what is read, {input}, which would be lost: another name is needed");
+        return Err(Fail::new(format_args!("--output {path}: {reason}")));
+    }
+    check(path)
+}
+
 /// Whether nothing is there yet, of a name that nobody has given: what is there may be the only copy.
 pub(crate) fn vacant(path: &Path) -> Result<(), Fail> {
     match fs::symlink_metadata(path) {

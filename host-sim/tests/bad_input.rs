@@ -453,3 +453,36 @@ fn materials_and_filters_that_are_none_are_refused() {
     said.change(LATTICE, "samples = 2", "samples = 9");
     assert_snapshot!(said);
 }
+
+/// By whatever name.
+#[test]
+fn what_is_read_is_not_written_over() {
+    let directory = tempfile::tempdir().unwrap();
+    let dir = directory.path();
+    let picture = fs::File::create(dir.join("in.png")).unwrap();
+    let samples: Vec<u8> = (0..33 * 33).map(|k| (k % 33 * (k / 33) / 5) as u8).collect();
+    let mut encoder = png::Encoder::new(picture, 33, 33);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().unwrap().write_image_data(&samples).unwrap();
+    crate::common::good(dir, &["encode", "in.png", "-o", "in.atfi", "--psnr", "30"]);
+    fs::copy(dir.join("in.atfi"), dir.join("stream.png")).unwrap();
+    fs::write(dir.join("surface.toml"), SURFACE).unwrap();
+    fs::create_dir(dir.join("room")).unwrap();
+    let files = ["in.png", "in.atfi", "stream.png", "surface.toml"];
+    let read = || files.map(|name| fs::read(dir.join(name)).unwrap());
+    let before = read();
+    for args in [
+        &["encode", "in.png", "-o", "in.png", "--psnr", "30"][..],
+        &["encode", "in.png", "-o", "room/../in.png", "--psnr", "30"],
+        &["decode", "stream.png", "-o", "./stream.png"],
+        &["inspect", "stream.png", "-o", "stream.png"],
+        &["fit", "in.png", "--parameters", "70", "-o", "in.png"],
+        &["brdf", "surface.toml", "-o", "slopes.png", "-o", "surface.toml"],
+    ] {
+        let output = attractor_in(dir, args);
+        let said = text(&output.stderr);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{args:?}: {said}");
+        assert!(said.contains("it is what is read") && said.contains("--output "), "{args:?}: {said}");
+        assert_eq!((read(), fs::read_dir(dir).unwrap().count()), (before.clone(), 5), "{args:?}");
+    }
+}

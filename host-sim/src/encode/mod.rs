@@ -76,7 +76,7 @@ impl Plan {
 
 /// Reads a picture, encodes it and writes the stream.
 pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
-    output::check(&args.output)?;
+    output::check_beside(&args.output, [&*args.image])?;
     let still = Still::load(&args.image, args.ground)?;
     let pixels = f64::from(still.size.width) * f64::from(still.size.height);
     let target = match (args.bytes, args.bpp, args.psnr) {

@@ -115,7 +115,7 @@ pub(crate) fn run(args: &Fit) -> Result<(), Fail> {
     };
     let path = args.output.as_deref().unwrap_or(Path::new("-"));
     let (samples, least, range) = elevation.window(&name, window, args.voids)?;
-    output::check(path)?;
+    output::check_beside(path, [&*args.elevation])?;
     let report = fit(args, &samples)?;
     let text = scene(&report, &args.elevation, window, (least, range));
     output::write(path, text.as_bytes())?;
