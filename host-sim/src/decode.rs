@@ -138,8 +138,9 @@ pub(crate) fn run(args: &Decode) -> Result<(), Fail> {
     if scaled(header.size.width) * scaled(header.size.height) > MAX_PIXELS {
         return Err(Fail::new(format_args!("--scale: more than {MAX_PIXELS} pixels")));
     }
-    if args.output.is_none() {
-        output::vacant(&goal)?;
+    match &args.output {
+        Some(named) => output::check_png(named)?,
+        None => output::vacant(&goal)?,
     }
     output::check_beside(&goal, [&*args.file])?;
     let picture = decoded(&bytes, args.scale, args.sweeps)

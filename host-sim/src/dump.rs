@@ -146,11 +146,9 @@ fn goal(args: &Dump, scenes: &[Scene]) -> Result<Goal, Fail> {
             output::check(&output)?;
             return Ok(Goal::Files { paths: vec![output], _into: directory });
         }
-        (_, Some(false)) => return fail("it is a file; pictures are PNG files, whose names end in .png"),
+        (_, Some(false)) => return fail(&format!("it is a file; {}", output::PNG)),
         (Some(_), None) => {
-            return fail(&format!(
-                "pictures are PNG files, whose names end in .png; a new directory is {shown}/ with a slash"
-            ));
+            return fail(&format!("{}; a new directory is {shown}/ with a slash", output::PNG));
         }
         (None, None) => {}
     }

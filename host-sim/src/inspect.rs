@@ -99,6 +99,7 @@ pub(crate) fn run(args: &Inspect) -> Result<(), Fail> {
         if header.deep { leaves::<u16>(&bytes, &mut counter) } else { leaves::<u8>(&bytes, &mut counter) };
     let squares = squares.map_err(refused)?;
     if let Some(picture) = &args.output {
+        output::check_png(picture)?;
         output::check_beside(picture, [&*args.file])?;
         let still = decode::decoded(&bytes, 0, None).map_err(refused)?;
         let png = drawn(&still, &squares)

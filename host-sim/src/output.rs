@@ -38,6 +38,19 @@ pub(crate) fn check_beside<'a>(path: &Path, inputs: impl IntoIterator<Item = &'a
     check(path)
 }
 
+/// What is wrong with the name of another file.
+pub(crate) const PNG: &str = "pictures are PNG files, whose names end in .png";
+
+/// Whether a picture may have this name: that of a PNG file, or of a device or a pipe.
+pub(crate) fn check_png(path: &Path) -> Result<(), Fail> {
+    let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    // of a directory something else is said
+    if is_png || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        return Ok(());
+    }
+    Err(Fail::new(format_args!("--output {}: {PNG}", path.display())))
+}
+
 /// Whether nothing is there yet, of a name that nobody has given: what is there may be the only copy.
 pub(crate) fn vacant(path: &Path) -> Result<(), Fail> {
     match fs::symlink_metadata(path) {

@@ -284,3 +284,21 @@ fn a_picture_that_is_there_is_replaced_only_where_it_was_named() {
     good(dir, &["decode", "photo.atfi"]);
     assert_eq!(decode(&dir.join("photo.png")).size, (9, 9));
 }
+
+/// No other format is written: a name that says so would mislead.
+#[test]
+fn pictures_have_names_of_png_files() {
+    let directory = tempfile::tempdir().unwrap();
+    let dir = directory.path();
+    grey(&dir.join("in.png"), 9, 9, &scene(9, 9));
+    good(dir, &["encode", "in.png", "-o", "in.atfi", "--psnr", "30"]);
+    for command in ["decode", "inspect"] {
+        for name in ["out.jpg", "out", "-", "out.png.atfi"] {
+            let said = bad(dir, &[command, "in.atfi", "-o", name]);
+            assert!(said.contains(&format!("--output {name}: pictures are PNG files")), "{said}");
+        }
+        assert_eq!(fs::read_dir(dir).unwrap().count(), 2);
+        good(dir, &[command, "in.atfi", "-o", "out.PNG"]);
+        fs::remove_file(dir.join("out.PNG")).unwrap();
+    }
+}
