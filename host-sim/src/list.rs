@@ -2,7 +2,10 @@
 
 use std::io::Write as _;
 
+use clap::CommandFactory as _;
+
 use crate::builtin;
+use crate::cli::Cli;
 use crate::fail::Fail;
 use crate::scene;
 use crate::table;
@@ -53,19 +56,20 @@ Kinds of scene files (TOML); keys in brackets may be left out, every kind has [t
 Palettes: course-unit, grey, dusk, fire, ocean, moss, even, porcelain
 ";
 
-const COMMANDS: &str = "\
-Commands
-  attractor dump [SCENE...] [-o FILE.png|DIR|-] [--size WxH] [--color rgb565|rgb888|gray8|gray4|gray2|mono] [--scale N]
-  attractor sample SCENE --points N       the numbers as CSV, fixed point beside the f64 reference
-  attractor export SCENE [--gallery]      the scene as a Rust module of constants, for firmware
-  attractor brdf SCENE -o FILE.toml|.rs|.png  how a height field leans, as a material of a world, for firmware, as a picture
-  attractor accuracy [--csv]              errors measured beside the bounds promised
-  attractor dimension SCENE [--boundary]  the dimension of attractors, curves and graphs, theory beside it
-  attractor spectrum SCENE                the spectral exponent of graphs and random curves, theory beside it
-  attractor fit DEM.png --parameters N -o SCENE.toml   the surface by control points that is nearest to elevations
-  attractor window SCENE                  in a window (feature `window`)
-  attractor help COMMAND                  all options, with examples
-";
+/// What every command takes, what it does: the command line's own words, so that none is missing.
+fn commands() -> String {
+    let mut all = Cli::command();
+    // `help` among them, and their names with that of the program
+    all.build();
+    let mut text = "Commands\n".to_owned();
+    for command in all.get_subcommands_mut().filter(|command| command.get_name() != "help") {
+        let usage = command.render_usage().to_string();
+        let usage = usage.split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
+        let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+        text += &format!("  {usage}\n      {about}\n");
+    }
+    text + "  attractor help COMMAND\n      All options, with examples\n"
+}
 
 /// Prints all of it.
 pub(crate) fn run() -> Result<(), Fail> {
@@ -77,6 +81,6 @@ pub(crate) fn run() -> Result<(), Fail> {
     });
     let scenes = scenes.collect::<Result<Vec<_>, Fail>>()?;
     table::columns(scenes, 3).lines().try_for_each(|line| writeln!(out, "  {line}"))?;
-    write!(out, "\n{KINDS}\n{COMMANDS}")?;
+    write!(out, "\n{KINDS}\n{}", commands())?;
     Ok(())
 }

@@ -166,8 +166,18 @@ fn a_reader_that_leaves_is_no_error() {
 fn the_list_names_every_command_and_the_table_has_its_columns() {
     let list = good(Path::new("."), &["list"]);
     assert_eq!(list, good(Path::new("."), &[]));
-    for word in ["dump", "sample", "accuracy", "window", "figure-1-f", "mandelbrot", "fif-surface"] {
+    for word in ["figure-1-f", "mandelbrot", "fif-surface"] {
         assert!(list.contains(word), "{word}");
+    }
+    // the help has all that the command line knows
+    let help = good(Path::new("."), &["--help"]);
+    let names = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let names: Vec<&str> =
+        names.take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.len() > 13 && ["encode", "decode", "inspect"].iter().all(|name| names.contains(name)));
+    let commands = &list[list.find("\nCommands\n").unwrap()..];
+    for name in names {
+        assert!(commands.contains(&format!("\n  attractor {name}")), "{name}: {commands}");
     }
 }
 
