@@ -311,3 +311,19 @@ fn textures_that_cannot_be_are_refused() {
     said.scene(b"kind = \"texture\"\ncentre = [127, 0]\n[texture]\nkind = \"noise\"\n");
     assert_snapshot!(said);
 }
+
+/// The table of a scene of the kind `texture` is `[texture]`, without a name.
+#[test]
+fn the_one_texture_of_a_scene_has_no_name() {
+    let directory = tempfile::tempdir().unwrap();
+    for (keys, said) in [
+        ("colors = [\"#000000\"]", "texture.colors = ["),
+        ("colors = [\"#000000\", \"#ffffff\"]\nknots = [0]", "texture.knots = [0]: 1 knots for 2 colours"),
+        ("colors = [\"#000000\", \"#ffffff\"]\nknots = [1, 0]", "texture.knots = [1, 0]: knot 1 is not"),
+    ] {
+        let scene = format!("kind = \"texture\"\n[texture]\nkind = \"noise\"\n{keys}\n");
+        fs::write(directory.path().join("scene.toml"), scene).unwrap();
+        let complaint = bad(directory.path(), &["dump", "scene.toml", "-o", "out.png"]);
+        assert!(complaint.contains(&format!(": {said}")), "{keys}: {complaint}");
+    }
+}

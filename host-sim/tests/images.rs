@@ -99,6 +99,8 @@ fn an_image_that_cannot_be_is_refused_by_file_key_and_value() {
         ("file = \"damaged.atfi\"", "scene.toml:2: file = \"damaged.atfi\": this image is damaged"),
         ("file = 7", "scene.toml:2: "),
         ("file = \"a.atfi\"\nsweeps = 1", "scene.toml:3: sweeps = 1: this stream is decoded in one pass"),
+        ("file = \"b.atfi\"\nsweeps = \"2\"", "scene.toml:3: sweeps are a whole number, 0 to 8"),
+        ("file = \"b.atfi\"\nsweeps = 1.5", "or several that grow: [0, 1, 2, 3, 4]"),
         ("file = \"b.atfi\"\nsweeps = 9", "scene.toml:3: sweeps = 9: allowed is 0 to 8"),
         ("file = \"b.atfi\"\nsweeps = -1", "scene.toml:3: sweeps = -1: allowed is 0 to 8"),
         ("file = \"b.atfi\"\nsweeps = []", "scene.toml:3: sweeps = []: allowed is 0 to 8"),

@@ -38,7 +38,7 @@ struct File {
 
 /// One frame or several.
 #[derive(Debug, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "sweeps are a whole number, 0 to 8, or several that grow: [0, 1, 2, 3, 4]")]
 enum Sweeps {
     One(i64),
     Several(Vec<i64>),

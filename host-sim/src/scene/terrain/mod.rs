@@ -400,13 +400,13 @@ fn knots(source: &Source, file: &File) -> Result<(u32, Vec<Real>, Place), Fail> 
 
 /// What the file says, or else the data.
 fn roughness(source: &Source, file: &File, columns: u32, knots: &[Real]) -> Result<(Unit, Unit), Fail> {
-    let given = |number: &Option<Num>, key: &str, usual: f64, most: Unit| match number {
+    let given = |number: &Option<Num>, key: &str, usual: f64, (most, named): (Unit, &str)| match number {
         None => Ok(Unit::from_num(usual)),
         Some(number) => source
             .fixed::<Unit>(number, key)
             .ok()
             .filter(|part| *part >= 0 && *part <= most)
-            .ok_or_else(|| source.fail(number.span(), key, format!("allowed is 0 to {most:.0}"))),
+            .ok_or_else(|| source.fail(number.span(), key, format!("allowed is 0 to {named}"))),
     };
     let (mut offset, mut similarity) = (0.25, 0.9);
     if let Some(table) =
@@ -429,8 +429,8 @@ fn roughness(source: &Source, file: &File, columns: u32, knots: &[Real]) -> Resu
         source.note(table.span(), "elevation", &what);
     }
     Ok((
-        given(&file.offset, "offset", offset, Unit::MAX)?,
-        given(&file.similarity, "similarity", similarity, Unit::ONE)?,
+        given(&file.offset, "offset", offset, (Unit::MAX, "just below 2"))?,
+        given(&file.similarity, "similarity", similarity, (Unit::ONE, "1"))?,
     ))
 }
 

@@ -333,7 +333,10 @@ impl Pattern {
             if let Some(points) = &given.points {
                 return source.fail(points.span(), &reader.key("points"), error);
             }
-            let colors = given.knots.as_ref().map(Spanned::span).or(given.colors.as_ref().map(Spanned::span));
+            let colors = match (&given.knots, &given.colors) {
+                (Some(knots), _) => Some((knots.span(), "knots")),
+                (None, colors) => colors.as_ref().map(|colors| (colors.span(), "colors")),
+            };
             match (error, colors) {
                 (Error::OutOfRange { what, .. }, _) if what.starts_with("octaves") => {
                     let octaves = given.octaves.as_ref().map_or(span, Spanned::span);
@@ -343,8 +346,8 @@ impl Pattern {
                     let rows = given.u.as_ref().or(given.v.as_ref()).map_or(span, Spanned::span);
                     source.fail(rows, &reader.key("u"), error)
                 }
-                (_, Some(colors)) => source.fail(colors, &reader.key("colors"), error),
-                (_, None) => source.fail(span, &format!("texture.{name}"), error),
+                (_, Some((span, key))) => source.fail(span, &reader.key(key), error),
+                (_, None) => source.fail(span, &reader.table(), error),
             }
         })?;
         Ok(pattern)
@@ -359,8 +362,13 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
+    /// The table as the file has it: the one texture of a scene of that kind has no name.
+    fn table(&self) -> String {
+        if self.name.is_empty() { "texture".to_owned() } else { format!("texture.{}", self.name) }
+    }
+
     fn key(&self, name: &str) -> String {
-        format!("texture.{}.{name}", self.name)
+        format!("{}.{name}", self.table())
     }
 
     fn real(&self, number: &Option<Num>, name: &str, usual: Real) -> Result<Real, Fail> {
