@@ -74,6 +74,11 @@ fn orders_and_bases_beyond_the_room_are_refused() {
         said.change(CURVE, "order = 3", &format!("order = {order}"));
         said.change(COPIER, "[0, 2]", &format!("[0, {order}]"));
     }
+    // the middle of the one square is a place, no line
+    for curve in ["hilbert", "peano"] {
+        let good = format!("kind = \"curve\"\ncurve = \"{curve}\"\norder = 1\n");
+        said.change(&good, "order = 1", "order = 0");
+    }
     said.change(CURVE, "order = 3\n", "");
     said.change(CURVE, "base = [[0, 0], [1, 0]]", "base = [[0, 0], [0, 0]]");
     said.change(CURVE, "base = [[0, 0], [1, 0]]", "base = [[0, 0]]");

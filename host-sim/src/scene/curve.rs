@@ -229,10 +229,15 @@ fn checked_order(
 ) -> Result<u32, Fail> {
     let fits = |order: &u32| points(generator, base, *order) <= u64::from(MAX_POINTS);
     let most = (0..=DEPTH as u32).take_while(fits).last().unwrap_or(0);
+    // a curve through the middles of squares has but one of them at order 0: a place, no line; what the
+    // kernel says against the base is said later
+    let path = generator.refined::<DEPTH>(base, 0);
+    let least = u32::from(path.is_ok_and(|path| path.take(2).count() < 2));
     match u32::try_from(*order.get_ref()) {
-        Ok(n) if n <= most => Ok(n),
+        Ok(n) if (least..=most).contains(&n) => Ok(n),
         _ => {
-            let reason = format!("allowed is 0 to {most} for this generator: at most {MAX_POINTS} points");
+            let reason =
+                format!("allowed is {least} to {most} for this generator: at most {MAX_POINTS} points");
             Err(source.fail(order.span(), "order", reason))
         }
     }
