@@ -211,3 +211,27 @@ fn a_file_gets_ordinary_permissions_and_replaces_the_one_before() {
     decode(&directory.path().join("a.png"));
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2);
 }
+
+/// Maps that hardly contract add up what bounds are rounded by; none of that is seen.
+#[test]
+fn a_constant_is_a_line_whatever_its_scalings() {
+    let directory = tempfile::tempdir().unwrap();
+    let drawn = |scaling: &str| {
+        let scene = format!(
+            "kind = \"fif-curve\"\nknots = [[0, 5], [1, 5], [2, 5]]\nvertical_scaling = [{scaling}, {scaling}]\n"
+        );
+        fs::write(directory.path().join("scene.toml"), scene).unwrap();
+        good(directory.path(), &["dump", "scene.toml", "-o", "out.png"]);
+        decode(&directory.path().join("out.png"))
+    };
+    for scaling in ["0", "0.5", "-0.5", "0.9", "-0.9", "0.99", "0.9999"] {
+        let picture = drawn(scaling);
+        // beside the middle, where a knot is marked: paper, the line, which is brightest, the ground below it
+        let pixel = |y: usize| &picture.data[3 * (240 * y + 150)..][..3];
+        let rows: Vec<usize> = (0..240).filter(|y| pixel(*y)[1] > 150).collect();
+        assert!(
+            (1..=2).contains(&rows.len()) && rows.iter().all(|y| y.abs_diff(120) < 3),
+            "{scaling}: {rows:?}"
+        );
+    }
+}

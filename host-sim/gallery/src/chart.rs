@@ -173,11 +173,24 @@ fn range<const N: usize, const D: usize>(
     if max < 0 && -max <= quarter {
         max = Real::ZERO;
     }
+    if let Some(y) = constant(fif) {
+        let around = (y.saturating_sub(Real::ONE), y.saturating_add(Real::ONE));
+        return Ok((around, extremes.map(|p| Point2::new(p.x, y))));
+    }
     if max.saturating_sub(min) < Real::DELTA * 16 {
         // a constant, whose bounds are rounded outward
         (min, max) = (min.saturating_sub(Real::ONE), max.saturating_add(Real::ONE));
     }
     Ok(((min, max), extremes))
+}
+
+/// The value of a function all of whose knots are at one height, joined by polynomials of degree 1 at most.
+/// Its bounds are no narrower than what maps that hardly contract make of their rounding.
+fn constant<const N: usize, const D: usize>(fif: &Fif<N, D>) -> Option<Real> {
+    let first = fif.knots().next()?.y;
+    let is_level = |y: Wide| y.saturating_sub(first).saturating_abs() <= Wide::DELTA * (1 << 12);
+    let is_constant = fif.degree() <= 1 && fif.knots().all(|knot| is_level(knot.y));
+    is_constant.then(|| Real::saturating_from_num(first))
 }
 
 /// Where an abscissa lies between the ends of the domain.
