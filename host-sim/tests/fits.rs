@@ -127,6 +127,27 @@ fn a_fit_that_does_not_improve_writes_nothing() {
     good(at, &["fit", "moved.png", "--model", "tensor", "--parameters", "17", "-o", "out.toml"]);
 }
 
+/// A plane is where every start is already, but for what heights beyond the samples are drawn by.
+#[test]
+fn a_plane_is_fitted_by_where_one_starts() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    picture(&at.join("tilt.png"), [33, 33], png::BitDepth::Sixteen, |x, _| (1000 + 20 * x) as u16);
+    picture(&at.join("ramp.png"), [33, 33], png::BitDepth::Sixteen, |x, y| (x + 33 * y) as u16);
+    let psnr = |printed: &str| -> f64 {
+        printed.lines().nth(1).unwrap().split_whitespace().nth(6).unwrap().parse().unwrap()
+    };
+    for name in ["tilt.png", "ramp.png"] {
+        let printed = good(at, &["fit", name, "--parameters", "142", "-o", "out.toml"]);
+        assert!(psnr(&printed) > 90.0, "{printed}");
+        good(at, &["dump", "out.toml", "-o", "out.png", "--size", "60x60"]);
+    }
+    let tensor = ["fit", "tilt.png", "--model", "tensor", "--parameters", "200", "-o", "exact.toml"];
+    let printed = good(at, &tensor);
+    assert!(psnr(&printed) == f64::INFINITY, "{printed}");
+    good(at, &["dump", "exact.toml", "-o", "exact.png", "--size", "60x60"]);
+}
+
 /// Scenes of curves and surfaces that are none.
 #[test]
 fn control_points_that_make_nothing_are_refused() {

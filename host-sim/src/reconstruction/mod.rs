@@ -116,7 +116,7 @@ pub(crate) fn run(args: &Fit) -> Result<(), Fail> {
     let path = args.output.as_deref().unwrap_or(Path::new("-"));
     let (samples, least, range) = elevation.window(&name, window, args.voids)?;
     output::check_beside(path, [&*args.elevation])?;
-    let report = fit(args, &samples)?;
+    let report = fit(args, &samples, range)?;
     let text = scene(&report, &args.elevation, window, (least, range));
     output::write(path, text.as_bytes())?;
     let mut out = stdout().lock();
@@ -136,8 +136,8 @@ fn tiles(args: &Fit, elevation: &Elevation, side: usize) -> Result<(), Fail> {
     let (mut rows, mut won, mut cubic) = (vec![head()], 0, 0);
     for at in along(elevation.rows) {
         for column in along(elevation.columns) {
-            let (samples, ..) = elevation.window(&name, [at, column, side], args.voids)?;
-            let report = fit(args, &samples)?;
+            let (samples, _, range) = elevation.window(&name, [at, column, side], args.voids)?;
+            let report = fit(args, &samples, range)?;
             let beats = |psnr: Option<f64>| psnr.is_none_or(|psnr| report.psnr > psnr);
             won += u32::from(report.splines.iter().all(|psnr| beats(*psnr)));
             cubic += u32::from(beats(report.splines[2]));
@@ -228,8 +228,8 @@ fn model(args: &Fit, side: usize) -> Result<Model, Fail> {
     Ok(Model { family, cells, levels: (spans / cells).ilog2(), tether: family.tether() })
 }
 
-/// The best of all starts.
-fn fit(args: &Fit, samples: &Samples) -> Result<Report, Fail> {
+/// The best of all starts, or a start itself. The range is that of the file's whole numbers.
+fn fit(args: &Fit, samples: &Samples, range: f64) -> Result<Report, Fail> {
     let model = model(args, samples.side)?;
     let begun = Instant::now();
     // not a terminal: indicatif stays silent
@@ -238,6 +238,7 @@ fn fit(args: &Fit, samples: &Samples) -> Result<Report, Fail> {
     );
     let starts = model.family.starts();
     let (mut best, mut before): (Option<Fitted>, f64) = (None, f64::INFINITY);
+    let mut nearest = None;
     for (number, start) in starts.iter().enumerate() {
         let mut first = None;
         let fitted = model.fit(samples, start, STEPS, |step, error| {
@@ -246,7 +247,9 @@ fn fit(args: &Fit, samples: &Samples) -> Result<Report, Fail> {
             bar.set_message(format!("start {number} of {count}, step {step}: {:.2} dB", samples.psnr(error)));
             bar.tick();
         });
-        before = before.min(first.unwrap_or(f64::INFINITY));
+        if let Some(first) = first.filter(|first| *first < before) {
+            (before, nearest) = (first, Some(start));
+        }
         if let Some(fitted) = fitted.filter(|fitted| model.is_one(&fitted.numbers, &fitted.heights)) {
             if best.as_ref().is_none_or(|best| fitted.error < best.error) {
                 best = Some(fitted);
@@ -254,10 +257,15 @@ fn fit(args: &Fit, samples: &Samples) -> Result<Report, Fail> {
         }
     }
     bar.finish_and_clear();
-    let exact = 1e-12 * samples.values.len() as f64;
+    // what rounding to whole numbers makes of any surface
+    let rounding = samples.values.len() as f64 * (1.0 / (12.0 * range * range)).max(1e-12);
     // less than a millionth is what rounding does
-    let improves = |error: f64| error < before * (1.0 - 1e-6) || error < exact;
-    let best = best.filter(|best| improves(best.error));
+    let improves = |fitted: &Fitted| fitted.error < before * (1.0 - 1e-6) || fitted.error < rounding;
+    // a plane is where one starts
+    let start = nearest.and_then(|start| model.fit(samples, start, 0, |_, _| ()));
+    let start = start.filter(|start| model.is_one(&start.numbers, &start.heights));
+    let all = best.into_iter().chain(start).filter(improves);
+    let best = all.min_by(|a, b| a.error.total_cmp(&b.error));
     let Some(best) = best else {
         return Err(Fail::new(
             "the fit does not improve: no step from any start lessened the error; nothing is written",

@@ -27,9 +27,10 @@ pub(crate) struct Samples {
 
 impl Samples {
     /// The peak signal to noise ratio of something else, in decibels; the peak is the range of these.
+    /// Infinite without an error.
     pub(crate) fn psnr(&self, squared_error: f64) -> f64 {
         let range = self.range();
-        10.0 * (range * range * self.values.len() as f64 / squared_error.max(1e-300)).log10()
+        10.0 * (range * range * self.values.len() as f64 / squared_error).log10()
     }
 
     /// The greatest value less the least.
