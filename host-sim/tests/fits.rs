@@ -148,6 +148,26 @@ fn a_plane_is_fitted_by_where_one_starts() {
     good(at, &["dump", "exact.toml", "-o", "exact.png", "--size", "60x60"]);
 }
 
+/// Samples without any order: beside them the heights of a lattice leave what is drawn.
+#[test]
+fn a_fit_that_cannot_be_drawn_is_not_written() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    let noise = |x: u32, y: u32| {
+        let hash = (x * 374_761 + y * 66_826 + 1).wrapping_mul(0x9e37_79b9).rotate_left(13);
+        (hash.wrapping_mul(0x85eb_ca6b) >> 17) as u16
+    };
+    picture(&at.join("noise.png"), [33, 33], png::BitDepth::Sixteen, noise);
+    let args = ["fit", "noise.png", "--parameters", "142", "-o", "out.toml"];
+    let said = bad(at, &args);
+    assert!(
+        said.contains("no scene that can be drawn, and is not written: out.toml:")
+            && said.contains("heights = "),
+        "{said}"
+    );
+    assert!(said.contains("must lie between") && !at.join("out.toml").exists(), "{said}");
+}
+
 /// Scenes of curves and surfaces that are none.
 #[test]
 fn control_points_that_make_nothing_are_refused() {

@@ -118,6 +118,13 @@ pub(crate) fn run(args: &Fit) -> Result<(), Fail> {
     output::check_beside(path, [&*args.elevation])?;
     let report = fit(args, &samples, range)?;
     let text = scene(&report, &args.elevation, window, (least, range));
+    crate::scene::check(path, &text).map_err(|fail| match fail {
+        Fail::Message(reason) => {
+            let what = "the fit is no scene that can be drawn, and is not written";
+            Fail::new(format_args!("{name}: {what}: {reason}"))
+        }
+        pipe => pipe,
+    })?;
     output::write(path, text.as_bytes())?;
     let mut out = stdout().lock();
     writeln!(out, "{}", columns::columns([head(), row("", &report)], 1))?;

@@ -154,6 +154,12 @@ pub(crate) fn load(scene: &str) -> Result<Scene, Fail> {
     compile(name, &Source::read(path)?)
 }
 
+/// Whether a text that is written to this path will be a scene.
+pub(crate) fn check(path: &Path, text: &str) -> Result<(), Fail> {
+    let source = Source::named(path.display().to_string(), text.to_owned());
+    compile(String::new(), &source).map(drop)
+}
+
 fn compile(name: String, source: &Source) -> Result<Scene, Fail> {
     let head: Head = source.parse()?;
     let Some(named) = head.kind else {
