@@ -121,7 +121,7 @@ fn an_image_that_cannot_be_is_refused_by_file_key_and_value() {
         }
         tried += 1;
     }
-    assert_eq!(tried, 22);
+    assert_eq!(tried, 24);
     good(here, &["decode", "a.atfi", "-o", "still.png"]);
     fs::write(here.join("scene.toml"), "kind = \"image\"\nfile = \"still.png\"\nsweeps = 1\n").unwrap();
     assert!(bad(here, &["dump", "scene.toml"]).contains("sweeps = 1: a PNG file has none"));

@@ -172,8 +172,10 @@ fn the_list_names_every_command_and_the_table_has_its_columns() {
     // the help has all that the command line knows
     let help = good(Path::new("."), &["--help"]);
     let names = help.lines().skip_while(|line| *line != "Commands:").skip(1);
-    let names: Vec<&str> =
-        names.take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next()).collect();
+    // what a command does may go on in lines that stand further in
+    let is_named = |line: &str| line.strip_prefix("  ").is_some_and(|rest| !rest.starts_with(' '));
+    let names = names.take_while(|line| !line.is_empty()).filter(|line| is_named(line));
+    let names: Vec<&str> = names.filter_map(|line| line.split_whitespace().next()).collect();
     assert!(names.len() > 13 && ["encode", "decode", "inspect"].iter().all(|name| names.contains(name)));
     let commands = &list[list.find("\nCommands\n").unwrap()..];
     for name in names {
