@@ -12,7 +12,7 @@ use heapless::Vec;
 
 use super::function::{Fif, POWERS};
 use super::map::Map;
-use super::polynomial::{Polynomial, product_q55, twice_high};
+use super::polynomial::{Polynomial, length_of, product_q55, twice_high};
 use super::value::{ONE_UQ63, in_range, value};
 use crate::Error;
 use crate::num::{Wide, mul_high_u, nth, quotient};
@@ -82,7 +82,7 @@ impl<const N: usize, const D: usize> Fif<N, D> {
             }
             let scaling = quotient(map.scaling, 63, map.width);
             // 1 / (w a_j); w a_j with 48 fractional bits
-            let length = mul_high_u(self.width, map.width) << 1;
+            let length = length_of(self.width, map.width);
             let per_length = |c: i64| quotient(c, 48, length);
             let slope = map.q.derivative();
             let mut q = Polynomial::<E>::ZERO;
@@ -222,6 +222,30 @@ mod tests {
         assert!(flat.integral::<1>(Wide::ZERO).is_ok() && flat.derivative::<0>().is_ok());
         let far = flat.integral::<1>(Wide::from_num(128)).unwrap_err();
         assert!(matches!(far, Error::OutOfRange { what: "initial value", .. }));
+    }
+
+    /// In a domain of few units the last one counts.
+    #[test]
+    fn lengths_of_parts_have_all_of_their_bits() {
+        for (width, part, length) in [
+            (6, ONE_UQ63 / 2, 3),
+            (7, ONE_UQ63, 7),
+            (u64::MAX, ONE_UQ63, u64::MAX),
+            (u64::MAX, ONE_UQ63 / 2, u64::MAX / 2),
+            (3 << 48, ONE_UQ63 / 4, 3 << 46),
+        ] {
+            assert_eq!(length_of(width, part), length, "{width} {part}");
+        }
+        for half in [3, 5, 101] {
+            let knots =
+                [0, half, 2 * half].map(|bits| Knot::new(Wide::from_bits(bits), Wide::from_bits(bits)));
+            let line = Fif::<2, 1>::interpolating(&knots, &[Scaling::ZERO; 2]).unwrap();
+            let slope = line.derivative::<1>().unwrap();
+            for bits in [0, half / 2, half, 2 * half] {
+                let off = slope.at_wide(Wide::from_bits(bits)) - Wide::ONE;
+                assert!(off.abs() < 1e-6, "{bits} of {half}: {off:?}");
+            }
+        }
     }
 
     #[test]

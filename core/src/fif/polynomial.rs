@@ -61,7 +61,14 @@ pub(crate) fn part_of(a: u64, b: u64) -> u64 {
     mul_high_u(a << 1, b)
 }
 
-/// The same in the chaos game. The widths of a dyadic partition have few digits: half of the products are
+/// The length of a part of a domain of this width, in the bits of the width; the whole is a part too. Error:
+/// below a unit, downwards (`lengths_of_parts_have_all_of_their_bits`).
+#[inline(never)]
+pub(super) fn length_of(width: u64, part: u64) -> u64 {
+    if part == ONE_UQ63 { width } else { part_of(part, width) }
+}
+
+/// The same as [`part_of`] in the chaos game. The widths of a dyadic partition have few digits: half of the products are
 /// spared.
 #[inline(always)]
 pub(crate) fn part_by_width(a: u64, width: u64) -> u64 {

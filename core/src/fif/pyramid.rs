@@ -12,10 +12,10 @@
 
 use super::function::Fif;
 use super::map::Map;
-use super::polynomial::{Polynomial, part_of, twice_high};
+use super::polynomial::{Polynomial, length_of, part_of, twice_high};
 use super::value::{FRACTION_Q55, ONE_UQ63, real_above, real_below};
 use crate::Error;
-use crate::num::{Real, mul_high, mul_high_u, quotient, real_from};
+use crate::num::{Real, mul_high, quotient, real_from};
 
 /// A function above one of its cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -337,7 +337,7 @@ struct Slopes<const D: usize> {
 
 impl<const D: usize> Slopes<D> {
     fn of(width: u64, map: &Map<D>) -> Self {
-        let length = mul_high_u(width, map.width) << 1; // 48 fractional bits
+        let length = length_of(width, map.width); // 48 fractional bits
         let per_length = |c: i64| {
             // 55 + 48 - 48 = 55 bits; 32 are taken off, 4 of them before the product with a power
             quotient(c, 32, length).clamp(-(1 << 58), 1 << 58)

@@ -14,14 +14,14 @@ use core::num::NonZeroU32;
 use super::above;
 use super::ended::Ended;
 use super::function::Fif;
-use super::polynomial::product_q55;
+use super::polynomial::{length_of, product_q55};
 use super::pyramid::Pyramid;
 use super::value::FRACTION_Q55;
 use super::variance::FRACTION_OF_SQUARES;
 use crate::Error;
 use crate::num::formats::{Q21, Q22, Q24};
 use crate::num::{
-    Real, Wide, high, mul_high, mul_high_u, product, product_u, product_within, quotient, ratio, real_from,
+    Real, Wide, high, mul_high, product, product_u, product_within, quotient, ratio, real_from,
     reciprocal_of, sqrt,
 };
 
@@ -230,7 +230,7 @@ impl<'a> Sums<'a> {
         let mut extra = [0; 2];
         above::walk(fif, depth, |level, cell| {
             // rise over length, which is short of 2^63 / 2^16 of the domain
-            let length = mul_high_u(fif.width, cell.width) << 1;
+            let length = length_of(fif.width, cell.width);
             let [first, last] = cell.ends;
             let slope = quotient(last.saturating_sub(first), 48, length.max(1));
             let squares = mul_high(slope, slope).saturating_add(cell.slope.variance);
