@@ -68,8 +68,8 @@ pub(super) fn length_of(width: u64, part: u64) -> u64 {
     if part == ONE_UQ63 { width } else { part_of(part, width) }
 }
 
-/// The same as [`part_of`] in the chaos game. The widths of a dyadic partition have few digits: half of the products are
-/// spared.
+/// The same as [`part_of`] in the chaos game. The widths of a dyadic partition have few digits: half of the
+/// products are spared.
 #[inline(always)]
 pub(crate) fn part_by_width(a: u64, width: u64) -> u64 {
     if width as u32 != 0 {

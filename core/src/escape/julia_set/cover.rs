@@ -291,7 +291,8 @@ impl Field for JuliaCover {
 }
 
 /// The counts of a row, from left to right. Runs of 8 or 9 pixels are decided together where the set is far
-/// for certain: each pixel has the count that it has by itself (`a_row_is_what_its_pixels_are_by_themselves`).
+/// for certain: each pixel has the count that it has by itself
+/// (`a_row_is_what_its_pixels_are_by_themselves`).
 struct JuliaCoverRow<'a> {
     cover: &'a JuliaCover,
     y: u32,
