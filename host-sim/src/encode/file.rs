@@ -8,6 +8,7 @@ use attractor::codec::{Header, Planes, Profile, Sample, Step};
 use embedded_graphics::geometry::Size;
 
 use super::cosine::Cosine;
+use super::finest::{finest, without_levels};
 use super::partition::{Partition, Target, Without};
 use super::quality::decibels;
 use super::range_encoder::{Counts, Prices, RangeEncoder};
@@ -112,6 +113,18 @@ impl<'a> Source<'a> {
         this.originals =
             this.shapes(Step::MAX).iter().zip(values).map(|(shape, plane)| samples(shape, plane)).collect();
         this
+    }
+
+    /// The finest step at which finer ones are still better.
+    pub(super) fn finest(&self) -> u16 {
+        let Without { transform, split, .. } = self.plan.without;
+        match &self.originals[..] {
+            _ if !self.deep => 0,
+            [original, ..] if !transform && self.plan.profile != Profile::Pure => {
+                finest(original, if split { 3 } else { 2 }, &self.cosine)
+            }
+            _ => without_levels(),
+        }
     }
 
     fn header(&self, step: Step, payload: u32) -> Header {

@@ -121,7 +121,7 @@ mod tests {
             bytes += 1000.0 * (-0.003 * f64::from(step)).exp() * dearer * grain;
         }
         starts.push((BANDS * ROWS, bytes as usize));
-        let encoded = Encoded { bytes: vec![0; bytes as usize], psnr: 8.0 * bytes.ln(), step };
+        let encoded = Encoded { bytes: vec![0; bytes as usize], psnr: 8.0 * bytes.ln(), step, finest: false };
         Trial { encoded, pools: Vec::new(), counts: [[0; 2]; MODELS], starts }
     }
 
@@ -131,7 +131,7 @@ mod tests {
         let target = Target::Bytes(bytes);
         let encode = |at: At<'_>, _: Known<'_>| Ok::<_, Error>(encoded(picture, at));
         let mut said = |_: &Encoded| {};
-        let mut trials = Trials::new(encode, (target, Effort::BEST), &[], [[0; 2]; MODELS], &mut said);
+        let mut trials = Trials::new(encode, (target, Effort::BEST), 0, &[], [[0; 2]; MODELS], &mut said);
         // as the steps before leave it: one is off by up to 3 per cent, one is allowed
         let near = -(bytes / 8000.0).ln() / 0.003 + (picture % 21) as f64 - 10.0;
         trials.round(&[near, near + 25.0].map(|step| (step as u16, Vec::new()))).unwrap();

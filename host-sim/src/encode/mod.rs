@@ -4,6 +4,7 @@ mod bins;
 mod cosine;
 mod file;
 mod fill;
+mod finest;
 mod partition;
 mod polish;
 mod quality;
@@ -121,11 +122,17 @@ pub(crate) fn run(args: &Encode) -> Result<(), Fail> {
             "{} bytes are too few: the smallest file of this picture has {length}",
             bytes as u64
         )),
-        Target::Bytes(bytes) if (length as f64) < 0.99 * bytes - 1.0 && best.step == 0 => {
+        Target::Bytes(bytes) if (length as f64) < 0.99 * bytes - 1.0 && best.psnr.is_infinite() => {
+            say(&format!(
+                "{} bytes are more than the picture takes: with {length} it is exact",
+                bytes as u64
+            ));
+        }
+        Target::Bytes(bytes) if (length as f64) < 0.99 * bytes - 1.0 && best.finest => {
             say(&format!("{} bytes are more than the finest step takes: {length}", bytes as u64));
         }
         Target::Bytes(bytes) if (length as f64) < 0.99 * bytes - 1.0 => {
-            say(&format!("{} bytes are not met: the nearest file below has {length}", bytes as u64));
+            say(&format!("{} bytes are not met: the best file below has {length}", bytes as u64));
         }
         Target::Decibels(decibels) if best.psnr < decibels => {
             // what is lost with three quarters of the chroma no step brings back

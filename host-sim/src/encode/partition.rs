@@ -11,6 +11,7 @@ use attractor::codec::{Profile, Sample};
 
 use super::bins::Bins;
 use super::cosine::{Coefficients, Cosine};
+use super::finest::MOST;
 use super::polish::Polish;
 use super::quantise::Quantiser;
 use super::range_encoder::{Cost, Counts, Prices, RangeEncoder, Rates};
@@ -317,7 +318,8 @@ impl<S: Sample> Partition<'_, '_, S> {
         target.energy = values.iter().map(|value| value * value).sum();
         self.cosine.forward(size, values, &mut target.coefficients);
         target.off = mean - self.plane.expected(x, y, size) as f32 / 128.0;
-        target.mean = (target.off * n as f32 / self.step).round() as i32;
+        // of 16 bits that of a large square may be further off than can be said
+        target.mean = (target.off * n as f32 / self.step).round().clamp(-MOST, MOST) as i32;
     }
 
     /// Sets a leaf's mean and levels, whose domain is known, and tells its cost.

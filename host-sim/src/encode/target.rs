@@ -13,7 +13,14 @@ pub(crate) struct Encoded {
     pub(crate) bytes: Vec<u8>,
     pub(crate) psnr: f64,
     pub(crate) step: u16,
+    /// Whether no step of this picture is finer.
+    pub(crate) finest: bool,
 }
+
+/// What decibels without any error count as, and more than there are with one.
+pub(super) const LOSSLESS: f64 = 200.0;
+/// So many decibels more are worth bytes that are left.
+const MORE: f64 = 0.1;
 
 impl Target {
     /// How far an encoding of so many bytes and decibels is on the wrong side: above 0 if the step is too
@@ -21,7 +28,7 @@ impl Target {
     pub(super) fn miss(self, bytes: f64, psnr: f64) -> f64 {
         match self {
             Self::Bytes(target) => (bytes / target).ln(),
-            Self::Decibels(decibels) => (psnr - decibels) * 0.12,
+            Self::Decibels(decibels) => (psnr.min(LOSSLESS) - decibels) * 0.12,
         }
     }
 
@@ -54,17 +61,54 @@ impl Target {
         }
     }
 
-    /// Of those that are allowed and within 1 per cent the one of most decibels, or of least bytes; else the
-    /// nearest that is allowed, or the nearest of all.
+    /// Of bytes: of those that are allowed and within 1 per cent the one of most decibels, or one of fewer
+    /// bytes that is clearly better; else the smallest of all. Of decibels: the smallest that is allowed, or else
+    /// the one of most decibels.
     pub(super) fn best(self, tried: &[Encoded]) -> Option<&Encoded> {
-        let off = |e: &Encoded| self.missed(e).abs();
-        let worth = |e: &Encoded| match self {
-            Self::Bytes(_) => e.psnr,
-            Self::Decibels(_) => -(e.bytes.len() as f64),
-        };
         let allowed = || tried.iter().filter(|e| self.allows(e));
-        let closest = |a: &&Encoded, b: &&Encoded| off(a).total_cmp(&off(b));
-        let best = allowed().filter(|e| off(e) < 0.01).max_by(|a, b| worth(a).total_cmp(&worth(b)));
-        best.or_else(|| allowed().min_by(closest)).or_else(|| tried.iter().min_by(closest))
+        let smaller = |a: &&Encoded, b: &&Encoded| b.bytes.len().cmp(&a.bytes.len());
+        let better = |a: &&Encoded, b: &&Encoded| a.psnr.total_cmp(&b.psnr).then_with(|| smaller(a, b));
+        let small = |a: &&Encoded, b: &&Encoded| smaller(a, b).then_with(|| a.psnr.total_cmp(&b.psnr));
+        match self {
+            Self::Bytes(_) => {
+                let full = allowed().filter(|e| self.missed(e) > -0.01).max_by(better);
+                let best = allowed().max_by(better);
+                let best = best.filter(|best| full.is_none_or(|full| best.psnr > full.psnr + MORE));
+                best.or(full).or_else(|| tried.iter().max_by(small))
+            }
+            Self::Decibels(_) => allowed().max_by(small).or_else(|| tried.iter().max_by(better)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_is_what_is_asked_for_and_not_what_comes_near_it() {
+        let of = |target: Target, tried: &[(usize, f64)]| {
+            let tried: Vec<_> = tried
+                .iter()
+                .map(|(length, psnr)| Encoded {
+                    bytes: vec![0; *length],
+                    psnr: *psnr,
+                    step: 0,
+                    finest: false,
+                })
+                .collect();
+            target.best(&tried).map(|best| (best.bytes.len(), best.psnr)).unwrap()
+        };
+        let bytes = Target::Bytes(1000.0);
+        assert_eq!(of(bytes, &[(995, 40.0), (998, 40.1), (1001, 41.0), (980, 40.15)]), (998, 40.1));
+        assert_eq!(of(bytes, &[(900, 29.0), (500, 88.0), (520, 88.0), (1001, 99.0)]), (500, 88.0));
+        assert_eq!(of(bytes, &[(995, 29.0), (500, 88.0), (22, f64::INFINITY)]), (22, f64::INFINITY));
+        assert_eq!(of(bytes, &[(1200, 40.0), (1100, 39.0)]), (1100, 39.0));
+        let decibels = Target::Decibels(40.0);
+        assert_eq!(of(decibels, &[(500, 40.01), (510, 40.0), (400, 39.9), (600, 41.0)]), (500, 40.01));
+        assert_eq!(of(decibels, &[(500, 40.01), (63, 80.0), (55, f64::INFINITY)]), (55, f64::INFINITY));
+        assert_eq!(of(decibels, &[(500, 39.0), (900, 20.0), (300, 38.0)]), (500, 39.0));
+        // no error at all is no end of it
+        assert!(decibels.miss(1.0, f64::INFINITY).is_finite());
     }
 }

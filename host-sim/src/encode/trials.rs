@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::file::{At, Known, Pool, Thrift};
 use super::range_encoder::Counts;
 use super::search::{Candidates, Effort};
-use super::target::{Encoded, Target};
+use super::target::{Encoded, LOSSLESS, Target};
 
 /// An encoding.
 pub(super) struct Trial {
@@ -42,6 +42,8 @@ pub(super) struct Trials<'a, F> {
     encode: F,
     pub(super) target: Target,
     pub(super) effort: Effort,
+    /// No step is finer.
+    pub(super) finest: u16,
     candidates: &'a [Candidates],
     /// What domains of sweeps lie in; none: the picture itself.
     pools: Option<Vec<Pool>>,
@@ -72,30 +74,51 @@ impl<'a, F: Encode> Trials<'a, F> {
     pub(super) fn new(
         encode: F,
         (target, effort): (Target, Effort),
+        finest: u16,
         candidates: &'a [Candidates],
         counts: Counts,
         said: &'a mut dyn FnMut(&Encoded),
     ) -> Self {
         let (pools, learns, settling) = (None, true, SETTLING);
         let (tried, fits) = (Vec::new(), Vec::new());
-        Self { encode, target, effort, candidates, pools, counts, learns, settling, tried, fits, said }
+        Self {
+            encode,
+            target,
+            effort,
+            finest,
+            candidates,
+            pools,
+            counts,
+            learns,
+            settling,
+            tried,
+            fits,
+            said,
+        }
     }
 
     /// Encodes at each of some steps, with what a bit is worth there more than it should be, and tells how
     /// far each is on the wrong side.
     pub(super) fn round(&mut self, ats: &[(u16, Thrift)]) -> Result<Vec<f64>, Error> {
-        let counts = self.counts;
+        let (counts, finest) = (self.counts, self.finest);
         let known =
             Known { candidates: self.candidates, pools: self.pools.as_deref(), counts: Some(&counts) };
         let encode = |(step, thrift): &(u16, Thrift)| {
-            let step = Step::from_bits(*step).unwrap_or(Step::MAX);
+            let step = Step::from_bits((*step).max(finest)).unwrap_or(Step::MAX);
             (self.encode)(At { step, thrift, every: 1 }, known)
         };
         let trials = ats.par_iter().map(encode).collect::<Result<Vec<_>, _>>()?;
         let (mut misses, mut nearest) = (Vec::new(), None::<(f64, Vec<Pool>, Counts)>);
         for (Trial { encoded, pools, counts: now, starts }, (step, thrift)) in trials.into_iter().zip(ats) {
-            let (miss, psnr) = (self.target.missed(&encoded), encoded.psnr);
-            self.fits.push(Fit { psnr, miss, step: *step, thrift: thrift.clone(), starts, counts });
+            let (miss, psnr) = (self.target.missed(&encoded), encoded.psnr.min(LOSSLESS));
+            self.fits.push(Fit {
+                psnr,
+                miss,
+                step: (*step).max(finest),
+                thrift: thrift.clone(),
+                starts,
+                counts,
+            });
             if nearest.as_ref().is_none_or(|(other, ..)| miss.abs() < other.abs()) {
                 nearest = Some((miss, pools, now));
             }
