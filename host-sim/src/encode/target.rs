@@ -62,8 +62,8 @@ impl Target {
     }
 
     /// Of bytes: of those that are allowed and within 1 per cent the one of most decibels, or one of fewer
-    /// bytes that is clearly better; else the smallest of all. Of decibels: the smallest that is allowed, or else
-    /// the one of most decibels.
+    /// bytes that is clearly better; else the smallest of all. Of decibels: the smallest that is allowed, or
+    /// else the one of most decibels.
     pub(super) fn best(self, tried: &[Encoded]) -> Option<&Encoded> {
         let allowed = || tried.iter().filter(|e| self.allows(e));
         let smaller = |a: &&Encoded, b: &&Encoded| b.bytes.len().cmp(&a.bytes.len());
