@@ -2,8 +2,8 @@
 //!
 //! A level is at most 8191, a mean at most `2^21 - 2` steps from what is expected. The smallest squares,
 //! 4 x 4, have coefficients up to twice the range and means up to four times: of 8 bits no step is too fine
-//! for that, of 16 bits one below 16 may be, as what levels cut off outweighs what they round away. So steps are made
-//! finer as long as that takes error off the smallest squares.
+//! for that, of 16 bits one below 16 may be, as what levels cut off outweighs what they round away. So steps
+//! are made finer as long as that takes error off the smallest squares.
 
 use attractor::codec::Step;
 use attractor::codec::shared::{FREQUENCIES, LARGEST, scan};

@@ -418,7 +418,8 @@ mod tests {
             (30000.0 + 20000.0 * (f64::from(x) * 0.21).sin() + 9000.0 * (f64::from(y) * 0.37).cos()) as u16
         };
         // coefficients that levels cut off at fine steps: a few, and all
-        let edges = |x: u32, y: u32| if (x / 9 + y / 13) % 2 == 0 { 1000 } else { 64000 } + grain(x, y) / 64;
+        let edges =
+            |x: u32, y: u32| if (x / 9 + y / 13).is_multiple_of(2) { 1000 } else { 64000 } + grain(x, y) / 64;
         let stripes = |x: u32, y: u32| if (x + y / 2) % 4 < 2 { grain(x, y) / 99 } else { 65535 };
         let smooth = hold("waves", &picture(waves), Profile::Streaming);
         assert!(smooth > 100.0, "{smooth}");
