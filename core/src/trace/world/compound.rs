@@ -195,7 +195,7 @@ mod tests {
             for origin in from {
                 let ray = Ray::new(origin, Vec3::lit("1", "0", "0"));
                 let (crossing, alone) = first(&cone, &ray);
-                behind += u32::from(crossing.memo[0] >> 31);
+                behind += crossing.memo[0] >> 31;
                 let deep = Difference(Union(Union(cone, cube), cube), cube);
                 let others = [
                     first(&Union(cone, cube), &ray),
