@@ -37,12 +37,18 @@ fn mean(heights: [Q24; 4], weights: [Q30; 4]) -> Q24 {
     (sum.wrapping_add(1 << 29) >> 30) as i32
 }
 
-/// The value and three times the difference of the last two points: the derivative.
+/// The value and three times the difference of the last two points, the derivative, of points within `2^31`.
 fn cubic([a, b, c, d]: [i64; 4], s: Q30) -> [i64; 2] {
-    // points within 2^31, slopes within 6 times as much
+    let between = |a: i64, b: i64| a + (((b - a) * i64::from(s) + (1 << 29)) >> 30);
+    let [ab, bc, cd] = [between(a, b), between(b, c), between(c, d)];
+    let (first, last) = (between(ab, bc), between(bc, cd));
+    [between(first, last), 3 * (last - first)]
+}
+
+/// The value alone of slopes, which are within `2^34`.
+fn cubic_of_slopes([a, b, c, d]: [i64; 4], s: Q30) -> i64 {
     let [ab, bc, cd] = [between_slopes(a, b, s), between_slopes(b, c, s), between_slopes(c, d, s)];
-    let (first, last) = (between_slopes(ab, bc, s), between_slopes(bc, cd, s));
-    [between_slopes(first, last, s), 3 * (last - first)]
+    between_slopes(between_slopes(ab, bc, s), between_slopes(bc, cd, s), s)
 }
 
 impl Bicubic {
@@ -55,7 +61,7 @@ impl Bicubic {
     pub(crate) fn slopes(&self, s: Q30, t: Q30) -> [Q24; 2] {
         let rows = self.points.map(|row| cubic(row.map(i64::from), s));
         let [_, along_t] = cubic(rows.map(|[h, _]| h), t);
-        let [along_s, _] = cubic(rows.map(|[_, slope]| slope), t);
+        let along_s = cubic_of_slopes(rows.map(|[_, slope]| slope), t);
         [along_s, along_t].map(clamped)
     }
 

@@ -200,10 +200,11 @@ impl<F: Function> Shape for Implicit<F> {
         let place = Vec3::new(near(place.x), near(place.y), near(place.z));
         // the function is asked inside the box alone
         let [low, high] = self.bounds;
+        let held = |c: Near, low: Near, high: Near| c.max(low).min(high);
         let held = Vec3::new(
-            place.x.clamp(low.x, high.x),
-            place.y.clamp(low.y, high.y),
-            place.z.clamp(low.z, high.z),
+            held(place.x, low.x, high.x),
+            held(place.y, low.y, high.y),
+            held(place.z, low.z, high.z),
         );
         let value = Wide::from(self.function.value(held));
         if held == place { value } else { value.max(Wide::DELTA) }
