@@ -111,8 +111,7 @@ impl<'a> Polyhedron<'a> {
         let most = low.iter().chain(&high).map(|c| c.unsigned_abs()).max().unwrap_or(0);
         if most > 2 << 28 {
             let (what, min, max) = ("corner of a polyhedron", Wide::from_num(-2), Wide::from_num(2));
-            let value = Wide::from_bits(i64::from(most) << 20);
-            return Err(Error::OutOfRange { what, index: None, value, min, max });
+            return Err(Error::OutOfRange { what, index: None, value: Wide::MAX, min, max });
         }
         let middle = sum.map(|c| c.checked_div(corners).unwrap_or(0) as i32);
         if planes.iter().any(|p| p.along(middle) > p.distance - (1 << 8)) {
