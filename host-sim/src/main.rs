@@ -59,7 +59,7 @@ fn main() -> ExitCode {
         Some(Command::Accuracy(args)) => accuracy::run(args),
         Some(Command::Dimension(args)) => dimension::run(args),
         Some(Command::Spectrum(args)) => spectrum::run(args),
-        Some(Command::Fit(args)) => reconstruction::run(args),
+        Some(Command::Fit(args)) => reconstruction::run(args, scene::check),
         Some(Command::Window(args)) => window::run(args),
     };
     let done = done.and_then(|()| Ok(io::stdout().flush()?));

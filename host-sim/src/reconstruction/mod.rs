@@ -96,8 +96,8 @@ struct Report {
     heights: Vec<Real>,
 }
 
-/// Fits, and writes a scene or prints a table.
-pub(crate) fn run(args: &Fit) -> Result<(), Fail> {
+/// Fits, and writes a scene or prints a table. `check` says whether a text that goes to a path is a scene.
+pub(crate) fn run(args: &Fit, check: impl Fn(&Path, &str) -> Result<(), Fail>) -> Result<(), Fail> {
     let name = args.elevation.display().to_string();
     let elevation = Elevation::read(&args.elevation)?;
     if let Some(side) = args.tiles {
@@ -118,7 +118,7 @@ pub(crate) fn run(args: &Fit) -> Result<(), Fail> {
     output::check_beside(path, [&*args.elevation])?;
     let report = fit(args, &samples, range)?;
     let text = scene(&report, &args.elevation, window, (least, range));
-    crate::scene::check(path, &text).map_err(|fail| match fail {
+    check(path, &text).map_err(|fail| match fail {
         Fail::Message(reason) => {
             let what = "the fit is no scene that can be drawn, and is not written";
             Fail::new(format_args!("{name}: {what}: {reason}"))
