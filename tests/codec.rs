@@ -299,9 +299,9 @@ fn other_sizes_are_those_of_the_format_and_as_near_to_its_formulas_as_their_roun
     }
 }
 
-/// In a window of any rows above a band, drawn in any size, domains take what was drawn before, and no more: also
-/// where the window's first row is no whole row of what is drawn (halved chroma, an odd number of 8 rows, a
-/// quarter of the size).
+/// In a window of any rows above a band, drawn in any size, domains take what was drawn before, and no
+/// more: also where the window's first row is no whole row of what is drawn (halved chroma, an odd number
+/// of 8 rows, a quarter of the size).
 #[test]
 fn any_window_is_that_of_the_format_in_any_size() {
     let (mut random, mut highest) = (Random::new(21), 0);

@@ -230,7 +230,8 @@ fn a_ray_from_below_comes_out_of_the_higher_of_land_and_plain() {
     });
 }
 
-/// A plain above the summit covers all, from below as from above, and is within the extent; so is one far below.
+/// A plain above the summit covers all, from below as from above, and is within the extent; so is one far
+/// below.
 #[test]
 fn a_plain_above_or_below_all_land_is_there() {
     with_landscape(|heights, _| {

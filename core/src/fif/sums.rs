@@ -129,8 +129,8 @@ pub struct Sums<'a> {
     even: Option<(NonZeroU32, i32)>,
     x0: i64,
     width: u64,
-    /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits; fewer zeros
-    /// than none for a length that does not fit them.
+    /// The domain's length as the mantissa and the zeros of [`reciprocal_of`], 24 fractional bits; fewer
+    /// zeros than none for a length that does not fit them.
     per_domain: (i32, i32),
     /// Fractional bits of areas and of squares, beyond 24; and twice what areas have more, as a factor.
     extra: [u32; 2],

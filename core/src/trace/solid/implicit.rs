@@ -21,8 +21,8 @@ use crate::num::{
 
 /// A function of space. Closures `Fn(Vec3<Near>) -> Near` are functions.
 pub trait Function {
-    /// Its value at a place of the box, or `2^-10` beyond it where no gradient is given, below 0 inside. It must
-    /// not wrap there.
+    /// Its value at a place of the box, or `2^-10` beyond it where no gradient is given, below 0 inside. It
+    /// must not wrap there.
     fn value(&self, place: Vec3<Near>) -> Near;
 
     /// Its gradient, of any length: by differences over `2^-9`.

@@ -718,8 +718,8 @@ mod tests {
         assert!(met > 3_000 && worst < 1.0 && worst > 0.02, "{met} {worst}");
     }
 
-    /// A map may make a direction longer than the world's: a ray of any length up to the longest meets a shape
-    /// where one of length 1 does.
+    /// A map may make a direction longer than the world's: a ray of any length up to the longest meets a
+    /// shape where one of length 1 does.
     #[test]
     fn a_ray_meets_a_shape_in_one_place_however_long_its_direction_is() {
         let mut word = words(23);

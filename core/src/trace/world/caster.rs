@@ -61,9 +61,10 @@ impl<
     /// A picture of `size` pixels with one sample each, with as many bounces as there is room for.
     ///
     /// # Errors
-    /// [`Error::Capacity`] if a ray may cross the world's leaves more often than `EVENTS` times, for less room
-    /// than for two rays, or for more than 64 lamps, each of which a ray looks for at every hit;
-    /// [`Error::OutOfRange`] for a size of 0 or above [`crate::plane::MAX_SIDE`], or where the view is so wide that a ray's direction leaves ±4.
+    /// [`Error::Capacity`] if a ray may cross the world's leaves more often than `EVENTS` times, for less
+    /// room than for two rays, or for more than 64 lamps, each of which a ray looks for at every hit;
+    /// [`Error::OutOfRange`] for a size of 0 or above [`crate::plane::MAX_SIDE`], or where the view is so
+    /// wide that a ray's direction leaves ±4.
     pub fn new(
         world: World<'a, L, M, COMPOUNDS>,
         surroundings: S,

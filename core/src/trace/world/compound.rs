@@ -4,8 +4,8 @@
 //! compound is a surface like any other; the compiler sees through it, and no program is interpreted. A
 //! compound as data is an [`Object`](super::Object).
 //!
-//! A part that a ray may cross more than 16 times has no room in it, and a face tells its part apart only among
-//! 255: `most_crossings` is `u32::MAX` of such compounds, so that a caster refuses them.
+//! A part that a ray may cross more than 16 times has no room in it, and a face tells its part apart only
+//! among 255: `most_crossings` is `u32::MAX` of such compounds, so that a caster refuses them.
 //!
 //! Source: the course unit V, section 5.10.
 
@@ -32,8 +32,8 @@ pub struct Difference<A, B>(pub A, pub B);
 /// The most crossings of a part that a compound has room for.
 const CROSSINGS: usize = 16;
 
-/// The most crossings of a ray with a compound of two surfaces; more than any caster has room for where this is
-/// more than it has room for itself.
+/// The most crossings of a ray with a compound of two surfaces; more than any caster has room for where
+/// this is more than it has room for itself.
 fn most_crossings(a: &impl Surface, b: &impl Surface) -> u32 {
     let [one, other] = [a.most_crossings(), b.most_crossings()];
     let is_told = a.faces().checked_add(b.faces()).is_some();
